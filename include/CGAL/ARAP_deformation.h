@@ -1,0 +1,313 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_H
+#define CGAL_ARAP_DEFORMATION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/internal/Session.h>
+#include <CGAL/ARAP_deformation_traits_3.h>
+
+#include <CGAL/Default.h>
+#include <CGAL/assertions.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief deforms a shape as rigidly as possible \cgalCite{cgal:sa-asrap-07}: some of its vertices
+/// are put at target positions, and the others follow so that every small part only rotates.
+///
+/// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
+/// move: the *control vertices* among them go to their targets, the others are *free* and are
+/// solved for. All other vertices are *held* where they are; so are free vertices without any face.
+///
+/// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an
+/// index map. The mesh must outlive the object. Meanwhile its connectivity must not change, and its
+/// points only by this object. Computations are in `double`, whatever the type of the points.
+///
+/// \tparam Mesh the type of the mesh
+/// \tparam Traits a model of `ARAPDeformationTraits_3`, default `ARAP_deformation_traits_3<>`
+/// \tparam Domain a model of `ARAPDomain_3`, default `ARAP::Face_graph_domain<Mesh>`
+template <typename Mesh, typename Traits = Default, typename Domain = Default>
+class ARAP_deformation
+{
+  using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits_3<>>::type;
+  using Domain_ = typename Default::Get<Domain, ARAP::Face_graph_domain<Mesh>>::type;
+
+public:
+  /// \name Types
+  /// @{
+  using Deformation_traits = Traits_; ///< the traits.
+  using Deformation_domain = Domain_; ///< the domain.
+  using Point = typename Domain_::Point;
+  using vertex_descriptor = typename Domain_::vertex_descriptor;
+  using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face of a surface.
+  using Iterate =
+    typename ARAP::internal::Session<Domain_, Traits_>::Iterate; ///< a model of `ARAPIterate`.
+  /// @}
+
+  /// \name Construction
+  /// @{
+
+  /// constructs a deformation of `mesh` with the mesh's own points and an empty region of interest.
+  explicit ARAP_deformation(Mesh& mesh, const Deformation_traits& traits = Deformation_traits())
+    : ARAP_deformation(Deformation_domain(mesh), traits)
+  {}
+
+  /// constructs a deformation from a domain, which knows the property maps to use.
+  explicit ARAP_deformation(Deformation_domain domain,
+                            const Deformation_traits& traits = Deformation_traits())
+    : m_session(std::move(domain), traits)
+  {}
+
+  ARAP_deformation(ARAP_deformation&&) = default;
+  ARAP_deformation& operator=(ARAP_deformation&&) = default;
+
+  /// returns the options.
+  const ARAP::Options& options() const { return m_session.options(); }
+
+  /// sets the options, or returns `ARAP::Status::invalid_option` and leaves them as they are.
+  ARAP::Outcome set_options(const ARAP::Options& options)
+  {
+    return m_session.set_options(options);
+  }
+  /// @}
+
+  /// \name Region of Interest and Control Vertices
+  /// Constant time for each vertex. The next `deform()` preprocesses again.
+  /// @{
+
+  /// inserts `v` in the region of interest. Returns `true` if it was not in it.
+  bool insert_roi_vertex(vertex_descriptor v)
+  {
+    return m_session.change_vertices([v](auto& vertices) { return vertices.insert_roi(v); });
+  }
+
+  /// inserts the vertices of a range in the region of interest.
+  template <typename InputIterator>
+  void insert_roi_vertices(InputIterator begin, InputIterator end)
+  {
+    for(; begin != end; ++begin) insert_roi_vertex(*begin);
+  }
+
+  /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
+  /// it. The vertex stays where it is, `reset()` puts it back to the rest shape.
+  bool erase_roi_vertex(vertex_descriptor v)
+  {
+    return m_session.change_vertices([v](auto& vertices) { return vertices.erase_roi(v); });
+  }
+
+  /// erases all vertices from the region of interest and the control vertices.
+  void clear_roi_vertices()
+  {
+    m_session.change_vertices([](auto& vertices) { return vertices.clear_roi(); });
+  }
+
+  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Its target is
+  /// where it is. Returns `true` if it was no control vertex.
+  bool insert_control_vertex(vertex_descriptor v)
+  {
+    return m_session.change_vertices([v](auto& vertices) { return vertices.insert_control(v); });
+  }
+
+  /// makes the vertices of a range control vertices.
+  template <typename InputIterator>
+  void insert_control_vertices(InputIterator begin, InputIterator end)
+  {
+    for(; begin != end; ++begin) insert_control_vertex(*begin);
+  }
+
+  /// makes the control vertex `v` a free one. Returns `true` if it was a control vertex.
+  bool erase_control_vertex(vertex_descriptor v)
+  {
+    return m_session.change_vertices([v](auto& vertices) { return vertices.erase_control(v); });
+  }
+
+  /// makes all control vertices free ones.
+  void clear_control_vertices()
+  {
+    m_session.change_vertices([](auto& vertices) { return vertices.clear_control(); });
+  }
+
+  /// returns whether `v` is in the region of interest.
+  bool is_roi_vertex(vertex_descriptor v) const { return m_session.vertices().is_roi(v); }
+
+  /// returns whether `v` is a control vertex.
+  bool is_control_vertex(vertex_descriptor v) const { return m_session.vertices().is_control(v); }
+
+  /// returns the vertices of the region of interest, control vertices included. Linear time.
+  std::vector<vertex_descriptor> roi_vertices() const
+  {
+    return m_session.vertices().select([](const auto& entry) { return entry.is_roi; });
+  }
+
+  /// returns the control vertices. Linear time.
+  std::vector<vertex_descriptor> control_vertices() const
+  {
+    return m_session.vertices().select([](const auto& entry) { return entry.is_control; });
+  }
+  /// @}
+
+  /// \name Targets
+  /// Targets are absolute positions; `translate()` and `rotate()` move the targets there are. A
+  /// vertex that is not a control vertex is refused: a precondition, and in Release the status
+  /// `ARAP::Status::not_a_control_vertex`. The functions on ranges stop at the first refusal.
+  /// @{
+
+  /// sets the target of the control vertex `v`, which it will get as its `Point` unchanged.
+  ARAP::Outcome set_target_position(vertex_descriptor v, const Point& target)
+  {
+    return change_target(v, [&target](const Point&) { return target; });
+  }
+
+  /// translates the target of the control vertex `v` by `t`, which has `operator[]`.
+  template <typename Vector>
+  ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
+  {
+    return change_target(v, [&t](const Point& p) {
+      return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
+    });
+  }
+
+  /// translates the targets of the control vertices of a range.
+  template <typename InputIterator, typename Vector>
+  ARAP::Outcome translate(InputIterator begin, InputIterator end, const Vector& t)
+  {
+    return for_each_until_refused(begin, end, [&](auto v) { return translate(v, t); });
+  }
+
+  /// rotates the target of the control vertex `v` about `center`: to `center + q * (target -
+  /// center)`, with `Vector operator*(Quaternion, Vector)`, and `Vector` having `operator[]` and a
+  /// constructor from three coordinates, as Eigen's quaternions and vectors do.
+  template <typename Vector, typename Quaternion>
+  ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
+  {
+    return change_target(v, [&](const Point& point) {
+      const ARAP::Coordinates p = Domain_::coordinates(point);
+      const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
+      return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
+    });
+  }
+
+  /// rotates the targets of the control vertices of a range.
+  template <typename InputIterator, typename Vector, typename Quaternion>
+  ARAP::Outcome rotate(InputIterator begin, InputIterator end, const Vector& center,
+                       const Quaternion& q)
+  {
+    return for_each_until_refused(begin, end, [&](auto v) { return rotate(v, center, q); });
+  }
+
+  /// returns the target of the control vertex `v`. \pre `is_control_vertex(v)`
+  const Point& target_position(vertex_descriptor v) const
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.vertices().find(v)->target;
+  }
+  /// @}
+
+  /// \name Deformation
+  /// Whatever goes wrong, exceptions included, the mesh and the object are as they were before the
+  /// call. (If the property map of the points throws while the result is written, only the object.)
+  /// @{
+
+  /// collects the region, computes weights and matrix, and factorizes it, unless that is up to
+  /// date. `deform()` does so where needed. Which failures there are is said at `ARAP::Status`.
+  ARAP::Outcome preprocess() { return m_session.preprocess(); }
+
+  /// moves the control vertices to their targets and the free vertices after them, with the
+  /// iterations and the tolerance of the options.
+  ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
+
+  /// deforms with a visitor that sees each iterate, a model of `ARAPDeformationVisitor`.
+  template <typename Visitor>
+  ARAP::Report deform(Visitor&& visitor)
+  {
+    return deform(options().iterations, options().tolerance, std::forward<Visitor>(visitor));
+  }
+
+  /// deforms with a number of iterations and a tolerance for this call only.
+  /// See `ARAP::Options` for their meaning.
+  ARAP::Report deform(unsigned int iterations, double tolerance)
+  {
+    return deform(iterations, tolerance, ARAP::Default_visitor());
+  }
+
+  /// deforms with a number of iterations, a tolerance and a visitor for this call only.
+  template <typename Visitor>
+  ARAP::Report deform(unsigned int iterations, double tolerance, Visitor&& visitor)
+  {
+    return m_session.deform(iterations, tolerance, visitor);
+  }
+
+  /// returns all vertices that this object has moved, and all targets, to the rest shape.
+  void reset() { m_session.reset(); }
+
+  /// makes the present shape the rest shape. The targets stay.
+  void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
+  /// @}
+
+  /// \name Results
+  /// @{
+
+  /// returns the energy after the last `deform()`; not a number if the region, the rest shape or
+  /// the cells have changed since, or nothing was deformed yet.
+  double energy() const { return m_session.energy(); }
+
+  /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has
+  /// no cell in the region. \pre `options().cells.has_vertex_cells()`
+  ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
+  {
+    CGAL_precondition(options().cells.has_vertex_cells());
+    return m_session.rotation_of_vertex(v);
+  }
+
+  /// returns the rotation of the cell of `s` after the last `deform()`; the identity where `s` has
+  /// no cell in the region. \pre `!options().cells.has_vertex_cells()`
+  ARAP::Matrix_3x3 rotation(simplex_descriptor s) const
+  {
+    CGAL_precondition(!options().cells.has_vertex_cells());
+    return m_session.rotation_of_simplex(s);
+  }
+  /// @}
+
+private:
+  template <typename Function>
+  ARAP::Outcome change_target(vertex_descriptor v, const Function& f)
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.change_target(v, f);
+  }
+
+  template <typename InputIterator, typename Function>
+  static ARAP::Outcome for_each_until_refused(InputIterator begin, InputIterator end,
+                                              const Function& f)
+  {
+    ARAP::Outcome outcome(ARAP::Status::success, std::string());
+    for(; begin != end && outcome; ++begin)
+      outcome = f(*begin);
+    return outcome;
+  }
+
+  ARAP::internal::Session<Domain_, Traits_> m_session;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_H

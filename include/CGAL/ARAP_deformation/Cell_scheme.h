@@ -1,0 +1,78 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_CELL_SCHEME_H
+#define CGAL_ARAP_DEFORMATION_CELL_SCHEME_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationOptions
+/// the two kinds of edge sets whose edges carry the weights of the energy.
+enum class Edge_set
+{
+  star,   ///< the edges \f$(i, j)\f$ from a vertex \f$i\f$ to its neighbours
+  simplex ///< the edges of one simplex: three for a triangle
+};
+
+/// \ingroup PkgARAPDeformationOptions
+/// \brief says which edges share one rotation: a value, so that it can be chosen at run time.
+///
+/// A *cell* is a group of edge sets that share one rotation. The schemes differ in the edge sets
+/// and in whether a cell is one of them or all those at a vertex.
+class Cell_scheme
+{
+public:
+  /// the cells of Sorkine and Alexa \cgalCite{cgal:sa-asrap-07}: one for each vertex, with the
+  /// edges to its neighbours.
+  static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
+
+  /// one cell for each vertex, with the three edges of each incident triangle
+  /// \cgalCite{Cgal:CSBG10}. Never negative with cotangent weights; the default.
+  static constexpr Cell_scheme spokes_and_rims() { return Cell_scheme(Edge_set::simplex, true); }
+
+  /// one cell for each triangle. On surfaces nothing resists bending: a membrane that folds freely.
+  static constexpr Cell_scheme elements() { return Cell_scheme(Edge_set::simplex, false); }
+
+  /// the kind of the edge sets.
+  constexpr Edge_set edge_set() const { return m_edge_set; }
+
+  /// `true` if a cell consists of all simplices at a vertex, `false` if each edge set is a cell.
+  constexpr bool grouped_at_vertices() const { return m_grouped_at_vertices; }
+
+  /// `true` if there is one cell for each vertex, `false` if there is one for each simplex.
+  constexpr bool has_vertex_cells() const
+  {
+    return m_edge_set == Edge_set::star || m_grouped_at_vertices;
+  }
+
+  friend constexpr bool operator==(Cell_scheme a, Cell_scheme b)
+  {
+    return a.m_edge_set == b.m_edge_set && a.m_grouped_at_vertices == b.m_grouped_at_vertices;
+  }
+
+  friend constexpr bool operator!=(Cell_scheme a, Cell_scheme b) { return !(a == b); }
+
+private:
+  constexpr Cell_scheme(Edge_set edge_set, bool grouped_at_vertices)
+    : m_edge_set(edge_set), m_grouped_at_vertices(grouped_at_vertices)
+  {}
+
+  Edge_set m_edge_set;
+  bool m_grouped_at_vertices;
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_CELL_SCHEME_H

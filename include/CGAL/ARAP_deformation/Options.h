@@ -1,0 +1,67 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_OPTIONS_H
+#define CGAL_ARAP_DEFORMATION_OPTIONS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/Status.h>
+
+#include <cmath>
+#include <string>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationOptions
+/// where a run starts from; the control vertices are at their targets in either case.
+enum class Initial_guess
+{
+  previous, ///< the current positions: right for interaction, where each frame starts from the last
+  laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the held
+            ///< positions, with \f$L\f$ the Laplacian of the edge weights and \f$p\f$ the rest
+            ///< shape. It costs a second factorization, of \f$L^T L\f$, at its first use.
+};
+
+/// \ingroup PkgARAPDeformationOptions
+/// what a program chooses at run time.
+struct Options
+{
+  /// which edges share one rotation. Another choice asks for another preprocessing.
+  Cell_scheme cells = Cell_scheme::spokes_and_rims();
+
+  /// where each run starts from.
+  Initial_guess initial_guess = Initial_guess::previous;
+
+  /// the largest number of iterations of a run; 0 only moves to the initial guess.
+  /// Two or three a frame are enough in an interactive program.
+  unsigned int iterations = 100;
+
+  /// the run ends when `Report::estimated_relative_gap` is at most this; not negative.
+  /// 0 runs all iterations.
+  double tolerance = 1e-3;
+
+  /// returns `Status::success`, or `Status::invalid_option` and a sentence that names the option.
+  Outcome check() const
+  {
+    if(!(tolerance >= 0) || !std::isfinite(tolerance))
+      return Outcome(Status::invalid_option, "the option tolerance is " +
+                     std::to_string(tolerance) + "; it must be a finite number, 0 or larger");
+    return Outcome(Status::success, "the options are valid");
+  }
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_OPTIONS_H

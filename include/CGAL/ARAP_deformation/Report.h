@@ -1,0 +1,68 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_REPORT_H
+#define CGAL_ARAP_DEFORMATION_REPORT_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationRun
+/// the wall-clock time of each phase of a call, in seconds.
+struct Phase_seconds
+{
+  double preprocess = 0;    ///< region, weights, matrix and factorization; 0 if all was up to date
+  double initial_guess = 0; ///< its factorization (once a preprocessing) and its solution
+  double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
+  double global_steps = 0;  ///< substitutions over the factor, over all iterations
+  double total = 0;         ///< the whole call
+};
+
+/// \ingroup PkgARAPDeformationRun
+/// \brief tells what a call of `CGAL::ARAP_deformation::deform()` or `CGAL::arap_deform()` did.
+///
+/// Where `succeeded(status)` is `false` the mesh and the object are as they were before the call.
+struct Report : Outcome
+{
+  unsigned int iterations = 0; ///< the number of global steps taken
+
+  /// the energy \f$E\f$, always with the best rotations for the positions: `energy[0]` at the
+  /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell counts
+  /// \f$w \|e' - R e\|^2\f$, without any further factor.
+  std::vector<double> energy;
+
+  /// \f$\sum k w \|e\|^2\f$ over the edges of all cells: the energy's natural unit. Differences of
+  /// the energy that are below a rounding error of it mean nothing.
+  double energy_scale = 0;
+
+  /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the iteration tends to,
+  /// extrapolated from the last decreases of the energy; infinity when too few are known.
+  /// An order of magnitude, not a bound.
+  double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
+
+  std::size_t free_vertices = 0; ///< vertices whose positions were solved for
+  std::size_t simplices = 0;     ///< triangles in the region that was considered
+
+  Phase_seconds seconds;
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_REPORT_H

@@ -1,0 +1,99 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_STATUS_H
+#define CGAL_ARAP_DEFORMATION_STATUS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <string>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationRun
+/// what became of a call.
+enum class Status
+{
+  not_run,              ///< nothing was done yet
+  success,              ///< a call that does not iterate did its work
+  converged,            ///< the estimated relative gap to the minimum is below the tolerance
+  iteration_limit,      ///< all iterations that were asked for were run
+  stopped,              ///< a visitor stopped the run, the last iterate was kept
+  cancelled,            ///< a visitor cancelled the run, everything is as before
+  invalid_option,       ///< an option is out of its range
+  not_a_control_vertex, ///< a target was given to a vertex that is not a control vertex
+  not_a_triangle,       ///< a face of the region is not a triangle
+  non_finite_point,     ///< a coordinate or a target is infinite or not a number
+  non_finite_weight,    ///< a face is so degenerate that its weights are not finite
+  no_held_vertex,       ///< a connected part of the region is not tied to any held vertex
+  singular_matrix,      ///< the matrix of the system is not positive definite
+  solver_failed,        ///< the solver could not solve with the matrix that it had factorized
+  non_finite_energy     ///< the numbers overflowed during the run
+};
+
+/// \ingroup PkgARAPDeformationRun
+/// returns whether `status` is one of those after which a call has done what it was asked for:
+/// `Status::success`, `Status::converged`, `Status::iteration_limit` and `Status::stopped`.
+inline bool succeeded(Status status)
+{
+  return status == Status::success || status == Status::converged ||
+         status == Status::iteration_limit || status == Status::stopped;
+}
+
+/// \ingroup PkgARAPDeformationRun
+/// returns the name of `status` as it is spelled in the enumeration.
+inline const char* to_string(Status status)
+{
+  switch(status)
+  {
+  case Status::not_run: return "not_run";
+  case Status::success: return "success";
+  case Status::converged: return "converged";
+  case Status::iteration_limit: return "iteration_limit";
+  case Status::stopped: return "stopped";
+  case Status::cancelled: return "cancelled";
+  case Status::invalid_option: return "invalid_option";
+  case Status::not_a_control_vertex: return "not_a_control_vertex";
+  case Status::not_a_triangle: return "not_a_triangle";
+  case Status::non_finite_point: return "non_finite_point";
+  case Status::non_finite_weight: return "non_finite_weight";
+  case Status::no_held_vertex: return "no_held_vertex";
+  case Status::singular_matrix: return "singular_matrix";
+  case Status::solver_failed: return "solver_failed";
+  case Status::non_finite_energy: return "non_finite_energy";
+  }
+  return "unknown";
+}
+
+/// \ingroup PkgARAPDeformationRun
+/// \brief a status with a sentence that says what happened, and to which vertex, face or option.
+///
+/// It converts to `true` if `succeeded(status)`.
+struct Outcome
+{
+  Status status = Status::not_run;
+  std::string message = "nothing was run yet";
+
+  Outcome() = default;
+
+  Outcome(Status status_, std::string message_)
+    : status(status_), message(std::move(message_))
+  {}
+
+  explicit operator bool() const { return succeeded(status); }
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_STATUS_H

@@ -1,0 +1,40 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_FLAT_TYPES_H
+#define CGAL_ARAP_DEFORMATION_FLAT_TYPES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <Eigen/SparseCore>
+
+#include <array>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationTypes
+/// the %Cartesian coordinates \f$(x, y, z)\f$ of a point or vector.
+using Coordinates = std::array<double, 3>;
+
+/// \ingroup PkgARAPDeformationTypes
+/// a 3 x 3 matrix, row by row: entry \f$(r, c)\f$ is element `3 * r + c`.
+using Matrix_3x3 = std::array<double, 9>;
+
+/// \ingroup PkgARAPDeformationTypes
+/// a symmetric sparse matrix, of which only the lower triangle is stored, column by column with
+/// ascending rows.
+using Sparse_matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_FLAT_TYPES_H

@@ -1,0 +1,137 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_CORE_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_CORE_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/Laplacian_guess.h>
+#include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/laplacian.h>
+#include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// a status with the vertex or simplex of the region that it is about, where there is one
+struct Diagnosis
+{
+  Status status = Status::success;
+  int vertex = -1;
+  int simplex = -1;
+};
+
+// The deformation of a region: all of it that is numbers, and nothing that is a mesh.
+template <typename Traits, std::size_t N>
+class Deformation_core
+{
+  using Solver = typename Traits::Sparse_solver;
+
+public:
+  // Computes what depends on the region and not on the positions: energy, matrix, factor.
+  Deformation_core(const Traits& traits, Region<N> region, Cell_scheme scheme)
+    : m_region(std::move(region)), m_weight(traits.edge_weight_object()),
+      m_closest_rotation(traits.closest_rotation_object()),
+      m_unused_solver(traits.sparse_solver_object()), m_solver(m_unused_solver)
+  {
+    m_diagnosis = prepare(scheme);
+  }
+
+  // what is wrong with the region, if anything; then the other members must not be called
+  const Diagnosis& diagnosis() const { return m_diagnosis; }
+
+  const Region<N>& region() const { return m_region; }
+
+  // for each cell; identities before the first run
+  const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }
+
+  void set_rotations(std::vector<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
+
+  void reset_rotations()
+  {
+    m_rotations.assign(m_energy.number_of_cells(), identity_matrix());
+  }
+
+  // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
+  // rotations. The core's own state does not change.
+  template <typename Observer>
+  Diagnosis run(const Options& options, const Observer& observe, std::vector<Coordinates>& x,
+                std::vector<Matrix_3x3>& rotations, Report& report)
+  {
+    if(options.initial_guess == Initial_guess::laplacian && m_region.number_of_free_vertices > 0)
+    {
+      Scoped_seconds seconds(report.seconds.initial_guess);
+      if(!m_laplacian_guess)
+        m_laplacian_guess.emplace(star_edge_sets(m_weight, m_region),
+                                  m_region.number_of_free_vertices, m_unused_solver);
+      if(!m_laplacian_guess->is_factorized())
+        return {Status::singular_matrix};
+      if(!(*m_laplacian_guess)(x))
+        return {Status::solver_failed};
+    }
+    return {minimize_local_global(m_energy, m_closest_rotation, m_solver,
+                                  m_region.number_of_free_vertices, options, observe, x,
+                                  rotations, report)};
+  }
+
+private:
+  Diagnosis prepare(Cell_scheme scheme)
+  {
+    const int n = m_region.number_of_free_vertices;
+    if(const int v = find_non_finite(m_region.rest); v >= 0)
+      return {Status::non_finite_point, v};
+    if(const int s = find_bad_simplex(m_weight, m_region); s >= 0)
+      return {Status::non_finite_weight, -1, s};
+
+    m_energy = make_rigidity_energy(m_weight, scheme, m_region);
+    if(const int v = find_unattached_vertex(m_energy, n); v >= 0)
+      return {Status::no_held_vertex, v};
+    const Sparse_matrix laplacian = free_laplacian(m_energy, n);
+    for(int v = 0; v < n; ++v)
+      if(const double diagonal = laplacian.coeff(v, v); !(diagonal > 0) || !std::isfinite(diagonal))
+        return {Status::singular_matrix, v};
+    if(n > 0 && !(m_solver.analyze(laplacian) && m_solver.factorize(laplacian)))
+      return {Status::singular_matrix};
+    reset_rotations();
+    return {};
+  }
+
+  Region<N> m_region;
+  typename Traits::Edge_weight m_weight;
+  typename Traits::Closest_rotation m_closest_rotation;
+  Solver m_unused_solver; // as the traits hand it out
+  Solver m_solver;        // holds the factor of the Laplacian
+  Rigidity_energy m_energy;
+  std::optional<Laplacian_guess<Solver>> m_laplacian_guess;
+  std::vector<Matrix_3x3> m_rotations;
+  Diagnosis m_diagnosis;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_CORE_H

@@ -1,0 +1,106 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_GUESS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_GUESS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <Eigen/SparseCore>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
+// minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i and
+// p is the rest shape. The rows are those of the free vertices and their neighbours; all others are
+// constant.
+template <typename Solver>
+class Laplacian_guess
+{
+public:
+  // The first vertices are free.
+  Laplacian_guess(Edge_sets stars, int number_of_free_vertices, Solver solver)
+    : m_stars(std::move(stars)), m_step(number_of_free_vertices), m_solver(std::move(solver))
+  {
+    std::vector<Eigen::Triplet<double, int>> entries;
+    for(const Weighted_edge& edge : m_stars.edges)
+    {
+      if(edge.i < number_of_free_vertices) entries.emplace_back(edge.i, edge.i, edge.weight);
+      if(edge.j < number_of_free_vertices) entries.emplace_back(edge.i, edge.j, -edge.weight);
+    }
+    Sparse_matrix columns(m_stars.size(), number_of_free_vertices); // of L, of the free vertices
+    columns.setFromTriplets(entries.begin(), entries.end());
+    const Sparse_matrix normal =
+      (Sparse_matrix(columns.transpose()) * columns).template triangularView<Eigen::Lower>();
+    m_is_factorized = m_solver.analyze(normal) && m_solver.factorize(normal);
+  }
+
+  bool is_factorized() const { return m_is_factorized; }
+
+  // Moves the free vertices of x. Returns false if the solver failed.
+  bool operator()(std::vector<Coordinates>& x)
+  {
+    // the condition number of L^T L is the square of that of L: a second pass refines the first
+    for(int pass = 0; pass < 2; ++pass)
+    {
+      compute_right_hand_side(x);
+      if(!m_solver.solve(m_step.size(), m_step.data()))
+        return false;
+      for(std::size_t v = 0; v < m_step.size(); ++v)
+        add(x[v], 1, m_step[v]);
+    }
+    return true;
+  }
+
+private:
+  // L^T (L p - L x)
+  void compute_right_hand_side(const std::vector<Coordinates>& x)
+  {
+    m_step.assign(m_step.size(), Coordinates{0, 0, 0});
+    for(int i = 0; i < m_stars.size(); ++i)
+    {
+      Coordinates residual = {0, 0, 0};
+      for(int e = m_stars.begin[i]; e < m_stars.begin[i + 1]; ++e)
+      {
+        const Weighted_edge& edge = m_stars.edges[e];
+        add(residual, edge.weight, difference(edge.rest, difference(x[edge.i], x[edge.j])));
+      }
+      for(int e = m_stars.begin[i]; e < m_stars.begin[i + 1]; ++e)
+      {
+        const Weighted_edge& edge = m_stars.edges[e];
+        if(is_free(edge.i)) add(m_step[edge.i], edge.weight, residual);
+        if(is_free(edge.j)) add(m_step[edge.j], -edge.weight, residual);
+      }
+    }
+  }
+
+  bool is_free(int v) const { return static_cast<std::size_t>(v) < m_step.size(); }
+
+  Edge_sets m_stars;
+  std::vector<Coordinates> m_step; // of the free vertices
+  Solver m_solver;
+  bool m_is_factorized = false;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_GUESS_H

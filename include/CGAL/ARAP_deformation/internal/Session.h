@@ -1,0 +1,299 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_core.h>
+#include <CGAL/ARAP_deformation/internal/Domain_region.h>
+#include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/Session_vertices.h>
+#include <CGAL/ARAP_deformation/internal/sentences.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Stands between a domain and the numeric core: keeps the region, reads the points once, runs the
+// core on them, and writes them back once.
+template <typename Domain, typename Traits>
+class Session
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using simplex_descriptor = typename Domain::simplex_descriptor;
+  using Point = typename Domain::Point;
+  using Vertices = Session_vertices<Domain>;
+
+  // An iterate, as a visitor sees it.
+  class Iterate
+  {
+  public:
+    unsigned int iteration() const { return m_iteration; }
+    double energy() const { return m_energy; }
+
+    template <typename VertexPointMap>
+    void put_points(VertexPointMap map) const
+    {
+      for(const auto& [v, point] : m_session.new_points(m_positions))
+        put(map, v, point);
+    }
+
+  private:
+    friend class Session;
+
+    Iterate(const Session& session, const std::vector<Coordinates>& positions,
+            unsigned int iteration, double energy)
+      : m_session(session), m_positions(positions), m_iteration(iteration), m_energy(energy)
+    {}
+
+    const Session& m_session;
+    const std::vector<Coordinates>& m_positions;
+    unsigned int m_iteration;
+    double m_energy;
+  };
+
+  Session(Domain domain, const Traits& traits) : m_vertices(std::move(domain)), m_traits(traits) {}
+
+  const Options& options() const { return m_options; }
+
+  Outcome set_options(const Options& options)
+  {
+    Outcome checked = options.check();
+    if(checked)
+    {
+      note_change(options.cells != m_options.cells);
+      m_options = options;
+    }
+    return checked;
+  }
+
+  const Vertices& vertices() const { return m_vertices; }
+
+  // changes the region: f(vertices) returns whether it did; then all that follows from it is stale
+  template <typename Function>
+  bool change_vertices(const Function& f)
+  {
+    return note_change(f(m_vertices));
+  }
+
+  // replaces the target t of the control vertex v by f(t)
+  template <typename Function>
+  Outcome change_target(vertex_descriptor v, const Function& f)
+  {
+    auto* entry = m_vertices.find_control(v);
+    if(entry == nullptr)
+      return outcome(Status::not_a_control_vertex, name(v));
+    entry->target = f(entry->target);
+    return Outcome(Status::success, std::string());
+  }
+
+  Outcome preprocess()
+  {
+    if(m_core)
+      return outcome(Status::success);
+    const std::vector<vertex_descriptor> free_vertices = m_vertices.select([this](const auto& e) {
+      return e.is_roi && !e.is_control && !domain().is_isolated(e.vertex);
+    });
+    Region_ region;
+    if(!region.collect(domain(), free_vertices))
+      return outcome(Status::not_a_triangle, name(region.refused_vertex()));
+
+    std::vector<Coordinates> positions;
+    for(vertex_descriptor v : region.vertices)
+    {
+      positions.push_back(Domain::coordinates(domain().point(v)));
+      const auto* entry = m_vertices.find(v);
+      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
+    }
+    if(const int v = find_non_finite(positions); v >= 0)
+      return outcome(Status::non_finite_point, name(region.vertices[v]));
+
+    std::optional<Core> core;
+    core.emplace(m_traits, std::move(region.flat), m_options.cells);
+    if(core->diagnosis().status != Status::success)
+      return explain(core->diagnosis(), region, *core);
+    m_region = std::move(region);
+    m_positions = std::move(positions);
+    m_core = std::move(core);
+    return outcome(Status::success);
+  }
+
+  template <typename Visitor>
+  Report deform(unsigned int iterations, double tolerance, Visitor& visitor)
+  {
+    Report report;
+    {
+      Scoped_seconds total(report.seconds.total);
+      static_cast<Outcome&>(report) = deform(iterations, tolerance, visitor, report);
+    }
+    return report;
+  }
+
+  void reset()
+  {
+    for(auto& entry : m_vertices.entries())
+    {
+      domain().set_point(entry.vertex, entry.rest);
+      entry.target = entry.rest;
+    }
+    for(std::size_t k = 0; k < m_positions.size(); ++k)
+      m_positions[k] = Domain::coordinates(domain().point(m_region.vertices[k]));
+    if(m_core)
+      m_core->reset_rotations();
+    m_energy = not_a_number;
+  }
+
+  void overwrite_initial_geometry()
+  {
+    for(auto& entry : m_vertices.entries())
+      entry.rest = domain().point(entry.vertex);
+    note_change(true);
+  }
+
+  double energy() const { return m_energy; }
+
+  Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
+  {
+    return rotation_of_cell(m_core ? m_region.find_vertex(domain(), v) : -1);
+  }
+
+  Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
+  {
+    return rotation_of_cell(m_core ? m_region.find_simplex(domain(), s) : -1);
+  }
+
+private:
+  using Region_ = Domain_region<Domain>;
+  using Core = Deformation_core<Traits, Domain::vertices_per_simplex>;
+
+  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+  const Domain& domain() const { return m_vertices.domain(); }
+
+  std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+
+  bool note_change(bool is_change)
+  {
+    if(is_change)
+    {
+      m_core.reset();
+      m_energy = not_a_number;
+    }
+    return is_change;
+  }
+
+  Outcome explain(const Diagnosis& diagnosis, const Region_& region, const Core& core) const
+  {
+    if(diagnosis.vertex >= 0)
+      return outcome(diagnosis.status, name(region.vertices[diagnosis.vertex]));
+    if(diagnosis.simplex < 0)
+      return outcome(diagnosis.status);
+    std::string corners;
+    for(int v : core.region().simplices[diagnosis.simplex])
+      corners += (corners.empty() ? "" : ", ") + std::to_string(domain().index(region.vertices[v]));
+    return outcome(diagnosis.status, "the face with the vertices " + corners);
+  }
+
+  template <typename Visitor>
+  Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report)
+  {
+    Options options = m_options;
+    options.iterations = iterations;
+    options.tolerance = tolerance;
+    if(Outcome checked = options.check(); !checked)
+      return checked;
+    {
+      Scoped_seconds seconds(report.seconds.preprocess);
+      if(Outcome prepared = preprocess(); !prepared)
+        return prepared;
+    }
+    report.free_vertices = m_core->region().number_of_free_vertices;
+    report.simplices = m_core->region().simplices.size();
+
+    std::vector<Coordinates> positions = m_positions;
+    for(const auto& entry : m_vertices.entries())
+    {
+      if(!entry.is_control)
+        continue;
+      const Coordinates target = Domain::coordinates(entry.target);
+      if(!is_finite(target))
+        return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
+      if(const int v = m_region.find_vertex(domain(), entry.vertex); v >= 0)
+        positions[v] = target;
+    }
+
+    const auto observe = [&](unsigned int iteration, double energy) {
+      return visitor(Iterate(*this, positions, iteration, energy));
+    };
+    std::vector<Matrix_3x3> rotations = m_core->rotations();
+    const Diagnosis diagnosis = m_core->run(options, observe, positions, rotations, report);
+    Outcome result = explain(diagnosis, m_region, *m_core);
+    if(result)
+    {
+      for(const auto& [v, point] : new_points(positions))
+        domain().set_point(v, point);
+      m_positions.swap(positions);
+      m_core->set_rotations(std::move(rotations));
+      m_energy = report.energy.back();
+    }
+    return result;
+  }
+
+  // the points of the free vertices at their positions, and those of the control vertices
+  std::vector<std::pair<vertex_descriptor, Point>>
+  new_points(const std::vector<Coordinates>& positions) const
+  {
+    std::vector<std::pair<vertex_descriptor, Point>> points;
+    for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
+      points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
+    for(const auto& entry : m_vertices.entries())
+      if(entry.is_control)
+        points.emplace_back(entry.vertex, entry.target);
+    return points;
+  }
+
+  Matrix_3x3 rotation_of_cell(int cell) const
+  {
+    return cell >= 0 && cell < static_cast<int>(m_core->rotations().size())
+         ? m_core->rotations()[cell] : identity_matrix();
+  }
+
+  Vertices m_vertices;
+  Traits m_traits;
+  Options m_options;
+  double m_energy = not_a_number;
+
+  // what preprocess() computes; up to date if m_core has a value
+  Region_ m_region;
+  std::vector<Coordinates> m_positions; // of the vertices of the region
+  std::optional<Core> m_core;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_H

@@ -1,0 +1,163 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_VERTICES_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_VERTICES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/Paged_index_map.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The region of interest, the control vertices and their targets, and the rest shape. Vertices keep
+// their entry when they leave the region of interest: they may have been moved, and the entry knows
+// the rest shape.
+template <typename Domain>
+class Session_vertices
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using Point = typename Domain::Point;
+
+  struct Entry
+  {
+    vertex_descriptor vertex;
+    Point rest;
+    Point target; // of a control vertex
+    bool is_roi = false;
+    bool is_control = false;
+  };
+
+  explicit Session_vertices(Domain domain) : m_domain(std::move(domain)) {}
+
+  const Domain& domain() const { return m_domain; }
+  std::vector<Entry>& entries() { return m_entries; }
+  const std::vector<Entry>& entries() const { return m_entries; }
+
+  const Entry* find(vertex_descriptor v) const
+  {
+    const int slot = m_slots[m_domain.index(v)];
+    return slot == Paged_index_map::none ? nullptr : &m_entries[slot];
+  }
+
+  // The functions that change the sets return whether they did.
+
+  // the entry of v if it is a control vertex, else nullptr
+  Entry* find_control(vertex_descriptor v)
+  {
+    const int slot = m_slots[m_domain.index(v)];
+    return slot != Paged_index_map::none && m_entries[slot].is_control ? &m_entries[slot] : nullptr;
+  }
+
+  bool is_roi(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry != nullptr && entry->is_roi;
+  }
+
+  bool is_control(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry != nullptr && entry->is_control;
+  }
+
+  bool insert_roi(vertex_descriptor v)
+  {
+    return !std::exchange(find_or_insert(v).is_roi, true);
+  }
+
+  bool insert_control(vertex_descriptor v)
+  {
+    Entry& entry = find_or_insert(v);
+    if(entry.is_control)
+      return false;
+    entry.target = m_domain.point(v);
+    entry.is_roi = entry.is_control = true;
+    return true;
+  }
+
+  bool erase_roi(vertex_descriptor v)
+  {
+    if(!is_roi(v))
+      return false;
+    Entry& entry = find_or_insert(v);
+    entry.is_roi = entry.is_control = false;
+    return true;
+  }
+
+  bool erase_control(vertex_descriptor v)
+  {
+    Entry* entry = find_control(v);
+    return entry != nullptr && std::exchange(entry->is_control, false);
+  }
+
+  bool clear_roi()
+  {
+    bool is_change = false;
+    for(Entry& entry : m_entries)
+    {
+      is_change |= entry.is_roi;
+      entry.is_roi = entry.is_control = false;
+    }
+    return is_change;
+  }
+
+  bool clear_control()
+  {
+    bool is_change = false;
+    for(Entry& entry : m_entries)
+      is_change |= std::exchange(entry.is_control, false);
+    return is_change;
+  }
+
+  // the vertices whose entries fulfil a predicate, in the order in which they were first inserted
+  template <typename Predicate>
+  std::vector<vertex_descriptor> select(const Predicate& predicate) const
+  {
+    std::vector<vertex_descriptor> selected;
+    for(const Entry& entry : m_entries)
+      if(predicate(entry))
+        selected.push_back(entry.vertex);
+    return selected;
+  }
+
+private:
+  Entry& find_or_insert(vertex_descriptor v)
+  {
+    const std::size_t index = m_domain.index(v);
+    int slot = m_slots[index];
+    if(slot == Paged_index_map::none)
+    {
+      slot = static_cast<int>(m_entries.size());
+      const Point point = m_domain.point(v);
+      m_entries.push_back({v, point, point});
+      m_slots.set(index, slot);
+    }
+    return m_entries[slot];
+  }
+
+  Domain m_domain;
+  Paged_index_map m_slots; // from Domain::index() to the place in m_entries
+  std::vector<Entry> m_entries;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_VERTICES_H

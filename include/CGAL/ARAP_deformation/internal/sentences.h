@@ -1,0 +1,74 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SENTENCES_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SENTENCES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+
+#include <cstddef>
+#include <string>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+inline std::string vertex_name(std::size_t index)
+{
+  return "vertex " + std::to_string(index);
+}
+
+// The sentence for a status that is about a vertex, the face of three vertices, or the whole
+// (an empty `what`).
+inline Outcome outcome(Status status, const std::string& what = std::string())
+{
+  const auto about = [status, &what](const std::string& rest) {
+    return Outcome(status, what + rest);
+  };
+  switch(status)
+  {
+  case Status::not_run: return Outcome();
+  case Status::success: return about("everything is ready to deform");
+  case Status::converged: return about("the energy is as close to its minimum as was asked for");
+  case Status::iteration_limit: return about("all iterations that were asked for were run");
+  case Status::stopped: return about("the visitor stopped the run and kept the last iterate");
+  case Status::cancelled: return about("the visitor cancelled the run and nothing was changed");
+  case Status::invalid_option: return about("an option is out of its range");
+  case Status::not_a_control_vertex:
+    return about(" is not a control vertex and cannot be given a target; "
+                 "insert it as a control vertex first");
+  case Status::not_a_triangle: return about(" is at a face that is not a triangle");
+  case Status::non_finite_point:
+    return about(" has a coordinate that is infinite or not a number");
+  case Status::non_finite_weight:
+    return about(" is degenerate: the weights of its edges are not finite");
+  case Status::no_held_vertex:
+    return about(" is free, but no chain of edges with a non-zero weight ties it to a held vertex; "
+                 "hold a vertex of its component");
+  case Status::singular_matrix:
+    return what.empty()
+      ? about("the matrix of the system is not positive definite and cannot be factorized")
+      : about(" makes the system singular: the weights of its edges do not add up to a positive "
+              "finite number");
+  case Status::solver_failed: return about("the solver failed to solve the factorized system");
+  case Status::non_finite_energy:
+    return about("the energy overflowed: the targets are too far away for the arithmetic");
+  }
+  return Outcome(status, to_string(status));
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SENTENCES_H

@@ -1,0 +1,80 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TRAITS_3_H
+#define CGAL_ARAP_DEFORMATION_TRAITS_3_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/edge_weights.h>
+
+#include <CGAL/Default.h>
+
+#include <utility>
+
+namespace CGAL {
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief names the solver, the edge weights and the rotation fitting of a deformation, and hands
+/// out objects of them.
+///
+/// The objects may carry state: construct the traits with them. A deformation works on copies of
+/// what its traits hand out.
+///
+/// \tparam SparseSolver a model of `ARAPSparseSolver`, default `ARAP::Eigen_cholesky_solver`
+/// \tparam EdgeWeight a model of `ARAPEdgeWeight_3`, default `ARAP::Safe_cotangent_weight`
+/// \tparam ClosestRotation a model of `ARAPClosestRotation_3`, default
+///         `ARAP::SVD_closest_rotation`
+///
+/// \cgalModels{ARAPDeformationTraits_3}
+template <typename SparseSolver = Default,
+          typename EdgeWeight = Default,
+          typename ClosestRotation = Default>
+class ARAP_deformation_traits_3
+{
+public:
+  /// the type of the solver.
+  using Sparse_solver = typename Default::Get<SparseSolver, ARAP::Eigen_cholesky_solver>::type;
+
+  /// the type of the edge weights.
+  using Edge_weight = typename Default::Get<EdgeWeight, ARAP::Safe_cotangent_weight>::type;
+
+  /// the type of the rotation fitting.
+  using Closest_rotation =
+    typename Default::Get<ClosestRotation, ARAP::SVD_closest_rotation>::type;
+
+  /// constructs the traits from the objects that they hand out.
+  explicit ARAP_deformation_traits_3(Sparse_solver solver = Sparse_solver(),
+                                     Edge_weight weight = Edge_weight(),
+                                     Closest_rotation rotation = Closest_rotation())
+    : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
+  {}
+
+  /// returns the solver: a copy of it factorizes each matrix.
+  Sparse_solver sparse_solver_object() const { return m_solver; }
+
+  /// returns the edge weights.
+  Edge_weight edge_weight_object() const { return m_weight; }
+
+  /// returns the rotation fitting.
+  Closest_rotation closest_rotation_object() const { return m_rotation; }
+
+private:
+  Sparse_solver m_solver;
+  Edge_weight m_weight;
+  Closest_rotation m_rotation;
+};
+
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_TRAITS_3_H

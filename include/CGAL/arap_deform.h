@@ -1,0 +1,138 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORM_H
+#define CGAL_ARAP_DEFORM_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation_traits_3.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+namespace CGAL {
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief deforms a triangulated surface as rigidly as possible, in one call.
+///
+/// The constrained vertices get their targets, and all others follow. To deform a part of a mesh,
+/// or to move the targets again and again, use the class `ARAP_deformation`.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeListGraph`
+/// \tparam VertexConstrainedMap a model of `ReadablePropertyMap` from vertices to `bool`
+/// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
+/// \tparam NamedParameters a sequence of named parameters
+///
+/// \param mesh the shape: what it is before the call is the rest shape
+/// \param constrained tells which vertices are held at their targets
+/// \param targets gives each constrained vertex its target; for one that stays, its own point
+/// \param options what is chosen at run time
+/// \param np an optional sequence of named parameters among those below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the points of the vertices, read and written}
+///     \cgalParamType{a model of `ReadWritePropertyMap`}
+///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_index_map}
+///     \cgalParamDescription{a unique index for each vertex, from 0 on}
+///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
+///     \cgalParamDefault{the initialized index map of the mesh}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{number_of_iterations}
+///     \cgalParamDescription{the largest number of iterations}
+///     \cgalParamType{unsigned int}
+///     \cgalParamDefault{`options.iterations`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{visitor}
+///     \cgalParamDescription{sees each iterate and may stop or cancel the run}
+///     \cgalParamType{a model of `ARAPDeformationVisitor`}
+///     \cgalParamDefault{`ARAP::Default_visitor`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{weight_calculator}
+///     \cgalParamDescription{the weights of the edges}
+///     \cgalParamType{a model of `ARAPEdgeWeight_3`}
+///     \cgalParamDefault{`ARAP::Safe_cotangent_weight`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{sparse_linear_solver}
+///     \cgalParamDescription{the solver}
+///     \cgalParamType{a model of `ARAPSparseSolver`}
+///     \cgalParamDefault{`ARAP::Eigen_cholesky_solver`}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+///
+/// \returns what was done. If it did not succeed, the mesh is as it was.
+template <typename TriangleMesh, typename VertexConstrainedMap, typename VertexTargetMap,
+          typename CGAL_NP_TEMPLATE_PARAMETERS>
+ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
+                         VertexTargetMap targets, const ARAP::Options& options,
+                         const CGAL_NP_CLASS& np = parameters::default_values())
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  using parameters::get_parameter_reference;
+
+  auto weight = choose_parameter(get_parameter(np, internal_np::weight_calculator),
+                                 ARAP::Safe_cotangent_weight());
+  auto solver = choose_parameter(get_parameter(np, internal_np::sparse_linear_solver),
+                                 ARAP::Eigen_cholesky_solver());
+  using Traits = ARAP_deformation_traits_3<decltype(solver), decltype(weight)>;
+  using Visitor = typename internal_np::Lookup_named_param_def<
+    internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;
+
+  auto domain = ARAP::make_face_graph_domain(mesh, np);
+  ARAP_deformation<TriangleMesh, Traits, decltype(domain)> deformation(domain,
+                                                                      Traits(solver, weight));
+  if(ARAP::Outcome checked = deformation.set_options(options); !checked)
+  {
+    ARAP::Report report;
+    static_cast<ARAP::Outcome&>(report) = checked;
+    return report;
+  }
+  for(auto v : vertices(mesh))
+  {
+    deformation.insert_roi_vertex(v);
+    if(!get(constrained, v))
+      continue;
+    deformation.insert_control_vertex(v);
+    deformation.set_target_position(v, get(targets, v));
+  }
+  ARAP::Default_visitor default_visitor;
+  Visitor visitor =
+    choose_parameter(get_parameter_reference(np, internal_np::visitor), default_visitor);
+  return deformation.deform(choose_parameter(get_parameter(np, internal_np::number_of_iterations),
+                                             options.iterations),
+                            options.tolerance, visitor);
+}
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief deforms a triangulated surface as rigidly as possible, in one call, with the default
+/// options.
+///
+/// The parameters are those of the overload with `options`.
+template <typename TriangleMesh, typename VertexConstrainedMap, typename VertexTargetMap,
+          typename CGAL_NP_TEMPLATE_PARAMETERS>
+ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
+                         VertexTargetMap targets,
+                         const CGAL_NP_CLASS& np = parameters::default_values())
+{
+  return arap_deform(mesh, constrained, targets, ARAP::Options(), np);
+}
+
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORM_H
