@@ -1,0 +1,68 @@
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using vertex_descriptor = Mesh::Vertex_index;
+
+int main(int argc, char** argv)
+{
+  const std::string file = argc > 1 ? argv[1] : CGAL::data_file_path("meshes/elephant.off");
+  Mesh mesh;
+  if(!CGAL::IO::read_polygon_mesh(file, mesh) || !CGAL::is_triangle_mesh(mesh))
+  {
+    std::cerr << file << " is not a triangle mesh" << std::endl;
+    return EXIT_FAILURE;
+  }
+
+  // What is above the middle may move; the vertices near the top are the handle. All others, and
+  // only they, are held.
+  std::vector<double> heights;
+  for(const Point& p : mesh.points())
+    heights.push_back(p.y());
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  const double middle = (*lowest + *highest) / 2, top = *highest - 0.1 * (*highest - *lowest);
+
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  for(vertex_descriptor v : mesh.vertices())
+  {
+    if(heights[v] > middle) deformation.insert_roi_vertex(v);
+    if(heights[v] > top) deformation.insert_control_vertex(v);
+  }
+  const CGAL::ARAP::Outcome ready = deformation.preprocess(); // the costly part, once
+  if(!ready)
+  {
+    std::cerr << ready.message << std::endl;
+    return EXIT_FAILURE;
+  }
+
+  // the handle is dragged and turned a bit in each frame; a few iterations a frame are enough
+  const std::vector<vertex_descriptor> handle = deformation.control_vertices();
+  const Point center = mesh.point(handle.front());
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
+  for(int frame = 1; frame <= 10; ++frame)
+  {
+    deformation.rotate(handle.begin(), handle.end(),
+                       Eigen::Vector3d(center.x(), center.y(), center.z()), turn);
+    deformation.translate(handle.begin(), handle.end(),
+                          Kernel::Vector_3(0, 0.01 * (*highest - *lowest), 0));
+    const CGAL::ARAP::Report report = deformation.deform(3, 0);
+    std::cout << "frame " << frame << ": energy " << report.energy.back() << ", "
+              << 1000 * report.seconds.total << " ms" << std::endl;
+  }
+
+  // back to where the vertices were at the beginning
+  deformation.reset();
+  return EXIT_SUCCESS;
+}

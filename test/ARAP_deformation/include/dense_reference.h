@@ -1,0 +1,237 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H
+#define CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H
+
+// The energy and the iteration of local/global, written down a second time: dense matrices, each
+// cell spelled out from the definition, nothing shared with the package. Slow, for small shapes.
+
+#include "shapes.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+class Dense_reference
+{
+public:
+  enum Cells { SPOKES, SPOKES_AND_RIMS, ELEMENTS };
+  enum Weights { SAFE, COTANGENT, CLAMPED, UNIFORM };
+
+  struct Edge
+  {
+    std::size_t i, j;
+    double weight;
+  };
+
+  Dense_reference(const Shape& shape, const std::vector<int>& selection, Cells cells,
+                  Weights weights)
+    : m_rest(shape.points), m_triangles(shape.triangles), m_selection(selection),
+      m_weights(weights)
+  {
+    for(std::size_t v = 0; v < m_rest.size(); ++v)
+      if(selection[v] == 1)
+      {
+        m_row.push_back(int(m_free.size()));
+        m_free.push_back(v);
+      }
+      else
+        m_row.push_back(-1);
+    make_cells(cells);
+  }
+
+  // the energy with the best rotations
+  double energy(const std::vector<Eigen::Vector3d>& x) const
+  {
+    double sum = 0;
+    for(const auto& cell : m_cells)
+    {
+      const Eigen::Matrix3d r = rotation(cell, x);
+      for(const Edge& e : cell)
+        sum += e.weight * ((x[e.i] - x[e.j]) - r * (m_rest[e.i] - m_rest[e.j])).squaredNorm();
+    }
+    return sum;
+  }
+
+  // one step of local/global: the minimizer of the energy for the rotations at x
+  void iterate(std::vector<Eigen::Vector3d>& x) const
+  {
+    const auto n = Eigen::Index(m_free.size());
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
+    const auto add = [&](std::size_t i, std::size_t j, double w, const Eigen::Vector3d& d) {
+      // the derivative of w || x_i - x_j - d ||^2 by x_i
+      const int row = m_row[i];
+      if(row < 0)
+        return;
+      a(row, row) += w;
+      b.row(row) += w * d.transpose();
+      if(m_row[j] >= 0)
+        a(row, m_row[j]) -= w;
+      else
+        b.row(row) += w * x[j].transpose();
+    };
+    for(const auto& cell : m_cells)
+    {
+      const Eigen::Matrix3d r = rotation(cell, x);
+      for(const Edge& e : cell)
+      {
+        const Eigen::Vector3d d = r * (m_rest[e.i] - m_rest[e.j]);
+        add(e.i, e.j, e.weight, d);
+        add(e.j, e.i, e.weight, -d);
+      }
+    }
+    const Eigen::MatrixXd solution = a.fullPivLu().solve(b);
+    for(Eigen::Index k = 0; k < n; ++k)
+      x[m_free[k]] = solution.row(k).transpose();
+  }
+
+  // naive Laplacian editing: the least-squares solution of L x = L p, L with a row for each vertex
+  void laplacian_guess(std::vector<Eigen::Vector3d>& x) const
+  {
+    const auto rows = Eigen::Index(m_rest.size()), n = Eigen::Index(m_free.size());
+    Eigen::MatrixXd l = Eigen::MatrixXd::Zero(rows, rows);
+    for(std::size_t i = 0; i < m_rest.size(); ++i)
+      for(std::size_t j : neighbours(i))
+      {
+        l(i, i) += star_weight(i, j);
+        l(i, j) -= star_weight(i, j);
+      }
+    Eigen::MatrixXd p(rows, 3), held = Eigen::MatrixXd::Zero(rows, 3), columns(rows, n);
+    for(std::size_t v = 0; v < m_rest.size(); ++v)
+    {
+      p.row(v) = m_rest[v].transpose();
+      if(m_row[v] < 0)
+        held.row(v) = x[v].transpose();
+      else
+        columns.col(m_row[v]) = l.col(v);
+    }
+    const Eigen::MatrixXd solution = columns.colPivHouseholderQr().solve(l * (p - held));
+    for(Eigen::Index k = 0; k < n; ++k)
+      x[m_free[k]] = solution.row(k).transpose();
+  }
+
+private:
+  static double cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& p,
+                          const Eigen::Vector3d& q)
+  {
+    const Eigen::Vector3d a = (p - apex).normalized(), b = (q - apex).normalized();
+    return a.dot(b) / a.cross(b).norm();
+  }
+
+  double edge_weight(bool is_star, double sum) const
+  {
+    switch(m_weights)
+    {
+    case UNIFORM: return 1;
+    case COTANGENT: return sum;
+    case CLAMPED: return (std::max)(sum, 0.0);
+    case SAFE: break;
+    }
+    return is_star ? (std::max)(sum, 0.0) : sum;
+  }
+
+  double star_weight(std::size_t i, std::size_t j) const
+  {
+    double sum = 0;
+    for(const auto& t : m_triangles)
+      for(int k = 0; k < 3; ++k)
+        if((t[k] == i && t[(k + 1) % 3] == j) || (t[k] == j && t[(k + 1) % 3] == i))
+          sum += cotangent(m_rest[t[(k + 2) % 3]], m_rest[i], m_rest[j]) / 2;
+    return edge_weight(true, sum);
+  }
+
+  std::set<std::size_t> neighbours(std::size_t i) const
+  {
+    std::set<std::size_t> found;
+    for(const auto& t : m_triangles)
+      if(t[0] == i || t[1] == i || t[2] == i)
+        found.insert(t.begin(), t.end());
+    found.erase(i);
+    return found;
+  }
+
+  std::vector<Edge> triangle_edges(const std::array<std::size_t, 3>& t) const
+  {
+    std::vector<Edge> edges;
+    for(int k = 0; k < 3; ++k)
+    {
+      const std::size_t i = t[k], j = t[(k + 1) % 3], apex = t[(k + 2) % 3];
+      edges.push_back(
+        {i, j, edge_weight(false, cotangent(m_rest[apex], m_rest[i], m_rest[j]) / 2)});
+    }
+    return edges;
+  }
+
+  // all cells that have an edge set with a free vertex, whole
+  void make_cells(Cells scheme)
+  {
+    const auto is_free = [this](std::size_t v) { return m_selection[v] == 1; };
+    const auto add = [&](const std::vector<Edge>& cell) {
+      for(const Edge& e : cell)
+        if(is_free(e.i) || is_free(e.j))
+        {
+          m_cells.push_back(cell);
+          return;
+        }
+    };
+    if(scheme == ELEMENTS)
+    {
+      for(const auto& t : m_triangles)
+        add(triangle_edges(t));
+      return;
+    }
+    for(std::size_t i = 0; i < m_rest.size(); ++i)
+    {
+      std::vector<Edge> cell;
+      if(scheme == SPOKES)
+        for(std::size_t j : neighbours(i))
+          cell.push_back({i, j, star_weight(i, j)});
+      else
+        for(const auto& t : m_triangles)
+          if(t[0] == i || t[1] == i || t[2] == i)
+            for(const Edge& e : triangle_edges(t))
+              cell.push_back(e);
+      add(cell);
+    }
+  }
+
+  Eigen::Matrix3d rotation(const std::vector<Edge>& cell,
+                           const std::vector<Eigen::Vector3d>& x) const
+  {
+    Eigen::Matrix3d s = Eigen::Matrix3d::Zero(); // Equation (5) of the paper
+    for(const Edge& e : cell)
+      s += e.weight * (m_rest[e.i] - m_rest[e.j]) * (x[e.i] - x[e.j]).transpose();
+#if EIGEN_VERSION_AT_LEAST(3, 4, 90)
+    const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::ComputeFullU | Eigen::ComputeFullV> svd(s);
+#else
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
+#endif
+    Eigen::Matrix3d u = svd.matrixU();
+    if((svd.matrixV() * u.transpose()).determinant() < 0)
+      u.col(2) *= -1;
+    return svd.matrixV() * u.transpose(); // Equation (6)
+  }
+
+  std::vector<Eigen::Vector3d> m_rest;
+  std::vector<std::array<std::size_t, 3>> m_triangles;
+  std::vector<int> m_selection;
+  Weights m_weights;
+  std::vector<std::size_t> m_free;
+  std::vector<int> m_row; // of the free vertices among the unknowns, or -1
+  std::vector<std::vector<Edge>> m_cells;
+};
+
+#endif // CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H

@@ -1,0 +1,49 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TEST_MISUSE_H
+#define CGAL_ARAP_DEFORMATION_TEST_MISUSE_H
+
+#include "check.h"
+#include "shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+
+#include <string>
+#include <vector>
+
+// Gives each call that sets a target of a vertex that is no control vertex to `check_refused`.
+// Nothing may have changed by it.
+template <typename CheckRefused>
+void test_misuse(const CheckRefused& check_refused)
+{
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  const std::vector<Mesh::Vertex_index> vertices = {Mesh::Vertex_index(2), Mesh::Vertex_index(5)};
+  const auto control = vertices[0], free = vertices[1];
+  const Eigen::Vector3d t(0, 0, 0);
+  const Eigen::Quaterniond q(1, 0, 0, 0);
+  d.insert_control_vertex(control);
+  const Point target = d.target_position(control);
+  for(int pass = 0; pass < 2; ++pass) // outside of the region, and free in it
+  {
+    check_refused([&] { return d.set_target_position(free, Point(1, 2, 3)); });
+    check_refused([&] { return d.translate(free, t); });
+    check_refused([&] { return d.rotate(free, t, q); });
+    check_refused([&] { return d.translate(vertices.begin(), vertices.end(), t); });
+    check_refused([&] { return d.rotate(vertices.begin(), vertices.end(), t, q); });
+    CHECK(!d.is_control_vertex(free));
+    CHECK(d.target_position(control) == target);
+    d.insert_roi_vertex(free);
+  }
+}
+
+#endif // CGAL_ARAP_DEFORMATION_TEST_MISUSE_H

@@ -1,0 +1,344 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The command arap_deform, run as a user runs it: results, report, formats, and what it says and
+// leaves behind when it is given nonsense. Its path is the argument; without it nothing is tested.
+
+#include "include/check.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+
+#include <nlohmann/json.hpp>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/wait.h>
+#endif
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+std::string command;
+fs::path folder;
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void write(const std::string& name, const std::string& text)
+{
+  std::ofstream(folder / name, std::ios::binary) << text;
+}
+
+struct Run
+{
+  int exit_code;
+  std::string out, err;
+};
+
+Run run(const std::string& arguments)
+{
+  const fs::path out = folder / "stdout", err = folder / "stderr";
+  const int status = std::system(("cd \"" + folder.string() + "\" && \"" + command + "\" " +
+                                  arguments + " > stdout 2> stderr").c_str());
+#if defined(__unix__) || defined(__APPLE__)
+  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+#else
+  const int exit_code = status;
+#endif
+  Run result{exit_code, content(out), content(err)};
+  fs::remove(out);
+  fs::remove(err);
+  return result;
+}
+
+std::set<std::string> files()
+{
+  std::set<std::string> names;
+  for(const auto& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+// a tube of about a hundred vertices, twisted
+const Shape shape = grid("tube", 8, 12, [](double u, double v) {
+  const double angle = 2 * std::acos(-1.0) * u;
+  return Eigen::Vector3d(std::cos(angle), std::sin(angle), 5 * v);
+}, true);
+
+std::string off(const Shape& s)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << "OFF\n" << s.points.size() << ' ' << s.triangles.size() << " 0\n";
+  for(const auto& p : s.points)
+    out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  for(const auto& t : s.triangles)
+    out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  return out.str();
+}
+
+int status(const Eigen::Vector3d& p) { return p.z() < 0.5 ? 0 : p.z() > 4.5 ? 2 : 1; }
+
+std::string selection()
+{
+  std::string text = "# one status a vertex\n\n";
+  for(const auto& p : shape.points)
+    text += std::to_string(status(p)) + " # a comment\n";
+  return text;
+}
+
+const std::string quarter_turn = "# about the z axis\n0 -1 0 0\n1 0 0 0\n0 0 1 0.5\n0 0 0 1\n";
+
+void test_success()
+{
+  test_case() = "a run";
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  for(auto v : mesh.vertices())
+  {
+    const auto& p = shape.points[v];
+    if(status(p) != 0)
+      d.insert_roi_vertex(v);
+    if(status(p) == 2)
+    {
+      d.insert_control_vertex(v);
+      d.set_target_position(v, Point(-p.y(), p.x(), p.z() + 0.5));
+    }
+  }
+  const auto report = d.deform(30, 0);
+
+  const Run done = run("in.off --selection in.sel --transform in.def -o out.off --report r.json "
+                       "--iterations 30 --tolerance 0");
+  CHECK(done.exit_code == 0);
+  CHECK(done.err.empty()); // no progress where there is no terminal
+  CHECK(done.out.find("30 iterations") != std::string::npos);
+  Mesh result;
+  CHECK(CGAL::IO::read_polygon_mesh((folder / "out.off").string(), result));
+  CHECK(result.number_of_faces() == mesh.number_of_faces());
+  for(auto v : mesh.vertices())
+    CHECK(result.point(v) == mesh.point(v)); // written to the last digit
+
+  const auto json = nlohmann::json::parse(content(folder / "r.json"));
+  CHECK(json["status"] == "iteration_limit");
+  CHECK(!json["message"].get<std::string>().empty());
+  CHECK(json["vertices"] == mesh.number_of_vertices());
+  CHECK(json["simplices"] == mesh.number_of_faces());
+  CHECK(json["free_vertices"] == report.free_vertices);
+  CHECK(json["iterations"] == 30);
+  CHECK(json["energy"].get<std::vector<double>>() == report.energy);
+  CHECK(json["estimated_relative_gap"] == report.estimated_relative_gap);
+  CHECK(json["edge_length_error"] ==
+        CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()));
+  CHECK(json["inverted_simplices"] == 0);
+  for(const char* phase : {"load", "preprocess", "deform"})
+    CHECK(json["seconds"][phase].get<double>() >= 0);
+  CHECK(json["peak_memory_bytes"].get<long long>() > 1000000);
+
+  test_case() = "quiet";
+  const std::string before = content(folder / "out.off");
+  const Run quiet = run("in.off --selection in.sel --transform in.def -o out.off --quiet "
+                        "--iterations 30 --tolerance 0");
+  CHECK(quiet.exit_code == 0 && quiet.out.empty() && quiet.err.empty());
+  CHECK(content(folder / "out.off") == before);
+
+  test_case() = "formats";
+  for(const std::string from : {"in.off", "copy.obj", "copy.ply", "copy.stl"})
+    for(const std::string to : {"copy.off", "copy.obj", "copy.ply", "copy.stl"})
+    {
+      if(from == "in.off")
+        CHECK(CGAL::IO::write_polygon_mesh((folder / to).string(), rest,
+                                           CGAL::parameters::stream_precision(17)));
+      const Run converted = run(from + " --selection in.sel --transform in.def -o new." +
+                                to.substr(5) + " --iterations 3");
+      // an .stl file numbers the vertices as they appear: the selection may not fit, but it is read
+      CHECK(converted.exit_code == 0);
+      Mesh copy;
+      CHECK(CGAL::IO::read_polygon_mesh((folder / ("new." + to.substr(5))).string(), copy));
+      CHECK(copy.number_of_faces() == mesh.number_of_faces());
+    }
+
+  test_case() = "choices";
+  std::set<std::string> energies;
+  for(const std::string choice :
+      {"--cells spokes", "--cells elements", "--cells spokes_and_rims", "--weights uniform",
+       "--initial_guess laplacian", "--cells spokes --weights uniform"})
+  {
+    CHECK(run("in.off --selection in.sel --transform in.def -o out.off --report r.json "
+              "--minimizer local_global --iterations 2 " + choice).exit_code == 0);
+    energies.insert(nlohmann::json::parse(content(folder / "r.json"))["energy"].dump());
+  }
+  CHECK(energies.size() == 6);
+}
+
+// Exit code and a phrase of the message; no file appears, none changes.
+void check_refused(const std::string& arguments, int exit_code, const std::string& phrase)
+{
+  test_case() = arguments;
+  const auto before = files();
+  const Run refused = run(arguments);
+  CHECK(refused.exit_code == exit_code);
+  CHECK(refused.out.empty());
+  CHECK(refused.err.rfind("arap_deform: ", 0) == 0);
+  if(!CHECK(refused.err.find(phrase) != std::string::npos) || refused.exit_code != exit_code)
+    std::cerr << "    exit code " << refused.exit_code << ", the message was: " << refused.err;
+  CHECK(files() == before);
+  CHECK(content(folder / "precious.off") == "precious");
+}
+
+void test_refusals()
+{
+  write("precious.off", "precious");
+  const std::string rest = " --selection in.sel --transform in.def -o precious.off";
+  const auto mesh = [&](const std::string& file, const std::string& phrase) {
+    check_refused(file + rest, 1, phrase);
+  };
+  mesh("missing.off", "missing.off: there is no such file");
+  mesh(".", "ends in .off, .obj, .ply or .stl");
+  for(const std::string extension : {"off", "obj", "ply", "stl"})
+  {
+    write("empty." + extension, "");
+    mesh("empty." + extension, "is empty");
+    write("garbage." + extension, "this is no mesh\n1 2 3\n");
+    mesh("garbage." + extension, "garbage." + extension + ": ");
+  }
+  const std::string text = off(shape);
+  write("half.off", text.substr(0, text.size() / 2));
+  mesh("half.off", "half.off: cannot be read as");
+  write("nothing.off", "OFF\n0 0 0\n");
+  mesh("nothing.off", "has no faces");
+  for(const std::string bad : {"nan", "inf", "NaN"})
+  {
+    write("bad.off", "OFF\n" + text.substr(4, text.find('\n', 4) - 3) + bad +
+                       text.substr(text.find(' ', text.find('\n', 4))));
+    mesh("bad.off", "bad.off: ");
+  }
+  Shape wrong = shape;
+  wrong.triangles[5][0] = 9999;
+  write("index.off", off(wrong));
+  mesh("index.off", "index.off: ");
+  wrong.triangles[5] = wrong.triangles[6];
+  write("doubled.off", off(wrong));
+  mesh("doubled.off", "doubled.off: ");
+  wrong = shape;
+  wrong.points[40] = wrong.points[41];
+  write("degenerate.off", off(wrong));
+  mesh("degenerate.off", "is degenerate");
+  std::string quad = text;
+  const std::size_t faces = quad.find("\n3 ") + 1;
+  quad.replace(faces, quad.find('\n', quad.find('\n', faces) + 1) - faces, "4 0 13 14 1");
+  quad.replace(quad.find(" 192 "), 5, " 191 ");
+  write("quad.off", quad);
+  mesh("quad.off", "quad.off: ");
+
+  const auto select = [&](const std::string& file, const std::string& phrase) {
+    check_refused("in.off --selection " + file + " --transform in.def -o precious.off", 1, phrase);
+  };
+  const std::string good = selection();
+  select("missing.sel", "missing.sel: there is no such file");
+  write("bad.sel", good + "1\n");
+  select("bad.sel", "has 105 statuses, but the mesh has 104 vertices");
+  write("bad.sel", good.substr(0, good.size() - 16));
+  select("bad.sel", "has 103 statuses, but the mesh has 104 vertices");
+  write("bad.sel", "1\n1\n3\n" + good);
+  select("bad.sel", "bad.sel, line 3: unknown status 3");
+  write("bad.sel", "1\none\n" + good);
+  select("bad.sel", "bad.sel, line 2: expected one integer");
+  write("bad.sel", "1.5\n" + good);
+  select("bad.sel", "bad.sel, line 1: expected one integer");
+  std::string free_text;
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    free_text += "1\n";
+  write("bad.sel", free_text);
+  select("bad.sel", "hold a vertex of its component");
+
+  const auto transform = [&](const std::string& matrix, const std::string& phrase) {
+    write("bad.def", matrix);
+    check_refused("in.off --selection in.sel --transform bad.def -o precious.off", 1, phrase);
+  };
+  transform("", "bad.def: is empty");
+  transform("# 1 2 3\n", "bad.def: has 0 numbers");
+  transform("1 0 0 0\n0 1 0 0\n0 0 1 0\n", "bad.def: has 12 numbers");
+  transform("1 0 0 0\n0 1 0 nan\n0 0 1 0\n0 0 0 1\n", "bad.def, line 2: 'nan' is not a finite");
+  transform("1 0 0 0\n0 1 0 1e999\n0 0 1 0\n0 0 0 1\n", "bad.def, line 2: '1e999'");
+  transform("1 0 0 0\n0 1 0 x2\n0 0 1 0\n0 0 0 1\n", "bad.def, line 2: 'x2'");
+  transform("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 2\n", "the last row of the transform");
+  transform("1 0 0 1e200\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "overflow");
+
+  const std::string good_call = "in.off --selection in.sel --transform in.def ";
+  check_refused(good_call + "-o no/such/folder/out.off", 1, "no/such/folder/out.off: cannot be");
+  check_refused(good_call + "-o out.xyz", 1, "out.xyz: the name of a mesh file ends in");
+  check_refused(good_call + "-o new.off --report no/such/folder/r.json", 1, "cannot be written");
+  fs::create_directory(folder / "folder.off");
+  check_refused(good_call + "-o folder.off", 1, "folder.off: cannot be written");
+
+  check_refused("", 2, "no mesh is given");
+  check_refused(good_call, 2, "output");
+  check_refused("in.off -o new.off --transform in.def", 2, "selection");
+  check_refused("in.off -o new.off --selection in.sel", 2, "transform");
+  check_refused("in.off in.off" + rest, 2, "positional");
+  check_refused("in.off --frobnicate" + rest, 2, "frobnicate");
+  check_refused("in.off --cells dinner" + rest, 2, "spokes, spokes_and_rims, elements");
+  check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
+  check_refused("in.off --minimizer newton" + rest, 2, "local_global");
+  check_refused("in.off --initial_guess none" + rest, 2, "previous, laplacian");
+  check_refused("in.off --iterations -3" + rest, 2, "--iterations");
+  check_refused("in.off --iterations many" + rest, 2, "iterations");
+  check_refused("in.off --tolerance -1" + rest, 2, "tolerance");
+  check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
+}
+
+void test_help()
+{
+  test_case() = "help";
+  const Run help = run("--help");
+  CHECK(help.exit_code == 0 && help.err.empty());
+  for(const char* option :
+      {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
+       "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--quiet"})
+    CHECK(help.out.find(option) != std::string::npos);
+}
+
+int main(int argc, char** argv)
+{
+  if(argc < 2)
+  {
+    std::cout << "NOTICE: no path of the command arap_deform is given; nothing was tested."
+              << std::endl;
+    return EXIT_SUCCESS;
+  }
+  command = fs::absolute(argv[1]).string();
+  folder = fs::temp_directory_path() / ("arap_deform_test_" + std::to_string(std::random_device()()));
+  fs::create_directory(folder);
+  write("in.off", off(shape));
+  write("in.sel", selection());
+  write("in.def", quarter_turn);
+  test_help();
+  test_success();
+  test_refusals();
+  fs::remove_all(folder);
+  return checks_result();
+}

@@ -1,0 +1,137 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// What holds for every shape and cell scheme, over a thousand iterations: the energy never rises,
+// rotations are rotations, held vertices keep their points, and rigid motions change nothing.
+
+#include "include/check.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/checks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+using CGAL::ARAP::Cell_scheme;
+
+const Eigen::Isometry3d motion = rigid_motion(1.1, {-1, 0.4, 2}, {3, -1, 0.5});
+
+double largest_distance(const Mesh& a, const Mesh& b, const Eigen::Isometry3d& m)
+{
+  double distance = 0;
+  for(auto v : a.vertices())
+    distance = (std::max)(distance, (m * vector(a.point(v)) - vector(b.point(v))).norm());
+  return distance;
+}
+
+void set_cells(Deformation& deformation, Cell_scheme cells)
+{
+  CGAL::ARAP::Options options;
+  options.cells = cells;
+  CHECK(deformation.set_options(options));
+}
+
+void check_run(const Shape& shape, Cell_scheme cells)
+{
+  const Scenario s = scenario(shape);
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  Deformation deformation(mesh);
+  set_cells(deformation, cells);
+  prepare(deformation, s, all_vertices(mesh));
+  const auto report = deformation.deform(1000, 0);
+  CHECK(report.iterations == 1000);
+  CHECK(report.energy.size() == 1001);
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  CHECK(report.energy.back() < report.energy.front());
+  CHECK(report.energy.back() >= 0);
+  CHECK(report.energy.back() == deformation.energy());
+  for(auto v : mesh.vertices())
+  {
+    if(s.selection[v] == 0)
+      CHECK(mesh.point(v) == rest.point(v));
+    else if(s.selection[v] == 2)
+      CHECK(mesh.point(v) == point(s.targets[v]));
+    if(cells.has_vertex_cells())
+      CHECK(CGAL::ARAP::is_rotation(deformation.rotation(v)));
+  }
+  if(!cells.has_vertex_cells())
+    for(auto f : mesh.faces())
+      CHECK(CGAL::ARAP::is_rotation(deformation.rotation(f)));
+}
+
+// The same run after a rigid motion of rest shape and targets: the same energies, the moved result.
+void check_moved_run(const Shape& shape, Cell_scheme cells)
+{
+  const Scenario s = scenario(shape);
+  Shape moved_shape = shape;
+  Scenario moved = s;
+  for(auto& p : moved_shape.points)
+    p = motion * p;
+  for(auto& p : moved.targets)
+    p = motion * p;
+
+  Mesh mesh = make_mesh<Mesh>(shape), moved_mesh = make_mesh<Mesh>(moved_shape);
+  Deformation deformation(mesh), moved_deformation(moved_mesh);
+  set_cells(deformation, cells);
+  set_cells(moved_deformation, cells);
+  prepare(deformation, s, all_vertices(mesh));
+  prepare(moved_deformation, moved, all_vertices(moved_mesh));
+  const auto report = deformation.deform(10, 0), moved_report = moved_deformation.deform(10, 0);
+  for(std::size_t k = 0; k < report.energy.size(); ++k)
+    CHECK_AT_MOST(std::abs(report.energy[k] - moved_report.energy[k]),
+                  1e-10 * report.energy[k] + 1e-14 * report.energy_scale);
+  CHECK_AT_MOST(largest_distance(mesh, moved_mesh, motion), 1e-10 * shape.diameter());
+}
+
+// A rigidly moved guess whose held vertices agree with it stays where it is, at energy zero.
+void check_rigid_guess(const Shape& shape, Cell_scheme cells)
+{
+  const Scenario s = scenario(shape);
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  Deformation deformation(mesh);
+  set_cells(deformation, cells);
+  const auto vertices = all_vertices(mesh);
+  deformation.insert_control_vertices(vertices.begin(), vertices.end());
+  for(auto v : vertices)
+    deformation.set_target_position(v, point(motion * vector(rest.point(v))));
+  CHECK(deformation.deform());
+  CHECK(largest_distance(rest, mesh, motion) == 0);
+
+  for(auto v : vertices)
+    if(s.selection[v] == 1)
+      deformation.erase_control_vertex(v);
+  const auto report = deformation.deform(1000, 0);
+  for(double energy : report.energy)
+    CHECK_AT_MOST(energy, 1e-15 * report.energy_scale);
+  CHECK_AT_MOST(largest_distance(rest, mesh, motion), 1e-12 * shape.diameter());
+}
+
+int main()
+{
+  CHECK(shapes().size() == 12);
+  for(const Shape& shape : shapes())
+    for(Cell_scheme cells :
+        {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+    {
+      test_case() = shape.name + (cells == Cell_scheme::spokes() ? ", spokes" :
+                                  cells.has_vertex_cells() ? ", spokes and rims" : ", elements");
+      check_run(shape, cells);
+      check_moved_run(shape, cells);
+      check_rigid_guess(shape, cells);
+    }
+  return checks_result();
+}

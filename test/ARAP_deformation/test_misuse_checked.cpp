@@ -1,0 +1,44 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Misuse of the interface where preconditions are checked: they fail.
+
+#define CGAL_DEBUG 1
+
+#include "include/misuse.h"
+
+int main()
+{
+  CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
+  CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
+  const auto is_refused = [](const auto& call) {
+    try
+    {
+      call();
+    }
+    catch(const CGAL::Precondition_exception&)
+    {
+      return true;
+    }
+    return false;
+  };
+  test_misuse([&](const auto& call) { CHECK(is_refused(call)); });
+
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  CHECK(is_refused([&] { d.target_position(Mesh::Vertex_index(0)); }));
+  CHECK(is_refused([&] { d.rotation(Mesh::Face_index(0)); })); // there is one for each vertex
+  CGAL::ARAP::Options options;
+  options.cells = CGAL::ARAP::Cell_scheme::elements();
+  d.set_options(options);
+  CHECK(is_refused([&] { d.rotation(Mesh::Vertex_index(0)); })); // there is one for each face
+  return checks_result();
+}

@@ -1,0 +1,198 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Visitors and reports: what a run tells while it goes on and when it is over, stop, cancel, and
+// exceptions.
+
+#include "include/check.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/checks.h>
+
+#include <cmath>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+using Vertex = Mesh::Vertex_index;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Visitor_action;
+
+const Shape shape = grid("sheet", 12, 6, [](double u, double v) {
+  return Eigen::Vector3d(2 * u, v, 0.1 * u * u);
+});
+
+bool same_points(const Mesh& a, const Mesh& b)
+{
+  for(Vertex v : a.vertices())
+    if(a.point(v) != b.point(v))
+      return false;
+  return true;
+}
+
+void test_statuses()
+{
+  const Status all[] = {
+    Status::not_run, Status::success, Status::converged, Status::iteration_limit, Status::stopped,
+    Status::cancelled, Status::invalid_option, Status::not_a_control_vertex,
+    Status::not_a_triangle, Status::non_finite_point, Status::non_finite_weight,
+    Status::no_held_vertex, Status::singular_matrix, Status::solver_failed,
+    Status::non_finite_energy};
+  std::set<std::string> names, sentences;
+  for(Status status : all)
+  {
+    names.insert(to_string(status));
+    sentences.insert(CGAL::ARAP::internal::outcome(status).message);
+  }
+  CHECK(names.size() == std::size(all) && !names.count("unknown"));
+  CHECK(sentences.size() == std::size(all));
+  const Report report;
+  CHECK(report.status == Status::not_run && !report && !report.message.empty());
+}
+
+void test_iterates()
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  Deformation d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  std::vector<double> seen;
+  Mesh copy = mesh;
+  const Report report = d.deform(9, 0, [&](const Deformation::Iterate& iterate) {
+    CHECK(iterate.iteration() == seen.size());
+    seen.push_back(iterate.energy());
+    CHECK(same_points(mesh, rest)); // written when the run is over
+    iterate.put_points(copy.points());
+    return Visitor_action::proceed;
+  });
+  CHECK(seen == report.energy);
+  CHECK(same_points(mesh, copy));
+  CHECK(report.iterations == 9);
+  CHECK(report.free_vertices > 0 && report.simplices > 0 && report.energy_scale > 0);
+  CHECK(report.seconds.total > 0);
+  CHECK(report.seconds.local_steps + report.seconds.global_steps + report.seconds.preprocess <=
+        report.seconds.total);
+}
+
+void test_stop()
+{
+  const auto at = [](unsigned int k, Visitor_action action) {
+    return [k, action](const auto& iterate) {
+      return iterate.iteration() == k ? action : Visitor_action::proceed;
+    };
+  };
+  Mesh five = make_mesh<Mesh>(shape);
+  Deformation d(five);
+  prepare(d, scenario(shape), all_vertices(five));
+  CHECK(d.deform(5, 0));
+
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation e(mesh);
+  prepare(e, scenario(shape), all_vertices(mesh));
+  const Report stopped = e.deform(100, 0, at(5, Visitor_action::stop));
+  CHECK(stopped.status == Status::stopped);
+  CHECK(stopped && stopped.iterations == 5);
+  CHECK(same_points(mesh, five));
+
+  const Mesh before = mesh;
+  const double energy = e.energy();
+  const auto rotation = e.rotation(Vertex(40));
+  for(Vertex v : e.control_vertices())
+    e.translate(v, Kernel::Vector_3(0, 0, 1));
+  const auto check_unchanged = [&] {
+    CHECK(same_points(mesh, before));
+    CHECK(e.energy() == energy);
+    CHECK(e.rotation(Vertex(40)) == rotation);
+  };
+  const Report cancelled = e.deform(100, 0, at(5, Visitor_action::cancel));
+  CHECK(cancelled.status == Status::cancelled);
+  CHECK(!cancelled);
+  check_unchanged();
+
+  bool is_caught = false;
+  try
+  {
+    e.deform(100, 0, [](const auto& iterate) {
+      if(iterate.iteration() == 3)
+        throw std::runtime_error("the user's own");
+      return Visitor_action::proceed;
+    });
+  }
+  catch(const std::runtime_error&)
+  {
+    is_caught = true;
+  }
+  CHECK(is_caught);
+  check_unchanged();
+
+  // and it still does what it would have done
+  for(Vertex v : d.control_vertices())
+    d.translate(v, Kernel::Vector_3(0, 0, 1));
+  CHECK(d.deform(7, 0) && e.deform(7, 0));
+  CHECK(same_points(mesh, five));
+}
+
+void test_checks()
+{
+  Report report;
+  report.energy_scale = 1;
+  report.energy = {3, 2, 1, 1};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  report.energy = {3, 2, 2 + 1e-17, 2.1, 1};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 3);
+  report.energy = {1, std::nan("")};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 1);
+  CHECK(CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 0, 0, 0, 1}));
+  CHECK(!CGAL::ARAP::is_rotation({0, 1, 0, 1, 0, 0, 0, 0, 1}));    // a reflection
+  CHECK(!CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 1e-9, 0, 0, 1})); // sheared a little
+
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  CHECK(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) == 0);
+  for(Vertex v : mesh.vertices())
+    mesh.point(v) = CGAL::ORIGIN + 1.25 * (mesh.point(v) - CGAL::ORIGIN);
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) -
+                 0.25) < 1e-14);
+}
+
+// For a geometric series of decreases the extrapolated gap is exact.
+void test_gap()
+{
+  using CGAL::ARAP::internal::estimate_relative_gap;
+  std::vector<double> energy;
+  for(int k = 0; k < 30; ++k)
+  {
+    energy.push_back(2 + std::pow(0.8, k));
+    const double gap = std::pow(0.8, k) / 2;
+    if(k >= 4)
+      CHECK_AT_MOST(std::abs(estimate_relative_gap(energy, 1) - gap), 1e-8 * gap);
+    else
+      CHECK(std::isinf(estimate_relative_gap(energy, 1)));
+  }
+  energy.push_back(energy.back());
+  CHECK(estimate_relative_gap(energy, 1) == 0);
+  CHECK(std::isinf(estimate_relative_gap({5, 4, 3, 2, 1}, 1))); // no end in sight
+}
+
+int main()
+{
+  test_statuses();
+  test_iterates();
+  test_stop();
+  test_checks();
+  test_gap();
+  return checks_result();
+}
