@@ -31,8 +31,9 @@
 namespace CGAL {
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a shape as rigidly as possible \cgalCite{cgal:sa-asrap-07}: some of its vertices
-/// are put at target positions, and the others follow so that every small part only rotates.
+/// \brief deforms a shape as rigidly as possible \cgalCite{Sorkine2007AsRigidAs}: some of its
+/// vertices are put at target positions, and the others follow so that every small part only
+/// rotates.
 ///
 /// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
 /// move: the *control vertices* among them go to their targets, the others are *free* and are
@@ -56,11 +57,14 @@ public:
   /// @{
   using Deformation_traits = Traits_; ///< the traits.
   using Deformation_domain = Domain_; ///< the domain.
-  using Point = typename Domain_::Point;
-  using vertex_descriptor = typename Domain_::vertex_descriptor;
+  using Point = typename Domain_::Point; ///< a point of the mesh.
+  using vertex_descriptor = typename Domain_::vertex_descriptor; ///< a vertex of the mesh.
   using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face of a surface.
-  using Iterate =
-    typename ARAP::internal::Session<Domain_, Traits_>::Iterate; ///< a model of `ARAPIterate`.
+#ifdef DOXYGEN_RUNNING
+  using Iterate = unspecified_type; ///< what a visitor is given, a model of `ARAPIterate`.
+#else
+  using Iterate = typename ARAP::internal::Session<Domain_, Traits_>::Iterate;
+#endif
   /// @}
 
   /// \name Construction
@@ -77,7 +81,10 @@ public:
     : m_session(std::move(domain), traits)
   {}
 
+  /// moves. What is moved from can only be assigned to or destroyed.
   ARAP_deformation(ARAP_deformation&&) = default;
+
+  /// moves. What is moved from can only be assigned to or destroyed.
   ARAP_deformation& operator=(ARAP_deformation&&) = default;
 
   /// returns the options.

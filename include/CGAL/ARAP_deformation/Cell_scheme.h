@@ -33,12 +33,12 @@ enum class Edge_set
 class Cell_scheme
 {
 public:
-  /// the cells of Sorkine and Alexa \cgalCite{cgal:sa-asrap-07}: one for each vertex, with the
+  /// the cells of Sorkine and Alexa \cgalCite{Sorkine2007AsRigidAs}: one for each vertex, with the
   /// edges to its neighbours.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
   /// one cell for each vertex, with the three edges of each incident triangle
-  /// \cgalCite{Cgal:CSBG10}. Never negative with cotangent weights; the default.
+  /// \cgalCite{Chao2010SimpleGeomModel}. Never negative with cotangent weights; the default.
   static constexpr Cell_scheme spokes_and_rims() { return Cell_scheme(Edge_set::simplex, true); }
 
   /// one cell for each triangle. On surfaces nothing resists bending: a membrane that folds freely.

@@ -37,8 +37,13 @@ namespace ARAP {
 class Eigen_cholesky_solver
 {
 public:
+  /// constructs a solver that has nothing analyzed.
   Eigen_cholesky_solver() = default;
+
+  /// moves, with the factor.
   Eigen_cholesky_solver(Eigen_cholesky_solver&&) = default;
+
+  /// moves, with the factor.
   Eigen_cholesky_solver& operator=(Eigen_cholesky_solver&&) = default;
 
   /// constructs a solver that has nothing analyzed: factors are not copied.

@@ -69,6 +69,7 @@ public:
   /// the type of a point.
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;
 
+  /// a vertex.
   using vertex_descriptor = typename Graph_traits::vertex_descriptor;
 
   /// a face.

@@ -29,8 +29,9 @@ enum class Initial_guess
 {
   previous, ///< the current positions: right for interaction, where each frame starts from the last
   laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the held
-            ///< positions, with \f$L\f$ the Laplacian of the edge weights and \f$p\f$ the rest
-            ///< shape. It costs a second factorization, of \f$L^T L\f$, at its first use.
+            ///< positions, with \f$L\f$ the Laplacian of the weights of stars, whatever the cells,
+            ///< and \f$p\f$ the rest shape. It costs a second factorization, of \f$L^T L\f$, at its
+            ///< first use after a preprocessing.
 };
 
 /// \ingroup PkgARAPDeformationOptions
@@ -45,11 +46,11 @@ struct Options
 
   /// the largest number of iterations of a run; 0 only moves to the initial guess.
   /// Two or three a frame are enough in an interactive program.
-  unsigned int iterations = 100;
+  unsigned int iterations = 1000;
 
   /// the run ends when `Report::estimated_relative_gap` is at most this; not negative.
   /// 0 runs all iterations.
-  double tolerance = 1e-3;
+  double tolerance = 1e-2;
 
   /// returns `Status::success`, or `Status::invalid_option` and a sentence that names the option.
   Outcome check() const

@@ -59,7 +59,7 @@ struct Report : Outcome
   std::size_t free_vertices = 0; ///< vertices whose positions were solved for
   std::size_t simplices = 0;     ///< triangles in the region that was considered
 
-  Phase_seconds seconds;
+  Phase_seconds seconds; ///< where the time went
 };
 
 } // namespace ARAP

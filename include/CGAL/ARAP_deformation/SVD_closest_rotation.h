@@ -31,10 +31,10 @@ namespace ARAP {
 ///
 /// With \f$C = U \Sigma V^T\f$ the closest rotation is \f$U V^T\f$, where the sign of the column of
 /// \f$U\f$ with the smallest singular value is such that the determinant is \f$+1\f$ (Equation (6)
-/// of \cgalCite{cgal:sa-asrap-07}, whose \f$S\f$ is \f$C^T\f$). The decomposition is computed by
-/// one-sided Jacobi rotations, which are accurate for small singular values too. Where the closest
-/// rotation is not unique the choice is fixed: for a matrix of rank one the smallest rotation among
-/// the closest ones, for the zero matrix the identity.
+/// of \cgalCite{Sorkine2007AsRigidAs}, whose \f$S\f$ is \f$C^T\f$). The decomposition is computed
+/// by one-sided Jacobi rotations, which are accurate for small singular values too. Where the
+/// closest rotation is not unique the choice is fixed: for a matrix of rank one the smallest
+/// rotation among the closest ones, for the zero matrix the identity.
 ///
 /// \cgalModels{ARAPClosestRotation_3}
 class SVD_closest_rotation

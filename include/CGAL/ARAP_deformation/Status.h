@@ -81,15 +81,18 @@ inline const char* to_string(Status status)
 /// It converts to `true` if `succeeded(status)`.
 struct Outcome
 {
-  Status status = Status::not_run;
-  std::string message = "nothing was run yet";
+  Status status = Status::not_run;             ///< the status.
+  std::string message = "nothing was run yet"; ///< the sentence.
 
+  /// constructs the outcome of a call that was not made.
   Outcome() = default;
 
+  /// constructs an outcome from its parts.
   Outcome(Status status_, std::string message_)
     : status(status_), message(std::move(message_))
   {}
 
+  /// returns `succeeded(status)`.
   explicit operator bool() const { return succeeded(status); }
 };
 

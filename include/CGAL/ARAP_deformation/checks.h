@@ -58,7 +58,8 @@ inline std::size_t first_rise_of_energy(const Report& report)
 
 /// \ingroup PkgARAPDeformationChecks
 /// \brief returns the relative root mean square error of the edge lengths,
-/// \f$\sqrt{\sum (l' - l)^2 / \sum l^2}\f$ over all edges (Table 1 of \cgalCite{cgal:sa-asrap-07}).
+/// \f$\sqrt{\sum (l' - l)^2 / \sum l^2}\f$ over all edges (Table 1 of
+/// \cgalCite{Sorkine2007AsRigidAs}).
 ///
 /// \param mesh a model of `EdgeListGraph`
 /// \param rest_points a readable property map to the points of the rest shape, lengths \f$l\f$

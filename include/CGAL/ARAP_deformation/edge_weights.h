@@ -28,7 +28,7 @@ namespace ARAP {
 ///
 /// The edge of a triangle weighs half the cotangent of the opposite angle, the edge of a star the
 /// sum over its triangles: \f$w_{ij} = (\cot \alpha_{ij} + \cot \beta_{ij}) / 2\f$
-/// \cgalCite{cgal:pp-cdmsc-93}. With simplices as edge sets the energy is never negative. With
+/// \cgalCite{Pinkall1993Cotangent}. With simplices as edge sets the energy is never negative. With
 /// stars it can be where angles are obtuse, and its minimum is then a distorted shape:
 /// prefer `Safe_cotangent_weight`.
 ///
@@ -97,7 +97,7 @@ public:
 /// \brief 1 for each edge of each edge set, whatever the shape.
 ///
 /// Needs no geometry and never fails, but the result depends on how the shape is meshed (Figure 2
-/// of \cgalCite{cgal:sa-asrap-07}).
+/// of \cgalCite{Sorkine2007AsRigidAs}).
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Uniform_weight

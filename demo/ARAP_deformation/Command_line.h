@@ -1,0 +1,178 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H
+
+#include <CGAL/ARAP_deformation/Options.h>
+
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// a command line that the command does not understand; the sentence names the option
+struct Usage_error : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+enum class Weight_choice { safe_cotangent, cotangent, clamped_cotangent, uniform };
+
+struct Command_line
+{
+  bool is_help = false;
+  bool is_quiet = false;
+  std::string mesh, selection, transform, output; // files
+  std::string report, image;                      // files, empty if not asked for
+  Weight_choice weights = Weight_choice::safe_cotangent;
+  Options options;
+};
+
+// the value that a name stands for
+template <typename Value>
+Value chosen(const std::string& option, const std::string& name,
+             const std::vector<std::pair<std::string, Value>>& choices)
+{
+  std::string names;
+  for(const auto& [choice, value] : choices)
+  {
+    if(choice == name)
+      return value;
+    names += (names.empty() ? "" : ", ") + choice;
+  }
+  throw Usage_error("--" + option + " '" + name + "' is not known; it is one of " + names);
+}
+
+inline boost::program_options::options_description described_options()
+{
+  using boost::program_options::value;
+  const Options defaults;
+  boost::program_options::options_description input("Input and output"), run("The deformation"),
+    other("Other");
+  input.add_options()
+    ("selection", value<std::string>()->value_name("S.sel")->required(),
+     "one line per vertex: 0 fixed, 1 free, 2 handle; # starts a comment")
+    ("transform", value<std::string>()->value_name("T.def")->required(),
+     "4 x 4 affine matrix, row by row, applied to the handle vertices")
+    ("output,o", value<std::string>()->value_name("OUT")->required(),
+     "the deformed mesh: .off, .obj, .ply or .stl")
+    ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
+     "write what was done as JSON")
+    ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
+     "write a picture of the shape before and after, held vertices red, handles yellow; needs the "
+     "program povray");
+  run.add_options()
+    ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
+     "which edges share a rotation: spokes, spokes_and_rims, elements")
+    ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
+     "cotangent, clamped_cotangent, uniform, or safe_cotangent: clamped for spokes, as they are "
+     "for the other cells")
+    ("minimizer", value<std::string>()->default_value("local_global")->value_name("NAME"),
+     "local_global, the iteration of the paper")
+    ("initial_guess", value<std::string>()->default_value("previous")->value_name("NAME"),
+     "where to start: previous (the input with the handles moved), laplacian")
+    ("iterations", value<int>()->default_value(static_cast<int>(defaults.iterations))
+       ->value_name("N"), "run at most N iterations")
+    ("tolerance", value<double>()->default_value(defaults.tolerance, "0.01")->value_name("T"),
+     "stop when the energy is estimated to be within a fraction T of its minimum; 0: run all N");
+  other.add_options()
+    ("quiet", "print nothing but errors")
+    ("help,h", "print this and exit");
+  return input.add(run).add(other);
+}
+
+inline void print_help(std::ostream& out)
+{
+  out << "usage: arap_deform MESH --selection S.sel --transform T.def -o OUT [options]\n\n"
+         "Deforms a triangulated surface as rigidly as possible: the handle vertices are\n"
+         "transformed, the fixed ones stay, and the free ones follow so that every small\n"
+         "part of the surface only rotates (Sorkine and Alexa 2007).\n\n"
+         "MESH is an .off, .obj, .ply or .stl file. Its vertices are numbered as in the\n"
+         "file (.stl: in the order in which they first appear).\n\n"
+      << described_options()
+      << "\nThe report has the fields status, message, vertices, simplices (triangles),\n"
+         "free_vertices, iterations, energy (one number for the initial guess and one after\n"
+         "each iteration), estimated_relative_gap (to the minimum, null if not known),\n"
+         "edge_length_error (relative root mean square), inverted_simplices (tetrahedra that\n"
+         "are inside out; a surface has none), seconds (load, preprocess, deform) and\n"
+         "peak_memory_bytes.\n\n"
+         "Exit status: 0 done, 1 could not be done, 2 wrong usage. Where it is not 0 no\n"
+         "output file is written, and existing ones are left as they were.\n";
+}
+
+inline Command_line parse_command_line(int argc, char** argv)
+{
+  namespace po = boost::program_options;
+  po::options_description all = described_options();
+  all.add_options()("mesh", po::value<std::string>()->required());
+  po::variables_map values;
+  try
+  {
+    po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(po::positional_options_description().add("mesh", 1))
+                .style(po::command_line_style::default_style &
+                       ~po::command_line_style::allow_guessing)
+                .run(), values);
+    Command_line line;
+    line.is_help = values.count("help") > 0;
+    if(line.is_help)
+      return line;
+    if(!values.count("mesh"))
+      throw Usage_error("no mesh is given");
+    po::notify(values);
+
+    line.is_quiet = values.count("quiet") > 0;
+    line.mesh = values["mesh"].as<std::string>();
+    line.selection = values["selection"].as<std::string>();
+    line.transform = values["transform"].as<std::string>();
+    line.output = values["output"].as<std::string>();
+    line.report = values["report"].as<std::string>();
+    line.image = values["image"].as<std::string>();
+    line.weights = chosen<Weight_choice>(
+      "weights", values["weights"].as<std::string>(),
+      {{"cotangent", Weight_choice::cotangent},
+       {"clamped_cotangent", Weight_choice::clamped_cotangent},
+       {"uniform", Weight_choice::uniform},
+       {"safe_cotangent", Weight_choice::safe_cotangent}});
+    line.options.cells = chosen<Cell_scheme>(
+      "cells", values["cells"].as<std::string>(),
+      {{"spokes", Cell_scheme::spokes()},
+       {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+       {"elements", Cell_scheme::elements()}});
+    chosen<int>("minimizer", values["minimizer"].as<std::string>(), {{"local_global", 0}});
+    line.options.initial_guess = chosen<Initial_guess>(
+      "initial_guess", values["initial_guess"].as<std::string>(),
+      {{"previous", Initial_guess::previous}, {"laplacian", Initial_guess::laplacian}});
+    if(values["iterations"].as<int>() < 0)
+      throw Usage_error("--iterations must be 0 or larger");
+    line.options.iterations = static_cast<unsigned int>(values["iterations"].as<int>());
+    line.options.tolerance = values["tolerance"].as<double>();
+    if(const Outcome checked = line.options.check(); !checked)
+      throw Usage_error(checked.message);
+    return line;
+  }
+  catch(const po::error& error)
+  {
+    throw Usage_error(error.what());
+  }
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H

@@ -1,0 +1,350 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_SCENE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_SCENE_H
+
+// Pictures of triangulated shapes in the manner of the figures of Sorkine and Alexa 2007, drawn by
+// the ray tracer POV-Ray, which needs neither a display nor a library.
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <random>
+#include <set>
+#include <ostream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+using Vector = CGAL::Simple_cartesian<double>::Vector_3;
+using Points = std::vector<std::array<double, 3>>;
+
+// One shape of a picture. The selection has a number per vertex, as in .sel files: 0 fixed (drawn
+// red), 1 free (pale), 2 handle (yellow). Without a selection all vertices are free.
+struct Panel
+{
+  Points points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> selection;
+  std::string caption;
+};
+
+// How the panels of a picture are seen: all from the same side and at the same scale.
+struct View
+{
+  Vector from{0.4, -1, 0.3}; // direction from the shape to the eye
+  Vector up{0, 0, 1};        // also the normal of the ground
+  int width = 480;           // of one panel, in pixels
+  int height = 640;
+  bool show_edges = false;   // draw the edges of the triangles as thin lines
+  bool show_ground = true;   // let the shapes cast a shadow on the ground under them
+};
+
+// A view on the broad side of the shape, a bit from the right and from above. Up is the longest
+// axis if there is a distinct one, the normal of a flat shape, and else the y axis.
+inline View default_view(const Points& points)
+{
+  CGAL::Bbox_3 box;
+  for(const auto& [x, y, z] : points)
+    box += CGAL::Bbox_3(x, y, z, x, y, z);
+  const std::array<double, 3> size{box.x_span(), box.y_span(), box.z_span()};
+  std::array<int, 3> axes{0, 1, 2}; // from the shortest to the longest
+  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return size[a] < size[b]; });
+
+  const bool is_long = size[axes[2]] > 1.25 * size[axes[1]];
+  const bool is_flat = !is_long && size[axes[0]] < 0.25 * size[axes[1]];
+  const int up = is_long ? axes[2] : is_flat ? axes[0] : 1;
+  const int front = up == axes[0] ? axes[1] : axes[0];
+
+  std::array<double, 3> from, upwards{0, 0, 0};
+  from.fill(0.45);
+  from[front] = front == 1 ? -1 : 1; // so that the remaining axis points to the right
+  from[up] = is_flat ? 0.8 : 0.3;
+  upwards[up] = 1;
+
+  View view;
+  view.from = Vector(from[0], from[1], from[2]);
+  view.up = Vector(upwards[0], upwards[1], upwards[2]);
+  if(!is_long)
+    view.width = view.height;
+  return view;
+}
+
+namespace internal {
+
+inline Vector unit(const Vector& v) { return v / std::sqrt(v.squared_length()); }
+
+// Vectors and lists in the syntax of POV-Ray.
+struct Pov { const Vector& vector; };
+
+inline std::ostream& operator<<(std::ostream& out, const Pov& p)
+{
+  return out << '<' << p.vector.x() << ',' << p.vector.y() << ',' << p.vector.z() << '>';
+}
+
+template <typename Range, typename Write_item>
+void write_list(std::ostream& out, const char* name, const Range& range, Write_item write_item)
+{
+  out << name << " { " << range.size();
+  for(const auto& item : range)
+    write_item(item, out << ",\n");
+  out << " }\n";
+}
+
+// The triangles with smooth normals. Each corner has the texture of its vertex, and POV-Ray blends.
+// Held vertices that no triangle shows, as none has all corners held alike, are drawn as balls.
+inline void write_surface(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
+{
+  const std::vector<int>& selection = panel.selection;
+  std::vector<Vector> normals(points.size(), Vector(0, 0, 0));
+  std::vector<bool> is_shown(points.size(), false);
+  for(const auto& [a, b, c] : panel.triangles) {
+    const Vector n = CGAL::cross_product(points[b] - points[a], points[c] - points[a]);
+    for(int v : {a, b, c})
+      normals[v] += n; // its length weights it by the area
+    if(selection[a] == selection[b] && selection[b] == selection[c])
+      is_shown[a] = is_shown[b] = is_shown[c] = true;
+  }
+  for(Vector& n : normals) // POV-Ray wants some normal even where there is none
+    n = n.squared_length() > 0 ? unit(n) : Vector(0, 0, -1);
+
+  const auto write_vector = [](const Vector& v, std::ostream& list) { list << Pov{v}; };
+  out << "mesh2 {\n";
+  write_list(out, "vertex_vectors", points, write_vector);
+  write_list(out, "normal_vectors", normals, write_vector);
+  out << "texture_list { 3, texture { Fixed } texture { Free } texture { Handle } }\n";
+  write_list(out, "face_indices", panel.triangles, [&](const auto& t, std::ostream& list) {
+    list << '<' << t[0] << ',' << t[1] << ',' << t[2] << '>';
+    for(int v : t)
+      list << ',' << selection[v];
+  });
+  out << "}\n";
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(selection[v] != 1 && !is_shown[v])
+      out << "sphere { " << Pov{points[v]} << ", Ball texture { "
+          << (selection[v] == 0 ? "Fixed" : "Handle") << " } }\n";
+}
+
+inline void write_edges(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
+{
+  std::set<std::pair<int, int>> edges;
+  for(const auto& t : panel.triangles)
+    for(int i = 0; i < 3; ++i)
+      edges.insert(std::minmax({t[i], t[(i + 1) % 3]}));
+  for(const auto& [a, b] : edges)
+    if(points[a] != points[b]) // POV-Ray takes no cylinder without length
+      out << "cylinder { " << Pov{points[a]} << ", " << Pov{points[b]}
+          << ", Line_radius texture { Line } no_shadow }\n";
+}
+
+// The text with a backslash before each of the special characters.
+inline std::string escaped(const std::string& text, const std::string& special)
+{
+  std::string result;
+  for(char c : text) {
+    if(special.find(c) != std::string::npos)
+      result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+// What all scenes share. The declarations of Width, Height, Ground and Ground_height, which precede
+// it, are in pixels. The ground has a light of its own, straight above, so that its soft shadow
+// stays below each shape; it is bright enough to be white where there is no shadow.
+inline constexpr const char* stage = R"(
+#declare Far = 20 * max(Width, Height);
+#declare Soft = Far / 3;
+#declare Ball = 0.012 * Height;
+#declare Paint = finish { ambient 0 emission 0.03 diffuse 0.8 specular 0.12 roughness 0.05 }
+#declare Fixed = texture { pigment { srgb <0.82, 0.14, 0.12> } finish { Paint } }
+#declare Free = texture { pigment { srgb <0.80, 0.84, 0.90> } finish { Paint } }
+#declare Handle = texture { pigment { srgb <0.98, 0.80, 0.10> } finish { Paint } }
+#declare Line_radius = 0.5;
+#declare Line = texture { pigment { srgb <0.18, 0.20, 0.26> } finish { emission 1 diffuse 0 } }
+#macro Caption(Text, X, Size)
+  #local Letters = text { internal 2 Text 0.01, 0 }
+  object { Letters
+    translate -x * (min_extent(Letters) + max_extent(Letters)).x / 2
+    scale Size
+    translate <X, Size - Height / 2, -Far / 2>
+    texture { Line } no_shadow }
+#end
+background { rgb 1 }
+camera { orthographic location -z * Far direction z right x * Width up y * Height }
+light_source { Far * vnormalize(<-0.6, 0.9, -1>) srgb 1
+  area_light x * Soft, y * Soft, 5, 5 adaptive 1 jitter circular orient }
+light_source { Far * vnormalize(<1, 0.1, -0.6>) srgb 0.45 shadowless }
+light_source { Far * vnormalize(<0.1, 0.2, -1>) srgb 0.55 shadowless }
+#ifdef (Ground)
+  light_group {
+    light_source { Far * Ground rgb 1
+      area_light x * Soft, z * Soft, 9, 9 adaptive 1 jitter circular orient }
+    disc { y * Ground_height / Ground.y, Ground, Far / 10
+      pigment { rgb 1 } finish { ambient 0 emission 0.3 diffuse 0.73 } }
+    global_lights off
+  }
+#end
+)";
+
+// A new folder, which goes away with everything in it.
+struct Temporary_folder
+{
+  std::filesystem::path path;
+
+  Temporary_folder()
+  {
+    const auto parent = std::filesystem::absolute(std::filesystem::temp_directory_path());
+    do
+      path = parent / ("arap_scene_" + std::to_string(std::random_device()()));
+    while(!std::filesystem::create_directory(path)); // false if it exists
+  }
+  Temporary_folder(const Temporary_folder&) = delete;
+  ~Temporary_folder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+// The messages of POV-Ray since its last headline, which say why it stopped.
+inline std::string last_messages(const std::filesystem::path& file)
+{
+  std::ifstream in(file);
+  std::string result;
+  for(std::string word; in >> word;)
+    result = word.find("====") == 0 ? "" : result + ' ' + word;
+  return result;
+}
+
+} // namespace internal
+
+// Writes the panels in a row as a scene for POV-Ray, in which a unit is a pixel of the picture.
+// The captions should be plain ASCII: the fonts that come with POV-Ray have little else.
+inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View& view)
+{
+  // The axes of the viewer. POV-Ray's are left-handed: x to the right, y up, z away from the eye.
+  const Vector right = internal::unit(CGAL::cross_product(view.up, view.from));
+  const Vector up = internal::unit(CGAL::cross_product(view.from, right));
+  const Vector away = -internal::unit(view.from);
+  const auto eye = [&](const Vector& v) { return Vector(right * v, up * v, away * v); };
+
+  std::vector<std::vector<Vector>> seen(panels.size());
+  std::vector<CGAL::Bbox_3> boxes(panels.size());
+  CGAL::Bbox_3 all;
+  double widest = 0;
+  bool has_captions = false;
+  for(std::size_t k = 0; k < panels.size(); ++k) {
+    panels[k].selection.resize(panels[k].points.size(), 1);
+    for(const auto& [x, y, z] : panels[k].points) {
+      seen[k].push_back(eye(Vector(x, y, z)));
+      boxes[k] += (CGAL::ORIGIN + seen[k].back()).bbox();
+    }
+    all += boxes[k];
+    widest = (std::max)(widest, boxes[k].x_span());
+    has_captions = has_captions || !panels[k].caption.empty();
+  }
+
+  // Each panel is centred in its slot from left to right, but all stand on the same ground.
+  const double width = double(view.width) * panels.size();
+  const double letters = has_captions ? 0.04 * view.height : 0;
+  const double margin = 0.06 * (std::min)(view.width, view.height);
+  const double scale = (std::min)((view.width - 2 * margin) / widest,
+                                  (view.height - 2 * margin - 2 * letters) / all.y_span());
+  const Vector ground = eye(internal::unit(view.up));
+  double ground_height = (std::numeric_limits<double>::max)();
+  const auto slot = [&](std::size_t k) { return (k + 0.5) * view.width - width / 2; };
+  for(std::size_t k = 0; k < panels.size(); ++k) {
+    const Vector middle((boxes[k].xmin() + boxes[k].xmax()) / 2, (all.ymin() + all.ymax()) / 2,
+                        (all.zmin() + all.zmax()) / 2);
+    for(Vector& p : seen[k]) {
+      p = Vector(slot(k), letters, 0) + scale * (p - middle);
+      ground_height = (std::min)(ground_height, ground * p);
+    }
+  }
+
+  out << "#version 3.7;\n"
+      << "global_settings { assumed_gamma 1 }\n"
+      << "#declare Width = " << width << ";\n"
+      << "#declare Height = " << view.height << ";\n";
+  if(view.show_ground && ground.z() < 0) // from below, the ground would hide everything
+    out << "#declare Ground = " << internal::Pov{ground} << ";\n"
+        << "#declare Ground_height = " << ground_height - 0.5 << ";\n"; // just under the shape
+  out << internal::stage;
+  for(std::size_t k = 0; k < panels.size(); ++k) {
+    internal::write_surface(out, panels[k], seen[k]);
+    if(view.show_edges)
+      internal::write_edges(out, panels[k], seen[k]);
+    if(!panels[k].caption.empty())
+      out << "Caption(\"" << internal::escaped(panels[k].caption, "\\\"") << "\", " << slot(k)
+          << ", " << letters << ")\n";
+  }
+}
+
+// Draws the panels in a row and writes them to a PNG file; returns a sentence on what went wrong,
+// if something did. POV-Ray works in a folder of its own, for its files and its messages, and the
+// picture takes the place of an older one only when it is complete.
+inline std::optional<std::string> render(const std::vector<Panel>& panels,
+                                         const View& view,
+                                         const std::filesystem::path& picture)
+{
+  namespace fs = std::filesystem;
+  for(const Panel& panel : panels)
+    for(const auto& [x, y, z] : panel.points)
+      if(!std::isfinite(x + y + z))
+        return "There is no picture of a shape whose coordinates are not finite.";
+  fs::path complete = picture;
+  try {
+    const internal::Temporary_folder folder;
+    std::ofstream scene(folder.path / "scene.pov");
+    write_scene(scene, panels, view);
+    scene.close();
+    if(!scene)
+      return "The scene of the picture could not be written to " + folder.path.string() + ".";
+    // No name that a user chose reaches the shell, and the folder of the files is quoted for it.
+    const auto povray = [&](const std::string& options) {
+      const std::string path = internal::escaped(folder.path.generic_string(), "\\\"$`");
+      return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
+    };
+    if(povray("--version") != 0)
+      return "Pictures are drawn by POV-Ray, but its program povray was not found.";
+    const std::string width = std::to_string(view.width * panels.size());
+    if(povray("+Iscene.pov +Opicture.png +FN +W" + width + " +H" + std::to_string(view.height) +
+              " +A0.15 +AM2 +R2 -D -V -P") != 0)
+      return "POV-Ray could not draw the picture:" +
+             internal::last_messages(folder.path / "messages");
+    complete += "." + folder.path.filename().string(); // a name that nobody else uses
+    fs::copy_file(folder.path / "picture.png", complete);
+    fs::rename(complete, picture);
+    return std::nullopt;
+  } catch(const fs::filesystem_error& error) {
+    std::error_code ignored;
+    if(complete != picture)
+      fs::remove(complete, ignored);
+    return std::string("The picture could not be written: ") + error.what();
+  }
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_SCENE_H

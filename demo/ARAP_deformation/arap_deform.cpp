@@ -1,0 +1,257 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The command arap_deform: deforms a mesh file as rigidly as possible. See arap_deform --help.
+
+#include "Command_line.h"
+#include "mesh_panel.h"
+#include "shape_files.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/Real_timer.h>
+
+#include <nlohmann/json.hpp>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::ARAP::demo;
+using CGAL::ARAP::Report;
+
+// Edge weights that are chosen at run time: one instantiation of the deformation serves them all.
+class Chosen_weight
+{
+public:
+  explicit Chosen_weight(Weight_choice choice)
+  {
+    switch(choice)
+    {
+    case Weight_choice::safe_cotangent: break;
+    case Weight_choice::cotangent: m_weight = CGAL::ARAP::Cotangent_weight(); break;
+    case Weight_choice::clamped_cotangent: m_weight = CGAL::ARAP::Clamped_cotangent_weight(); break;
+    case Weight_choice::uniform: m_weight = CGAL::ARAP::Uniform_weight(); break;
+    }
+  }
+
+  std::array<double, 3>
+  simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const
+  {
+    return std::visit([&](const auto& w) { return w.simplex_weights(triangle); }, m_weight);
+  }
+
+  double edge_weight(CGAL::ARAP::Edge_set edge_set, double sum) const
+  {
+    return std::visit([&](const auto& w) { return w.edge_weight(edge_set, sum); }, m_weight);
+  }
+
+private:
+  std::variant<CGAL::ARAP::Safe_cotangent_weight, CGAL::ARAP::Cotangent_weight,
+               CGAL::ARAP::Clamped_cotangent_weight, CGAL::ARAP::Uniform_weight> m_weight;
+};
+
+using Traits = CGAL::ARAP_deformation_traits_3<CGAL::ARAP::Eigen_cholesky_solver, Chosen_weight>;
+using Deformation = CGAL::ARAP_deformation<Mesh, Traits>;
+
+// what the command did, beyond what the deformation reports
+struct Result
+{
+  Report report;
+  double edge_length_error = 0;
+  double load_seconds = 0;
+};
+
+bool is_terminal()
+{
+#if defined(__unix__) || defined(__APPLE__)
+  return isatty(STDERR_FILENO) != 0;
+#else
+  return false;
+#endif
+}
+
+std::optional<long long> peak_memory_bytes()
+{
+#if defined(__unix__) || defined(__APPLE__)
+  rusage usage;
+  if(getrusage(RUSAGE_SELF, &usage) == 0)
+#if defined(__APPLE__)
+    return usage.ru_maxrss;
+#else
+    return 1024LL * usage.ru_maxrss;
+#endif
+#endif
+  return std::nullopt;
+}
+
+void write_report(const Output_file& file, const Result& result, const Mesh& mesh)
+{
+  const Report& report = result.report;
+  nlohmann::ordered_json json;
+  json["status"] = to_string(report.status);
+  json["message"] = report.message;
+  json["vertices"] = mesh.number_of_vertices();
+  json["simplices"] = mesh.number_of_faces();
+  json["free_vertices"] = report.free_vertices;
+  json["iterations"] = report.iterations;
+  json["energy"] = report.energy;
+  json["estimated_relative_gap"] = nullptr;
+  if(std::isfinite(report.estimated_relative_gap))
+    json["estimated_relative_gap"] = report.estimated_relative_gap;
+  json["edge_length_error"] = result.edge_length_error;
+  json["inverted_simplices"] = 0; // a triangle in space has no inside: only tetrahedra are counted
+  json["seconds"] = {{"load", result.load_seconds},
+                     {"preprocess", report.seconds.preprocess},
+                     {"deform", report.seconds.total - report.seconds.preprocess}};
+  json["peak_memory_bytes"] = nullptr;
+  if(const auto bytes = peak_memory_bytes())
+    json["peak_memory_bytes"] = *bytes;
+  std::ofstream out(file.temporary());
+  out << std::setw(2) << json << '\n';
+  if(!out.flush())
+    throw file.failure();
+}
+
+// Deforms `mesh`, of which `rest` is a copy.
+Result deform(const Command_line& line, const Mesh& rest, Mesh& mesh,
+              const std::vector<int>& selection, const Transform& transform)
+{
+  Deformation deformation(mesh, Traits({}, Chosen_weight(line.weights)));
+  deformation.set_options(line.options);
+  for(Mesh::Vertex_index v : mesh.vertices())
+  {
+    if(selection[v] != FIXED)
+      deformation.insert_roi_vertex(v);
+    if(selection[v] == HANDLE)
+    {
+      deformation.insert_control_vertex(v);
+      deformation.set_target_position(v, transformed(transform, rest.point(v)));
+    }
+  }
+
+  const bool is_shown = !line.is_quiet && is_terminal();
+  Result result;
+  result.report = deformation.deform([&](const Deformation::Iterate& iterate) {
+    if(is_shown)
+      std::cerr << "\riteration " << iterate.iteration() << " of at most "
+                << line.options.iterations << ", energy " << iterate.energy() << "   "
+                << std::flush;
+    return CGAL::ARAP::Visitor_action::proceed;
+  });
+  if(is_shown)
+    std::cerr << "\r\033[K" << std::flush;
+  if(!result.report)
+    throw std::runtime_error(line.mesh + ": " + result.report.message);
+  result.edge_length_error =
+    CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points());
+  return result;
+}
+
+void print_summary(const Command_line& line, const Result& result, const Mesh& mesh)
+{
+  const Report& report = result.report;
+  std::cout << line.mesh << ": " << mesh.number_of_vertices() << " vertices, "
+            << report.free_vertices << " free\n"
+            << report.iterations << " iterations: " << report.message << '\n'
+            << "energy " << report.energy.front() << " -> " << report.energy.back()
+            << ", edge length error " << result.edge_length_error << '\n'
+            << "seconds: load " << result.load_seconds << ", preprocess "
+            << report.seconds.preprocess << ", deform "
+            << report.seconds.total - report.seconds.preprocess << '\n'
+            << "written: " << line.output;
+  for(const std::string& file : {line.report, line.image})
+    if(!file.empty())
+      std::cout << ", " << file;
+  std::cout << '\n';
+}
+
+void run(const Command_line& line)
+{
+  CGAL::Real_timer load_timer;
+  load_timer.start();
+  Mesh mesh = read_mesh(line.mesh);
+  const std::vector<int> selection = read_selection(line.selection, mesh.number_of_vertices());
+  const Transform transform = read_transform(line.transform);
+  load_timer.stop();
+
+  // opened before the work, so that nothing is computed in vain
+  check_mesh_extension(line.output);
+  Output_file output(line.output);
+  std::optional<Output_file> report, image;
+  if(!line.report.empty())
+    report.emplace(line.report);
+  if(!line.image.empty())
+    image.emplace(line.image);
+
+  const Mesh rest = mesh;
+  Result result = deform(line, rest, mesh, selection, transform);
+  result.load_seconds = load_timer.time();
+
+  write_mesh(output, mesh);
+  if(report)
+    write_report(*report, result, mesh);
+  if(image)
+  {
+    const std::vector<Panel> panels = {panel(rest, selection, "before"),
+                                       panel(mesh, selection, "after")};
+    if(const auto error = render(panels, default_view(panels[0].points), image->temporary()))
+      throw std::runtime_error(line.image + ": " + *error);
+  }
+  output.commit();
+  if(report)
+    report->commit();
+  if(image)
+    image->commit();
+  if(!line.is_quiet)
+    print_summary(line, result, mesh);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    const Command_line line = parse_command_line(argc, argv);
+    if(line.is_help)
+      print_help(std::cout);
+    else
+      run(line);
+    return EXIT_SUCCESS;
+  }
+  catch(const Usage_error& error)
+  {
+    std::cerr << "arap_deform: " << error.what() << "\nTry arap_deform --help\n";
+    return 2;
+  }
+  catch(const std::exception& error)
+  {
+    std::cerr << "arap_deform: " << error.what() << '\n';
+    return 1;
+  }
+}

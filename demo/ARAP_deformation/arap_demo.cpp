@@ -1,0 +1,230 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The demo around the command arap_deform: writes the models to deform, and draws what became of
+// them. script/demo runs it before and after the command.
+//
+//   arap_demo models FOLDER [MESHES]   writes NAME.off, NAME.sel, NAME.def; of the meshes of CGAL's
+//                                      data folder MESHES too, if it is given
+//   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off, and the figures of the
+//                                      paper that take more than one run; prints a table
+
+#include "demo_shapes.h"
+#include "mesh_panel.h"
+#include "shape_files.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/checks.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace CGAL::ARAP::demo;
+namespace fs = std::filesystem;
+
+std::vector<Demo_shape> models(const fs::path& meshes)
+{
+  std::vector<Demo_shape> all = {make_bar(), make_cactus(), make_spiky_plane()};
+  if(!meshes.empty())
+  {
+    all.push_back(armadillo((meshes / "armadillo.off").string()));
+    all.push_back(dino((meshes / "dino.off").string()));
+    all.push_back(camel((meshes / "camel.off").string()));
+  }
+  return all;
+}
+
+void write_models(const fs::path& folder, const fs::path& meshes)
+{
+  for(const Demo_shape& model : models(meshes))
+  {
+    Output_file mesh((folder / (model.name + ".off")).string());
+    write_mesh(mesh, model.mesh);
+    mesh.commit();
+    std::ofstream selection(folder / (model.name + ".sel")), transform(folder / (model.name + ".def"));
+    for(int status : model.selection)
+      selection << status << '\n';
+    transform.precision(17);
+    for(int k = 0; k < 16; ++k)
+      transform << model.transform[k] << (k % 4 == 3 ? '\n' : ' ');
+    if(!selection.flush() || !transform.flush())
+      throw std::runtime_error(folder.string() + ": cannot be written to");
+    std::cout << model.name << '\n';
+  }
+}
+
+void draw(const std::vector<Panel>& panels, const View& view, const fs::path& picture)
+{
+  if(const auto error = render(panels, view, picture))
+    throw std::runtime_error(picture.string() + ": " + *error);
+  std::cout << picture.string() << std::endl;
+}
+
+using Traits = CGAL::ARAP_deformation_traits_3<>;
+using Uniform_traits =
+  CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight>;
+
+template <typename Deformation>
+void prepare(Deformation& deformation, const Demo_shape& model)
+{
+  for(Mesh::Vertex_index v : model.mesh.vertices())
+  {
+    if(model.selection[v] != FIXED)
+      deformation.insert_roi_vertex(v);
+    if(model.selection[v] == HANDLE)
+    {
+      deformation.insert_control_vertex(v);
+      deformation.set_target_position(v, transformed(model.transform, model.mesh.point(v)));
+    }
+  }
+}
+
+// Figure 3 of the paper: a bar is bent, and the iterations recover from the distorted guess of naive
+// Laplacian editing.
+void draw_iterations(const fs::path& folder)
+{
+  Demo_shape bar = make_bar(2);
+  bar.transform = motion(0, 120, Point(0, 0, 71), Vector(0, -38, -24));
+  Mesh mesh = bar.mesh, iterate_mesh = bar.mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  CGAL::ARAP::Options options;
+  options.cells = CGAL::ARAP::Cell_scheme::spokes();
+  options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
+  deformation.set_options(options);
+  prepare(deformation, bar);
+
+  const std::set<unsigned int> shown = {0, 1, 2, 5, 10, 100};
+  std::vector<Panel> panels;
+  const auto report = deformation.deform(*shown.rbegin(), 0, [&](const auto& iterate) {
+    if(shown.count(iterate.iteration()))
+    {
+      iterate.put_points(iterate_mesh.points());
+      panels.push_back(panel(iterate_mesh, bar.selection,
+                             iterate.iteration() == 0 ? "initial guess"
+                                                      : std::to_string(iterate.iteration())));
+    }
+    return CGAL::ARAP::Visitor_action::proceed;
+  });
+  if(!report)
+    throw std::runtime_error(report.message);
+  draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420}, folder / "iterations.png");
+}
+
+// The largest difference of height between the left and the right of a sheet over [-1, 1]^2, each
+// vertex of the coarse right half against the fine left half.
+double asymmetry(const Mesh& rest, const Mesh& mesh)
+{
+  double largest = 0;
+  for(Mesh::Vertex_index v : rest.vertices())
+    for(Mesh::Vertex_index w : rest.vertices())
+    {
+      const auto &p = rest.point(v), &q = rest.point(w);
+      if(p.x() > 0 && std::abs(p.x() + q.x()) < 1e-9 && std::abs(p.y() - q.y()) < 1e-9)
+        largest = (std::max)(largest, std::abs(mesh.point(v).z() - mesh.point(w).z()));
+    }
+  return largest;
+}
+
+template <typename Deformation_traits>
+Panel deformed_sheet(const Demo_shape& sheet, const std::string& caption)
+{
+  Mesh mesh = sheet.mesh;
+  CGAL::ARAP_deformation<Mesh, Deformation_traits> deformation(mesh);
+  CGAL::ARAP::Options options;
+  options.cells = CGAL::ARAP::Cell_scheme::spokes();
+  deformation.set_options(options);
+  prepare(deformation, sheet);
+  const auto report = deformation.deform(2000, 1e-4);
+  if(!report)
+    throw std::runtime_error(report.message);
+  std::cout << "  " << caption << ": left and right differ by at most "
+            << asymmetry(sheet.mesh, mesh) << " (the handle is lifted by "
+            << sheet.transform[11] << ")\n";
+  return panel(mesh, sheet.selection, caption);
+}
+
+// Figure 2 of the paper: a sheet that is meshed more finely on the left.
+void draw_weights(const fs::path& folder)
+{
+  const Demo_shape sheet = make_biased_plane();
+  draw({panel(sheet.mesh, sheet.selection, "original"),
+        deformed_sheet<Uniform_traits>(sheet, "uniform weights"),
+        deformed_sheet<Traits>(sheet, "cotangent weights")},
+       sheet.view, folder / "weights.png");
+}
+
+void draw_pictures(const fs::path& folder, const fs::path& meshes)
+{
+  std::cout << "Pictures:\n";
+  const std::vector<Demo_shape> all = models(meshes);
+  for(const Demo_shape& model : all)
+    draw({panel(model.mesh, model.selection, "original"),
+          panel(read_mesh((folder / (model.name + "_deformed.off")).string()), model.selection,
+                "deformed")},
+         model.view, folder / (model.name + ".png"));
+  draw_iterations(folder);
+  draw_weights(folder);
+
+  std::cout << "\nmodel         vertices   free  iterations    energy  edge error   seconds\n";
+  for(const Demo_shape& model : all)
+  {
+    std::ifstream in(folder / (model.name + ".json"));
+    const auto report = nlohmann::json::parse(in);
+    std::cout << std::left << std::setw(13) << model.name << std::right << std::setw(9)
+              << report["vertices"].get<int>() << std::setw(7)
+              << report["free_vertices"].get<int>() << std::setw(12)
+              << report["iterations"].get<int>() << std::setprecision(4) << std::setw(10)
+              << report["energy"].back().get<double>() << std::setprecision(3) << std::setw(12)
+              << report["edge_length_error"].get<double>() << std::setw(10)
+              << report["seconds"]["deform"].get<double>() << '\n';
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const std::string action = argc > 1 ? argv[1] : "";
+  if(argc < 3 || argc > 4 || (action != "models" && action != "pictures"))
+  {
+    std::cerr << "usage: arap_demo models|pictures FOLDER [MESHES]\n";
+    return 2;
+  }
+  try
+  {
+    const fs::path folder = argv[2], meshes = argc > 3 ? argv[3] : "";
+    if(action == "models")
+      write_models(folder, meshes);
+    else
+      draw_pictures(folder, meshes);
+    return EXIT_SUCCESS;
+  }
+  catch(const std::exception& error)
+  {
+    std::cerr << "arap_demo: " << error.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}

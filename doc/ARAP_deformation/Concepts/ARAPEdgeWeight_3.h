@@ -1,0 +1,56 @@
+/*!
+\ingroup PkgARAPDeformationConcepts
+\cgalConcept
+
+\brief The concept `ARAPEdgeWeight_3` describes how the edges of a shape are weighted in the energy.
+
+Weights are computed while `CGAL::ARAP_deformation` preprocesses, from the rest shape alone, in two
+steps. `simplex_weights()` gives each edge of each triangle its weight there. `edge_weight()` then
+turns them into the weight of an edge in an edge set: it gets the sum over those triangles at the edge
+that belong to the edge set. In the star of a vertex these are all triangles at the edge, one on the
+border of the surface and two inside it; in a simplex it is this triangle alone.
+
+The energy \f$\sum w \|e' - R e\|^2\f$ scales with the weights and its minima do not, so that their unit
+is free. Cotangents have none: with them the energy is an area.
+
+The weight of an edge is the same in the stars of both its end points, which makes the matrix of the
+system symmetric. If no weight is negative, no cell has a negative energy. Negative weights are
+allowed where the matrix is positive definite: this is tested by its factorization.
+
+Stars are asked for in two cases: if the cells are `CGAL::ARAP::Cell_scheme::spokes()`, and for
+`CGAL::ARAP::Initial_guess::laplacian` whatever the cells.
+
+A model may hold data. `CGAL::ARAP_deformation` works on a copy of the object that its traits hand
+out, and calls it from one thread.
+
+\cgalRefines{CopyConstructible,Assignable}
+
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::ARAP::Safe_cotangent_weight}
+\cgalHasModels{CGAL::ARAP::Cotangent_weight}
+\cgalHasModels{CGAL::ARAP::Clamped_cotangent_weight}
+\cgalHasModels{CGAL::ARAP::Uniform_weight}
+\cgalHasModelsEnd
+
+\sa `ARAPDeformationTraits_3`
+*/
+class ARAPEdgeWeight_3
+{
+public:
+  /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$ and \f$(1,2)\f$ of a triangle, given by
+  /// the coordinates of its vertices in the rest shape.
+  ///
+  /// The order of the vertices carries no meaning: in another order the weights are those of the
+  /// same edges. A weight that is infinite or not a number makes the preprocessing fail with
+  /// `CGAL::ARAP::Status::non_finite_weight` and a sentence that names the triangle; so a model has
+  /// nothing to do about a degenerate one.
+  std::array<double, 3>
+  simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const;
+
+  /// returns the weight of an edge in an edge set of the given kind, where `sum` is the sum of the
+  /// weights that `simplex_weights()` gave the edge in the triangles of the edge set.
+  ///
+  /// If the weights at a free vertex do not add up to a positive finite number the preprocessing
+  /// fails with `CGAL::ARAP::Status::singular_matrix`.
+  double edge_weight(CGAL::ARAP::Edge_set edge_set, double sum) const;
+};

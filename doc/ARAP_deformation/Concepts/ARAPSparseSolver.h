@@ -1,0 +1,53 @@
+/*!
+\ingroup PkgARAPDeformationConcepts
+\cgalConcept
+
+\brief The concept `ARAPSparseSolver` describes a direct solver for sparse symmetric positive
+definite matrices and right-hand sides of three columns.
+
+The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times. They
+come from one thread.
+
+`CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each matrix that it
+factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
+need not have it too. A move, on the other hand, keeps the factor, and does not throw.
+
+A call may throw, for example `std::bad_alloc`; the deformation is then as it was before.
+
+\cgalRefines{CopyConstructible,MoveConstructible,MoveAssignable}
+
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::ARAP::Eigen_cholesky_solver}
+\cgalHasModelsEnd
+
+\sa `ARAPDeformationTraits_3`
+*/
+class ARAPSparseSolver
+{
+public:
+  /// prepares the factorization of matrices with the pattern of `a`.
+  ///
+  /// Only the lower triangle of `a` is stored, in Eigen's compressed form, and `a` has at least one row.
+  /// Its values need not be looked at. Some of them may be zero. The matrix does not outlive
+  /// the call.
+  ///
+  /// Returns whether it succeeded. If not, the call of the deformation returns
+  /// `CGAL::ARAP::Status::singular_matrix`.
+  bool analyze(const CGAL::ARAP::Sparse_matrix& a);
+
+  /// factorizes `a`, which has the pattern of the last call of `analyze()`. The matrix does not outlive
+  /// the call.
+  ///
+  /// Returns whether it succeeded; it does not if `a` is found not to be positive definite. Then the
+  /// call of the deformation returns `CGAL::ARAP::Status::singular_matrix`.
+  bool factorize(const CGAL::ARAP::Sparse_matrix& a);
+
+  /// replaces the rows `x[0]`, ..., `x[n-1]` of a matrix \f$X\f$ with three columns by the solution of
+  /// \f$A Y = X\f$, where \f$A\f$ is the matrix of the last call of `factorize()` and `n` the number
+  /// of its rows.
+  ///
+  /// Returns whether it succeeded. If not, `x` may hold anything, and the run ends with
+  /// `CGAL::ARAP::Status::solver_failed`. The iteration solves for corrections, so that rounding errors
+  /// of a solution are made up for by the next one.
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
+};
