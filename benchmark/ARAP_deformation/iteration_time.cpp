@@ -21,6 +21,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_deformation.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/config.h>
 
 #include <boost/config.hpp>
@@ -362,6 +363,9 @@ Comparison compare(const Scenario& scenario, const Settings& settings, ARAP::Cel
             << checked_iterations << " iterations from the same state the shapes differ by "
             << difference << " of the bounding box; at most " << largest_difference
             << " is expected";
+    if(!CGAL::is_closed(scenario.mesh))
+      message << ".\nThe mesh has a border, where the weights of ORIGINAL_ARAP depend on the "
+                 "version of CGAL: take a closed mesh.";
     throw Failure(message.str());
   }
 
@@ -388,15 +392,20 @@ std::string processor()
 
 std::string eigen_version()
 {
+#ifdef EIGEN_VERSION_STRING // since Eigen 5
+  return EIGEN_VERSION_STRING;
+#else
   return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
          std::to_string(EIGEN_MINOR_VERSION);
+#endif
 }
 
 void print_table(std::ostream& out, const Scenario& scenario, const Settings& settings,
                  const std::vector<Comparison>& comparisons)
 {
   out << "machine      " << processor() << "\n"
-      << "compiler     " << BOOST_COMPILER << ", " << ARAP_DEFORMATION_COMPILER_FLAGS << "\n"
+      << "compiler     " << BOOST_COMPILER << "\n"
+      << "flags        " << ARAP_DEFORMATION_COMPILER_FLAGS << "\n"
       << "libraries    CGAL " << CGAL_VERSION_STR << ", Eigen " << eigen_version() << "\n"
       << "mesh         " << settings.mesh_file << "\n"
       << "vertices     " << num_vertices(scenario.mesh) << ", free "

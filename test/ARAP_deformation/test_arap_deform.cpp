@@ -122,7 +122,7 @@ int main()
   for(Vertex v : mesh.vertices())
   {
     points[v] = mesh.point(v);
-    indices[v] = int(v) * 3 + 1;
+    indices[v] = int(mesh.number_of_vertices() - 1 - v);
   }
   CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options,
                           params::vertex_point_map(boost::make_assoc_property_map(points))
