@@ -87,8 +87,9 @@ inline Mesh read_mesh(const std::string& file)
   open_for_reading(file);
   Mesh mesh;
   if(!CGAL::IO::read_polygon_mesh(file, mesh))
-    throw std::runtime_error(file + ": cannot be read as an oriented manifold surface in the "
-                                    "format of " + lower_case_extension(file) + " files");
+    throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
+                             lower_case_extension(file) + " files, or holds a coordinate that is "
+                             "not a finite number, or is not an oriented manifold surface");
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
     throw std::runtime_error(file + ": has no faces");
   return mesh;

@@ -227,7 +227,7 @@ void test_refusals()
   }
   const std::string text = off(shape);
   write("half.off", text.substr(0, text.size() / 2));
-  mesh("half.off", "half.off: cannot be read as");
+  mesh("half.off", "half.off: cannot be read: ");
   write("nothing.off", "OFF\n0 0 0\n");
   mesh("nothing.off", "has no faces");
   for(const std::string bad : {"nan", "inf", "NaN"})
