@@ -16,10 +16,11 @@
 
 #include <boost/program_options.hpp>
 
-#include <cmath>
+#include <filesystem>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -115,6 +116,25 @@ inline void print_help(std::ostream& out)
          "output file is written, and existing ones are left as they were.\n";
 }
 
+// The outputs must be different files, and none an input; only the mesh may be deformed in place.
+inline void check_outputs(const Command_line& line)
+{
+  const auto check = [](const std::string& a, const std::string& b) {
+    std::error_code error;
+    if(!a.empty() && !b.empty() && std::filesystem::weakly_canonical(a, error) ==
+                                     std::filesystem::weakly_canonical(b, error))
+      throw Usage_error("the file " + a + " is given for two things");
+  };
+  for(const std::string& output : {line.output, line.report, line.image})
+    for(const std::string& input : {line.selection, line.transform})
+      check(output, input);
+  check(line.report, line.mesh);
+  check(line.image, line.mesh);
+  check(line.output, line.report);
+  check(line.output, line.image);
+  check(line.report, line.image);
+}
+
 inline Command_line parse_command_line(int argc, char** argv)
 {
   namespace po = boost::program_options;
@@ -165,6 +185,9 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.options.tolerance = values["tolerance"].as<double>();
     if(const Outcome checked = line.options.check(); !checked)
       throw Usage_error(checked.message);
+    if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png")
+      throw Usage_error("--image " + line.image + ": pictures are .png files");
+    check_outputs(line);
     return line;
   }
   catch(const po::error& error)

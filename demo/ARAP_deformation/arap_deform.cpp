@@ -28,6 +28,7 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -86,6 +87,9 @@ struct Result
   double load_seconds = 0;
 };
 
+// set when the user interrupts the run: no file is left then either
+volatile std::sig_atomic_t is_interrupted = 0;
+
 bool is_terminal()
 {
 #if defined(__unix__) || defined(__APPLE__)
@@ -131,10 +135,7 @@ void write_report(const Output_file& file, const Result& result, const Mesh& mes
   json["peak_memory_bytes"] = nullptr;
   if(const auto bytes = peak_memory_bytes())
     json["peak_memory_bytes"] = *bytes;
-  std::ofstream out(file.temporary());
-  out << std::setw(2) << json << '\n';
-  if(!out.flush())
-    throw file.failure();
+  file.write([&json](std::ofstream& out) { out << std::setw(2) << json << '\n'; });
 }
 
 // Deforms `mesh`, of which `rest` is a copy.
@@ -159,12 +160,15 @@ Result deform(const Command_line& line, const Mesh& rest, Mesh& mesh,
   result.report = deformation.deform([&](const Deformation::Iterate& iterate) {
     if(is_shown)
       std::cerr << "\riteration " << iterate.iteration() << " of at most "
-                << line.options.iterations << ", energy " << iterate.energy() << "   "
+                << line.options.iterations << ", energy " << iterate.energy() << "\033[K"
                 << std::flush;
-    return CGAL::ARAP::Visitor_action::proceed;
+    return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
+                          : CGAL::ARAP::Visitor_action::proceed;
   });
   if(is_shown)
     std::cerr << "\r\033[K" << std::flush;
+  if(is_interrupted)
+    throw std::runtime_error("interrupted");
   if(!result.report)
     throw std::runtime_error(line.mesh + ": " + result.report.message);
   result.edge_length_error =
@@ -212,7 +216,7 @@ void run(const Command_line& line)
   Result result = deform(line, rest, mesh, selection, transform);
   result.load_seconds = load_timer.time();
 
-  write_mesh(output, mesh);
+  write_mesh(output, mesh, lower_case_extension(line.output));
   if(report)
     write_report(*report, result, mesh);
   if(image)
@@ -235,6 +239,8 @@ void run(const Command_line& line)
 
 int main(int argc, char** argv)
 {
+  std::signal(SIGINT, [](int) { is_interrupted = 1; });
+  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
   try
   {
     const Command_line line = parse_command_line(argc, argv);

@@ -62,7 +62,7 @@ void write_models(const fs::path& folder, const fs::path& meshes)
   for(const Demo_shape& model : models(meshes))
   {
     Output_file mesh((folder / (model.name + ".off")).string());
-    write_mesh(mesh, model.mesh);
+    write_mesh(mesh, model.mesh, ".off");
     mesh.commit();
     std::ofstream selection(folder / (model.name + ".sel")), transform(folder / (model.name + ".def"));
     for(int status : model.selection)

@@ -81,6 +81,7 @@ inline void check_mesh_extension(const std::string& file)
     throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply or .stl");
 }
 
+// A surface all of whose faces are triangles and all of whose coordinates are finite.
 inline Mesh read_mesh(const std::string& file)
 {
   check_mesh_extension(file);
@@ -92,6 +93,16 @@ inline Mesh read_mesh(const std::string& file)
                              "not a finite number, or is not an oriented manifold surface");
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
     throw std::runtime_error(file + ": has no faces");
+  for(Mesh::Vertex_index v : mesh.vertices())
+    for(int k = 0; k < 3; ++k)
+      if(!std::isfinite(mesh.point(v)[k]))
+        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
+                                 " has a coordinate that is infinite or not a number");
+  for(Mesh::Face_index f : mesh.faces())
+    if(mesh.degree(f) != 3)
+      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + " vertices; only triangles can be "
+                               "deformed");
   return mesh;
 }
 
@@ -159,23 +170,39 @@ inline Transform read_transform(const std::string& file)
   std::copy(entries.begin(), entries.end(), transform.begin());
   if(!std::equal(transform.begin() + 12, transform.end(), std::array<double, 4>{0, 0, 0, 1}.begin()))
     throw std::runtime_error(file + ": the last row of the transform is not 0 0 0 1");
+  const Transform& m = transform;
+  const Kernel::Vector_3 x(m[0], m[4], m[8]), y(m[1], m[5], m[9]), z(m[2], m[6], m[10]);
+  const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
+  if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
+    throw std::runtime_error(file + ": the transform is singular: it flattens the handle");
   return transform;
 }
 
 // A file that is written under a temporary name beside its own, and gets its own only by commit():
-// no other program ever sees half of it, and nothing is left if commit() is never reached.
+// no other program ever sees half of it, and nothing is left if commit() is never reached. Links are
+// followed, permissions kept, and what is not a file, such as /dev/stdout, is written to directly.
 class Output_file
 {
 public:
-  explicit Output_file(const std::string& file) : m_file(file)
+  // Throws if the file cannot be written, without touching it.
+  explicit Output_file(const std::string& file) : m_name(file)
   {
-    std::filesystem::path path(file);
-    const std::string unique = std::to_string(std::random_device()());
-    const std::string extension = path.extension().string(); // writers look at it
-    m_temporary = path.replace_extension("." + unique + extension).string();
-    std::error_code ignored;
-    if(std::filesystem::is_directory(file, ignored) || !std::ofstream(m_temporary))
+    std::error_code error;
+    m_file = std::filesystem::weakly_canonical(file, error);
+    const auto status = std::filesystem::status(m_file, error);
+    const bool exists = std::filesystem::exists(status);
+    if(std::filesystem::is_directory(status) ||
+       (exists && !std::ofstream(m_file, std::ios::app)))
       throw std::runtime_error(file + ": cannot be written");
+    m_temporary = m_file;
+    if(exists && !std::filesystem::is_regular_file(status))
+      return;
+    const std::string unique = std::to_string(std::random_device()());
+    m_temporary.replace_extension("." + unique + m_file.extension().string());
+    if(!std::ofstream(m_temporary))
+      throw std::runtime_error(file + ": cannot be written");
+    if(exists)
+      std::filesystem::permissions(m_temporary, status.permissions(), error);
   }
 
   Output_file(const Output_file&) = delete;
@@ -184,33 +211,50 @@ public:
   ~Output_file()
   {
     std::error_code ignored;
-    std::filesystem::remove(m_temporary, ignored);
+    if(m_temporary != m_file)
+      std::filesystem::remove(m_temporary, ignored);
   }
 
-  const std::string& temporary() const { return m_temporary; }
+  const std::filesystem::path& temporary() const { return m_temporary; }
 
-  std::runtime_error failure() const
+  // Calls write(stream) and throws if not everything reached the file.
+  template <typename Write>
+  void write(const Write& write) const
   {
-    return std::runtime_error(m_file + ": could not be written to the end");
+    std::ofstream out(m_temporary, std::ios::binary);
+    write(out);
+    out.close();
+    if(!out)
+      throw std::runtime_error(m_name + ": could not be written to the end");
   }
 
   void commit()
   {
     std::error_code error;
-    std::filesystem::rename(m_temporary, m_file, error);
+    if(m_temporary != m_file)
+      std::filesystem::rename(m_temporary, m_file, error);
     if(error)
-      throw failure();
+      throw std::runtime_error(m_name + ": cannot be written: " + error.message());
   }
 
 private:
-  std::string m_file, m_temporary;
+  std::string m_name; // as the user gave it
+  std::filesystem::path m_file, m_temporary;
 };
 
-inline void write_mesh(const Output_file& file, const Mesh& mesh)
+inline void write_mesh(const Output_file& file, const Mesh& mesh, const std::string& extension)
 {
-  if(!CGAL::IO::write_polygon_mesh(file.temporary(), mesh,
-                                   CGAL::parameters::stream_precision(17)))
-    throw file.failure();
+  file.write([&](std::ofstream& out) {
+    const auto precise = CGAL::parameters::stream_precision(17);
+    if(extension == ".ply" || extension == ".stl")
+      CGAL::IO::set_binary_mode(out);
+    const bool is_written = extension == ".off" ? CGAL::IO::write_OFF(out, mesh, precise)
+                          : extension == ".obj" ? CGAL::IO::write_OBJ(out, mesh, precise)
+                          : extension == ".ply" ? CGAL::IO::write_PLY(out, mesh, precise)
+                                                : CGAL::IO::write_STL(out, mesh, precise);
+    if(!is_written)
+      out.setstate(std::ios::failbit);
+  });
 }
 
 } // namespace CGAL::ARAP::demo

@@ -221,17 +221,19 @@ public:
     return for_each_until_refused(begin, end, [&](auto v) { return rotate(v, center, q); });
   }
 
-  /// returns the target of the control vertex `v`. \pre `is_control_vertex(v)`
-  const Point& target_position(vertex_descriptor v) const
+  /// returns the target of the control vertex `v`; in Release, for another vertex, its point.
+  /// \pre `is_control_vertex(v)`
+  Point target_position(vertex_descriptor v) const
   {
     CGAL_precondition(is_control_vertex(v));
-    return m_session.vertices().find(v)->target;
+    return m_session.target(v);
   }
   /// @}
 
   /// \name Deformation
   /// Whatever goes wrong, exceptions included, the mesh and the object are as they were before the
   /// call. (If the property map of the points throws while the result is written, only the object.)
+  /// A visitor must not change the object: a precondition, and in Release such calls are refused.
   /// @{
 
   /// collects the region, computes weights and matrix, and factorizes it, unless that is up to
@@ -287,7 +289,7 @@ public:
 
   /// returns the rotation of the cell of `s` after the last `deform()`; the identity where `s` has
   /// no cell in the region. \pre `!options().cells.has_vertex_cells()`
-  ARAP::Matrix_3x3 rotation(simplex_descriptor s) const
+  ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
     CGAL_precondition(!options().cells.has_vertex_cells());
     return m_session.rotation_of_simplex(s);

@@ -31,7 +31,7 @@ namespace CGAL {
 /// The constrained vertices get their targets, and all others follow. To deform a part of a mesh,
 /// or to move the targets again and again, use the class `ARAP_deformation`.
 ///
-/// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeListGraph`
+/// \tparam TriangleMesh a model of `FaceGraph` and `VertexListGraph`
 /// \tparam VertexConstrainedMap a model of `ReadablePropertyMap` from vertices to `bool`
 /// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
 /// \tparam NamedParameters a sequence of named parameters
@@ -59,7 +59,8 @@ namespace CGAL {
 ///     \cgalParamDefault{`options.iterations`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{visitor}
-///     \cgalParamDescription{sees each iterate and may stop or cancel the run}
+///     \cgalParamDescription{sees each iterate and may stop or cancel the run; copied unless it is
+///                          given as `std::ref(visitor)`}
 ///     \cgalParamType{a model of `ARAPDeformationVisitor`}
 ///     \cgalParamDefault{`ARAP::Default_visitor`}
 ///   \cgalParamNEnd

@@ -14,7 +14,6 @@
 #include "include/check.h"
 #include "include/shapes.h"
 
-#include <CGAL/Polyhedron_3.h>
 #include <CGAL/arap_deform.h>
 
 #include <boost/property_map/property_map.hpp>

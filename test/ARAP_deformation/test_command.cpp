@@ -181,6 +181,57 @@ void test_success()
       CHECK(copy.number_of_faces() == mesh.number_of_faces());
     }
 
+#if defined(__unix__) || defined(__APPLE__)
+  test_case() = "links, permissions, devices";
+  const std::string call = "in.off --selection in.sel --transform in.def --iterations 1 ";
+  write("target.off", "old");
+  fs::permissions(folder / "target.off", fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("target.off", folder / "link.off");
+  CHECK(run(call + "-o link.off").exit_code == 0);
+  CHECK(fs::is_symlink(folder / "link.off"));
+  CHECK(content(folder / "target.off").substr(0, 3) == "OFF");
+  CHECK(fs::status(folder / "target.off").permissions() ==
+        (fs::perms::owner_read | fs::perms::owner_write));
+  const Run to_device = run(call + "-o new.off --quiet --report /dev/stdout");
+  CHECK(to_device.exit_code == 0);
+  CHECK(nlohmann::json::parse(to_device.out)["status"] == "iteration_limit");
+  CHECK(fs::is_character_file("/dev/null") && run(call + "-o new.off --report /dev/null").exit_code == 0);
+  CHECK(fs::is_character_file("/dev/null"));
+  for(const std::string extension : {"off", "obj", "ply", "stl"}) // a full disk
+  {
+    const auto names = files();
+    const int full = std::system(
+      ("cd \"" + folder.string() + "\" && (trap '' XFSZ; ulimit -f 4; \"" + command + "\" " + call +
+       "-o full." + extension + " > /dev/null 2>&1)").c_str());
+    CHECK(WIFEXITED(full) && WEXITSTATUS(full) == 1);
+    CHECK(files() == names);
+  }
+  const auto names = files();
+  const int interrupted = std::system(
+    ("cd \"" + folder.string() + "\" && (timeout -s INT 0.5 \"" + command + "\" in.off --selection "
+     "in.sel --transform in.def -o new2.off --iterations 100000000 --tolerance 0 > /dev/null 2>&1; "
+     "exit $?)").c_str());
+  CHECK(WIFEXITED(interrupted) && WEXITSTATUS(interrupted) != 0);
+  CHECK(files() == names);
+
+  test_case() = "picture";
+  if(std::system("povray --version > /dev/null 2>&1") == 0)
+  {
+    CHECK(run(call + "-o new.off --image picture.png").exit_code == 0);
+    CHECK(content(folder / "picture.png").substr(1, 3) == "PNG");
+    CHECK(content(folder / "picture.png").size() > 10000);
+  }
+  else
+    std::cout << "NOTICE: povray is not installed; no picture was tested" << std::endl;
+  const std::string shell_command = command;
+  command = "/usr/bin/env\" PATH=/nonexistent \"" + shell_command; // where there is no povray
+  const Run no_povray = run(call + "-o other.off --image other.png");
+  CHECK(no_povray.exit_code == 1);
+  CHECK(no_povray.err.find("povray") != std::string::npos);
+  CHECK(!fs::exists(folder / "other.off") && !fs::exists(folder / "other.png"));
+  command = shell_command;
+#endif
+
   test_case() = "choices";
   std::set<std::string> energies;
   for(const std::string choice :
@@ -252,7 +303,7 @@ void test_refusals()
   quad.replace(faces, quad.find('\n', quad.find('\n', faces) + 1) - faces, "4 0 13 14 1");
   quad.replace(quad.find(" 192 "), 5, " 191 ");
   write("quad.off", quad);
-  mesh("quad.off", "quad.off: ");
+  mesh("quad.off", "has 4 vertices; only triangles");
 
   const auto select = [&](const std::string& file, const std::string& phrase) {
     check_refused("in.off --selection " + file + " --transform in.def -o precious.off", 1, phrase);
@@ -288,6 +339,9 @@ void test_refusals()
   transform("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 2\n", "the last row of the transform");
   transform("1 0 0 1e200\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "overflow");
 
+  transform("0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 1\n", "the transform is singular");
+  transform("1 2 3 0\n2 4 6 0\n0 0 1 0\n0 0 0 1\n", "the transform is singular");
+
   const std::string good_call = "in.off --selection in.sel --transform in.def ";
   check_refused(good_call + "-o no/such/folder/out.off", 1, "no/such/folder/out.off: cannot be");
   check_refused(good_call + "-o out.xyz", 1, "out.xyz: the name of a mesh file ends in");
@@ -295,6 +349,10 @@ void test_refusals()
   fs::create_directory(folder / "folder.off");
   check_refused(good_call + "-o folder.off", 1, "folder.off: cannot be written");
 
+  check_refused(good_call + "-o new.off --report new.off", 2, "new.off is given for two things");
+  check_refused(good_call + "-o new.off --report ./in.off", 2, "is given for two things");
+  check_refused(good_call + "-o new.off --report in.sel", 2, "is given for two things");
+  check_refused(good_call + "-o new.off --image picture.jpg", 2, ".png");
   check_refused("", 2, "no mesh is given");
   check_refused(good_call, 2, "output");
   check_refused("in.off -o new.off --transform in.def", 2, "selection");

@@ -69,7 +69,7 @@ void check_run(const Shape& shape, Cell_scheme cells)
   }
   if(!cells.has_vertex_cells())
     for(auto f : mesh.faces())
-      CHECK(CGAL::ARAP::is_rotation(deformation.rotation(f)));
+      CHECK(CGAL::ARAP::is_rotation(deformation.simplex_rotation(f)));
 }
 
 // The same run after a rigid motion of rest shape and targets: the same energies, the moved result.
@@ -117,6 +117,33 @@ void check_rigid_guess(const Shape& shape, Cell_scheme cells)
   const auto report = deformation.deform(1000, 0);
   for(double energy : report.energy)
     CHECK_AT_MOST(energy, 1e-15 * report.energy_scale);
+  CHECK(deformation.deform(1000, 1e-2).iterations <= 1); // at its minimum, and it knows
+
+  // the rotations are that of the motion, in each cell of the region; a rank-one cell has others
+  std::size_t number_of_cells = 0, number_of_turned_cells = 0;
+  const auto count = [&](const CGAL::ARAP::Matrix_3x3& r) {
+    ++number_of_cells;
+    double distance = 0;
+    for(int i = 0; i < 3; ++i)
+      for(int j = 0; j < 3; ++j)
+        distance = (std::max)(distance, std::abs(r[3 * i + j] - motion.linear()(i, j)));
+    number_of_turned_cells += distance < 1e-7;
+  };
+  if(cells.has_vertex_cells())
+  {
+    for(auto v : vertices)
+      if(s.selection[v] == 1)
+        count(deformation.rotation(v));
+  }
+  else
+    for(auto f : mesh.faces())
+      for(auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+        if(s.selection[v] == 1)
+        {
+          count(deformation.simplex_rotation(f));
+          break;
+        }
+  CHECK(number_of_cells > 0 && number_of_turned_cells == number_of_cells);
   CHECK_AT_MOST(largest_distance(rest, mesh, motion), 1e-12 * shape.diameter());
 }
 

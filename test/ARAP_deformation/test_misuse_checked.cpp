@@ -35,10 +35,21 @@ int main()
   Mesh mesh = make_mesh<Mesh>(octahedron());
   CGAL::ARAP_deformation<Mesh> d(mesh);
   CHECK(is_refused([&] { d.target_position(Mesh::Vertex_index(0)); }));
-  CHECK(is_refused([&] { d.rotation(Mesh::Face_index(0)); })); // there is one for each vertex
+  CHECK(is_refused([&] { d.simplex_rotation(Mesh::Face_index(0)); })); // there is one for each vertex
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::elements();
   d.set_options(options);
   CHECK(is_refused([&] { d.rotation(Mesh::Vertex_index(0)); })); // there is one for each face
+
+  // in a run, by a visitor
+  d.insert_control_vertex(Mesh::Vertex_index(0));
+  d.insert_roi_vertex(Mesh::Vertex_index(1));
+  CHECK(is_refused([&] {
+    d.deform([&](const auto&) {
+      d.clear_roi_vertices();
+      return CGAL::ARAP::Visitor_action::proceed;
+    });
+  }));
+  CHECK(d.deform()); // the exception has ended the run
   return checks_result();
 }

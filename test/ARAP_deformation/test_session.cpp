@@ -257,12 +257,110 @@ void test_options()
   CHECK(d.deform(10, std::nan("")).status == Status::invalid_option);
   CHECK(same_points(mesh, before));
 
-  // other cells, from the same positions
+  // other cells, from the same positions: another energy
+  const double energy = d.energy();
   options.tolerance = 0;
   options.iterations = 2;
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   CHECK(d.set_options(options));
-  CHECK(d.deform().iterations == 2);
+  CHECK(std::isnan(d.energy()));
+  const auto spokes = d.deform();
+  CHECK(spokes.iterations == 2);
+  CHECK(std::abs(spokes.energy[0] - energy) > 0.1 * energy);
+
+  const CGAL::ARAP::Options defaults;
+  CHECK(defaults.cells == CGAL::ARAP::Cell_scheme::spokes_and_rims());
+  CHECK(defaults.initial_guess == CGAL::ARAP::Initial_guess::previous);
+  CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-2);
+}
+
+// However small a motion is, the run goes on until the gap is as small as was asked for.
+void test_small_motions()
+{
+  test_case() = "small motions";
+  const Shape shape = grid("sheet", 20, 20, [](double u, double v) {
+    return Eigen::Vector3d(20 * u, 20 * v, std::sin(9 * u) * std::cos(7 * v));
+  });
+  for(double height : {1.0, 1e-3, 1e-6, 1e-9})
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Deformation d(mesh);
+    for(Vertex v : mesh.vertices())
+      if(!mesh.is_border(v))
+        d.insert_roi_vertex(v);
+    const Vertex handle(10 * 21 + 10);
+    d.insert_control_vertex(handle);
+    d.translate(handle, Eigen::Vector3d(0, 0, height));
+    const auto report = d.deform(5000, 1e-2);
+    CHECK(report.status == Status::converged);
+    const double minimum = d.deform(5000, 0).energy.back();
+    CHECK_AT_MOST(report.energy.back(), 1.1 * minimum);
+  }
+}
+
+// Fits as the default does, and notes with which rotations it was asked to start.
+struct Recording_rotation : CGAL::ARAP::SVD_closest_rotation
+{
+  static std::vector<CGAL::ARAP::Matrix_3x3> given, returned;
+
+  void operator()(std::size_t n, const CGAL::ARAP::Matrix_3x3* covariances,
+                  CGAL::ARAP::Matrix_3x3* rotations) const
+  {
+    given.assign(rotations, rotations + n);
+    CGAL::ARAP::SVD_closest_rotation::operator()(n, covariances, rotations);
+    returned.assign(rotations, rotations + n);
+  }
+};
+std::vector<CGAL::ARAP::Matrix_3x3> Recording_rotation::given, Recording_rotation::returned;
+
+// Each fit starts from the rotations of the last one, over iterations and runs.
+void test_warm_start()
+{
+  test_case() = "warm start";
+  using Traits =
+    CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Recording_rotation>;
+  const Shape shape = sheet();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  std::vector<CGAL::ARAP::Matrix_3x3> last;
+  for(int run = 0; run < 3; ++run)
+    CHECK(d.deform(3, 0, [&](const auto& iterate) {
+      if(last.empty())
+        last.assign(Recording_rotation::given.size(), CGAL::ARAP::internal::identity_matrix());
+      CHECK(Recording_rotation::given == last);
+      last = Recording_rotation::returned;
+      CHECK(run > 0 || iterate.iteration() > 0 || last != Recording_rotation::given);
+      return CGAL::ARAP::Visitor_action::proceed;
+    }));
+}
+
+// The regions of two runs have nothing to do with each other.
+void test_change_of_sets()
+{
+  test_case() = "change of sets";
+  const Shape shape = sheet();
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  Deformation d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  CHECK(d.deform(2, 0).free_vertices > 0);
+  d.clear_control_vertices(); // all of the region is free, and stays at rest where it can
+  CHECK(d.deform(2, 0).free_vertices == d.roi_vertices().size());
+  d.clear_roi_vertices();
+  CHECK(d.deform(2, 0).free_vertices == 0);
+
+  // after a reset the rotations are identities, as in the beginning
+  Mesh other = rest;
+  Deformation e(other);
+  prepare(e, scenario(shape), all_vertices(other));
+  const Vertex v(100);
+  const auto identity = e.rotation(v);
+  CHECK(e.deform(2, 0));
+  CHECK(e.rotation(v) != identity);
+  e.reset();
+  CHECK(e.rotation(v) == identity);
+  CHECK(same_points(other, rest));
 }
 
 int main()
@@ -273,5 +371,8 @@ int main()
   test_rest_shape();
   test_frames();
   test_options();
+  test_small_motions();
+  test_change_of_sets();
+  test_warm_start();
   return checks_result();
 }

@@ -5,7 +5,9 @@
 \brief The concept `ARAPDeformationVisitor` describes a function object that sees each iterate of a
 run, and says whether the run goes on.
 
-`CGAL::ARAP_deformation::deform()` and `CGAL::arap_deform()` take it by reference and do not copy it.
+`CGAL::ARAP_deformation::deform()` takes it by reference and does not copy it. The named parameter
+`visitor` of `CGAL::arap_deform()` copies what it is given: pass `std::ref(visitor)` to keep state.
+A visitor must not change the object whose run it visits; it may read it.
 A lambda expression will do.
 
 An exception that it throws leaves the run like `CGAL::ARAP::Visitor_action::cancel` does, with the

@@ -19,6 +19,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -49,6 +50,13 @@ public:
   /// constructs a solver that has nothing analyzed: factors are not copied.
   Eigen_cholesky_solver(const Eigen_cholesky_solver&) {}
 
+  /// makes this a solver that has nothing analyzed: factors are not copied.
+  Eigen_cholesky_solver& operator=(const Eigen_cholesky_solver&)
+  {
+    m_cholesky.reset();
+    return *this;
+  }
+
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   bool analyze(const Sparse_matrix& a)
   {
@@ -62,7 +70,14 @@ public:
   bool factorize(const Sparse_matrix& a)
   {
     m_cholesky->factorize(a);
-    return m_cholesky->info() == Eigen::Success;
+    if(m_cholesky->info() != Eigen::Success)
+      return false;
+    // Eigen lets pivots pass that are not numbers
+    const auto& factor = m_cholesky->matrixL().nestedExpression();
+    for(int j = 0; j < factor.cols(); ++j)
+      if(!std::isfinite(factor.valuePtr()[factor.outerIndexPtr()[j]]))
+        return false;
+    return true;
   }
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the

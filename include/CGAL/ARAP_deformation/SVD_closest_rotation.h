@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -31,6 +31,7 @@ enum class Status
   stopped,              ///< a visitor stopped the run, the last iterate was kept
   cancelled,            ///< a visitor cancelled the run, everything is as before
   invalid_option,       ///< an option is out of its range
+  in_a_run,             ///< a visitor called a function that changes the object it is visiting
   not_a_control_vertex, ///< a target was given to a vertex that is not a control vertex
   not_a_triangle,       ///< a face of the region is not a triangle
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
@@ -63,6 +64,7 @@ inline const char* to_string(Status status)
   case Status::stopped: return "stopped";
   case Status::cancelled: return "cancelled";
   case Status::invalid_option: return "invalid_option";
+  case Status::in_a_run: return "in_a_run";
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::not_a_triangle: return "not_a_triangle";
   case Status::non_finite_point: return "non_finite_point";

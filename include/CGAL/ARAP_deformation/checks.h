@@ -80,7 +80,7 @@ double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, Ve
     sum_of_errors += error * error;
     sum_of_lengths += rest * rest;
   }
-  return sum_of_lengths > 0 ? std::sqrt(sum_of_errors / sum_of_lengths) : 0;
+  return sum_of_lengths == 0 ? 0 : std::sqrt(sum_of_errors / sum_of_lengths);
 }
 
 } // namespace ARAP

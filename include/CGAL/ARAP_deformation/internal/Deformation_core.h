@@ -55,7 +55,7 @@ public:
   Deformation_core(const Traits& traits, Region<N> region, Cell_scheme scheme)
     : m_region(std::move(region)), m_weight(traits.edge_weight_object()),
       m_closest_rotation(traits.closest_rotation_object()),
-      m_unused_solver(traits.sparse_solver_object()), m_solver(m_unused_solver)
+      m_prototype_solver(traits.sparse_solver_object()), m_solver(m_prototype_solver)
   {
     m_diagnosis = prepare(scheme);
   }
@@ -85,10 +85,13 @@ public:
     {
       Scoped_seconds seconds(report.seconds.initial_guess);
       if(!m_laplacian_guess)
-        m_laplacian_guess.emplace(star_edge_sets(m_weight, m_region),
-                                  m_region.number_of_free_vertices, m_unused_solver);
-      if(!m_laplacian_guess->is_factorized())
-        return {Status::singular_matrix};
+      {
+        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, m_region),
+                                      m_region.number_of_free_vertices, m_prototype_solver);
+        if(!guess.is_factorized())
+          return {Status::singular_matrix};
+        m_laplacian_guess.emplace(std::move(guess));
+      }
       if(!(*m_laplacian_guess)(x))
         return {Status::solver_failed};
     }
@@ -122,7 +125,7 @@ private:
   Region<N> m_region;
   typename Traits::Edge_weight m_weight;
   typename Traits::Closest_rotation m_closest_rotation;
-  Solver m_unused_solver; // as the traits hand it out
+  Solver m_prototype_solver; // as the traits hand it out
   Solver m_solver;        // holds the factor of the Laplacian
   Rigidity_energy m_energy;
   std::optional<Laplacian_guess<Solver>> m_laplacian_guess;

@@ -36,7 +36,8 @@ public:
     return page < m_pages.size() && m_pages[page] ? (*m_pages[page])[index % page_size] : none;
   }
 
-  void set(std::size_t index, int value)
+  // allocates what set(index, ...) needs
+  void reserve(std::size_t index)
   {
     const std::size_t page = index / page_size;
     if(page >= m_pages.size())
@@ -46,7 +47,12 @@ public:
       m_pages[page] = std::make_unique<Page>();
       m_pages[page]->fill(none);
     }
-    (*m_pages[page])[index % page_size] = value;
+  }
+
+  void set(std::size_t index, int value)
+  {
+    reserve(index);
+    (*m_pages[index / page_size])[index % page_size] = value;
   }
 
 private:

@@ -20,8 +20,10 @@
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -91,6 +93,7 @@ public:
       for(int k = m_cells.begin[c]; k < m_cells.begin[c + 1]; ++k)
         m_set_stiffness[m_cells.sets[k]] += m_cells.stiffness[c];
     for_each_edge([this](const Weighted_edge& e, double stiffness) {
+      m_sum_of_weights += std::abs(stiffness * e.weight);
       m_scale += std::abs(stiffness * e.weight) * dot(e.rest, e.rest);
     });
   }
@@ -99,6 +102,18 @@ public:
 
   // sum of k w ||e||^2: the natural unit of the energy
   double scale() const { return m_scale; }
+
+  // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it
+  // is far below the rounding error of the scale.
+  double rounding_error_of_zero(const std::vector<Coordinates>& x) const
+  {
+    double largest = 0;
+    for(const Coordinates& p : x)
+      for(double coordinate : p)
+        largest = (std::max)(largest, std::abs(coordinate));
+    const double error = 4 * std::numeric_limits<double>::epsilon() * largest;
+    return m_sum_of_weights * error * error;
+  }
 
   // calls f(edge, k) for each edge of each edge set, with k the stiffness of its cells added up
   template <typename Function>
@@ -176,6 +191,7 @@ private:
   std::vector<Matrix_3x3> m_set_covariances; // scratch: for each edge set
   std::vector<Matrix_3x3> m_covariances;     // scratch: for each cell
   double m_scale = 0;
+  double m_sum_of_weights = 0;
 };
 
 template <typename EdgeWeight, std::size_t N>

@@ -20,13 +20,17 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/Domain_region.h>
+#include <CGAL/ARAP_deformation/internal/Iterate.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/sentences.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
+#include <CGAL/assertions.h>
+
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,33 +51,7 @@ public:
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
 
-  // An iterate, as a visitor sees it.
-  class Iterate
-  {
-  public:
-    unsigned int iteration() const { return m_iteration; }
-    double energy() const { return m_energy; }
-
-    template <typename VertexPointMap>
-    void put_points(VertexPointMap map) const
-    {
-      for(const auto& [v, point] : m_session.new_points(m_positions))
-        put(map, v, point);
-    }
-
-  private:
-    friend class Session;
-
-    Iterate(const Session& session, const std::vector<Coordinates>& positions,
-            unsigned int iteration, double energy)
-      : m_session(session), m_positions(positions), m_iteration(iteration), m_energy(energy)
-    {}
-
-    const Session& m_session;
-    const std::vector<Coordinates>& m_positions;
-    unsigned int m_iteration;
-    double m_energy;
-  };
+  using Iterate = internal::Iterate<Session>;
 
   Session(Domain domain, const Traits& traits) : m_vertices(std::move(domain)), m_traits(traits) {}
 
@@ -81,6 +59,8 @@ public:
 
   Outcome set_options(const Options& options)
   {
+    if(is_in_a_run())
+      return outcome(Status::in_a_run);
     Outcome checked = options.check();
     if(checked)
     {
@@ -92,17 +72,25 @@ public:
 
   const Vertices& vertices() const { return m_vertices; }
 
+  // the target of a control vertex, the point of any other
+  Point target(vertex_descriptor v) const
+  {
+    return m_vertices.is_control(v) ? m_vertices.find(v)->target : domain().point(v);
+  }
+
   // changes the region: f(vertices) returns whether it did; then all that follows from it is stale
   template <typename Function>
   bool change_vertices(const Function& f)
   {
-    return note_change(f(m_vertices));
+    return !is_in_a_run() && note_change(f(m_vertices));
   }
 
   // replaces the target t of the control vertex v by f(t)
   template <typename Function>
   Outcome change_target(vertex_descriptor v, const Function& f)
   {
+    if(is_in_a_run())
+      return outcome(Status::in_a_run);
     auto* entry = m_vertices.find_control(v);
     if(entry == nullptr)
       return outcome(Status::not_a_control_vertex, name(v));
@@ -154,11 +142,12 @@ public:
 
   void reset()
   {
-    for(auto& entry : m_vertices.entries())
-    {
+    if(is_in_a_run())
+      return;
+    for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
+    for(auto& entry : m_vertices.entries())
       entry.target = entry.rest;
-    }
     for(std::size_t k = 0; k < m_positions.size(); ++k)
       m_positions[k] = Domain::coordinates(domain().point(m_region.vertices[k]));
     if(m_core)
@@ -168,24 +157,34 @@ public:
 
   void overwrite_initial_geometry()
   {
-    for(auto& entry : m_vertices.entries())
-      entry.rest = domain().point(entry.vertex);
+    if(is_in_a_run())
+      return;
+    std::vector<Point> points;
+    points.reserve(m_vertices.entries().size());
+    for(const auto& entry : m_vertices.entries())
+      points.push_back(domain().point(entry.vertex));
     note_change(true);
+    for(std::size_t k = 0; k < points.size(); ++k)
+      m_vertices.entries()[k].rest = points[k];
   }
 
   double energy() const { return m_energy; }
 
   Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
   {
-    return rotation_of_cell(m_core ? m_region.find_vertex(domain(), v) : -1);
+    const bool has_cell = m_core && m_options.cells.has_vertex_cells();
+    return rotation_of_cell(has_cell ? m_region.find_vertex(domain(), v) : -1);
   }
 
   Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
   {
-    return rotation_of_cell(m_core ? m_region.find_simplex(domain(), s) : -1);
+    const bool has_cell = m_core && !m_options.cells.has_vertex_cells();
+    return rotation_of_cell(has_cell ? m_region.find_simplex(domain(), s) : -1);
   }
 
 private:
+  friend Iterate;
+
   using Region_ = Domain_region<Domain>;
   using Core = Deformation_core<Traits, Domain::vertices_per_simplex>;
 
@@ -194,6 +193,13 @@ private:
   const Domain& domain() const { return m_vertices.domain(); }
 
   std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+
+  // Whether a visitor has called: it works on what the run is working on.
+  bool is_in_a_run() const
+  {
+    CGAL_precondition(!m_is_in_a_run);
+    return m_is_in_a_run;
+  }
 
   bool note_change(bool is_change)
   {
@@ -220,6 +226,8 @@ private:
   template <typename Visitor>
   Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report)
   {
+    if(is_in_a_run())
+      return outcome(Status::in_a_run);
     Options options = m_options;
     options.iterations = iterations;
     options.tolerance = tolerance;
@@ -249,6 +257,9 @@ private:
       return visitor(Iterate(*this, positions, iteration, energy));
     };
     std::vector<Matrix_3x3> rotations = m_core->rotations();
+    m_is_in_a_run = true;
+    const auto end_of_run = [](bool* flag) { *flag = false; };
+    const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
     const Diagnosis diagnosis = m_core->run(options, observe, positions, rotations, report);
     Outcome result = explain(diagnosis, m_region, *m_core);
     if(result)
@@ -267,6 +278,7 @@ private:
   new_points(const std::vector<Coordinates>& positions) const
   {
     std::vector<std::pair<vertex_descriptor, Point>> points;
+    points.reserve(m_core->region().number_of_free_vertices);
     for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
       points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
     for(const auto& entry : m_vertices.entries())
@@ -285,6 +297,7 @@ private:
   Traits m_traits;
   Options m_options;
   double m_energy = not_a_number;
+  bool m_is_in_a_run = false;
 
   // what preprocess() computes; up to date if m_core has a value
   Region_ m_region;

@@ -55,8 +55,6 @@ public:
     return slot == Paged_index_map::none ? nullptr : &m_entries[slot];
   }
 
-  // The functions that change the sets return whether they did.
-
   // the entry of v if it is a control vertex, else nullptr
   Entry* find_control(vertex_descriptor v)
   {
@@ -75,6 +73,8 @@ public:
     const Entry* entry = find(v);
     return entry != nullptr && entry->is_control;
   }
+
+  // The functions that change the sets return whether they did.
 
   bool insert_roi(vertex_descriptor v)
   {
@@ -145,6 +145,7 @@ private:
     {
       slot = static_cast<int>(m_entries.size());
       const Point point = m_domain.point(v);
+      m_slots.reserve(index); // so that what throws throws before anything is changed
       m_entries.push_back({v, point, point});
       m_slots.set(index, slot);
     }

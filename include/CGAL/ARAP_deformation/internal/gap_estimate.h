@@ -30,28 +30,25 @@ inline double energy_resolution(double energy, double scale)
   return std::numeric_limits<double>::epsilon() * (std::abs(energy) + scale);
 }
 
-// Estimates (E - E*) / E* from the energies E_0, ..., E_k = E of a run that tends to E*: the
-// decreases over the second half of the run are taken for a geometric series and summed to the end.
-// Infinity where there are too few of them, or where they do not shrink; 0 where the last one is
-// too small to be seen.
-inline double estimate_relative_gap(const std::vector<double>& energy, double scale)
+// Estimates (E - E*) / E* for a run that has reached the energy E by the given decreases and tends
+// to E*: those of the second half of the run are taken for a geometric series and summed to the
+// end. Infinity where there are too few of them, or where they do not shrink. An energy of at most
+// `zero`, its rounding error, is at its minimum.
+inline double estimate_relative_gap(double energy, const std::vector<double>& decreases,
+                                    double zero)
 {
   const double infinity = (std::numeric_limits<double>::infinity)();
-  const std::size_t k = energy.size() - 1, half = k / 2;
-  if(k < 1)
-    return infinity;
-  const double resolution = energy_resolution(energy[k], scale);
-  const double last = energy[k - 1] - energy[k];
-  if(std::abs(last) <= resolution)
+  const std::size_t k = decreases.size(), half = k / 2;
+  if(std::abs(energy) <= zero || (k > 0 && decreases.back() == 0))
     return 0;
   if(half < 2)
     return infinity;
-  const double earlier = energy[half - 1] - energy[half];
+  const double last = decreases[k - 1], earlier = decreases[half - 1];
   if(!(0 < last && last < earlier))
     return infinity;
   const double ratio = std::pow(last / earlier, 1.0 / static_cast<double>(k - half));
   const double gap = last * ratio / (1 - ratio);
-  return gap / (std::max)(std::abs(energy[k] - gap), resolution);
+  return gap / (std::max)(std::abs(energy - gap), zero);
 }
 
 } // namespace internal

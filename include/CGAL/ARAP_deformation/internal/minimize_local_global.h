@@ -46,6 +46,7 @@ Status minimize_local_global(Rigidity_energy& energy, const ClosestRotation& clo
                              Report& report)
 {
   std::vector<Coordinates> force;
+  std::vector<double> decreases;
   report.energy_scale = energy.scale();
   for(;; ++report.iterations)
   {
@@ -57,7 +58,8 @@ Status minimize_local_global(Rigidity_energy& energy, const ClosestRotation& clo
       return Status::non_finite_energy;
     const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
     report.estimated_relative_gap =
-      is_nothing_free ? 0 : estimate_relative_gap(report.energy, report.energy_scale);
+      is_nothing_free ? 0 : estimate_relative_gap(report.energy.back(), decreases,
+                                                  energy.rounding_error_of_zero(x));
 
     switch(observe(report.iterations, report.energy.back()))
     {
@@ -72,10 +74,18 @@ Status minimize_local_global(Rigidity_energy& energy, const ClosestRotation& clo
       return Status::iteration_limit;
 
     Scoped_seconds global(report.seconds.global_steps);
-    if(!solver.solve(number_of_free_vertices, force.data()))
+    std::vector<Coordinates> step(force.begin(), force.begin() + number_of_free_vertices);
+    if(!solver.solve(number_of_free_vertices, step.data()))
       return Status::solver_failed;
+    double decrease = 0;
     for(std::size_t v = 0; v < number_of_free_vertices; ++v)
-      add(x[v], 1, force[v]);
+    {
+      decrease += dot(force[v], step[v]);
+      add(x[v], 1, step[v]);
+    }
+    // Near the minimum the local step that follows gains as much again in the soft modes, which
+    // are the last to converge. The difference of two energies would be lost in rounding.
+    decreases.push_back(2 * decrease);
   }
 }
 

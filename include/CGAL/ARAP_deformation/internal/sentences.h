@@ -44,6 +44,8 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::stopped: return about("the visitor stopped the run and kept the last iterate");
   case Status::cancelled: return about("the visitor cancelled the run and nothing was changed");
   case Status::invalid_option: return about("an option is out of its range");
+  case Status::in_a_run:
+    return about("a visitor must not change the object whose run it is visiting");
   case Status::not_a_control_vertex:
     return about(" is not a control vertex and cannot be given a target; "
                  "insert it as a control vertex first");
