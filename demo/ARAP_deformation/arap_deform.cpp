@@ -144,16 +144,7 @@ Result deform(const Command_line& line, const Mesh& rest, Mesh& mesh,
 {
   Deformation deformation(mesh, Traits({}, Chosen_weight(line.weights)));
   deformation.set_options(line.options);
-  for(Mesh::Vertex_index v : mesh.vertices())
-  {
-    if(selection[v] != FIXED)
-      deformation.insert_roi_vertex(v);
-    if(selection[v] == HANDLE)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(transform, rest.point(v)));
-    }
-  }
+  insert_selection(deformation, rest, selection, transform);
 
   const bool is_shown = !line.is_quiet && is_terminal();
   Result result;

@@ -14,8 +14,8 @@
 //
 //   arap_demo models FOLDER [MESHES]   writes NAME.off, NAME.sel, NAME.def; of the meshes of CGAL's
 //                                      data folder MESHES too, if it is given
-//   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off, and the figures of the
-//                                      paper that take more than one run; prints a table
+//   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off, and the figures of
+//                                      the paper that take more than one run; prints a table
 
 #include "demo_shapes.h"
 #include "mesh_panel.h"
@@ -64,7 +64,8 @@ void write_models(const fs::path& folder, const fs::path& meshes)
     Output_file mesh((folder / (model.name + ".off")).string());
     write_mesh(mesh, model.mesh, ".off");
     mesh.commit();
-    std::ofstream selection(folder / (model.name + ".sel")), transform(folder / (model.name + ".def"));
+    std::ofstream selection(folder / (model.name + ".sel"));
+    std::ofstream transform(folder / (model.name + ".def"));
     for(int status : model.selection)
       selection << status << '\n';
     transform.precision(17);
@@ -87,21 +88,6 @@ using Traits = CGAL::ARAP_deformation_traits_3<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight>;
 
-template <typename Deformation>
-void prepare(Deformation& deformation, const Demo_shape& model)
-{
-  for(Mesh::Vertex_index v : model.mesh.vertices())
-  {
-    if(model.selection[v] != FIXED)
-      deformation.insert_roi_vertex(v);
-    if(model.selection[v] == HANDLE)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(model.transform, model.mesh.point(v)));
-    }
-  }
-}
-
 // Figure 3 of the paper: a bar is bent, and the iterations recover from the distorted guess of naive
 // Laplacian editing.
 void draw_iterations(const fs::path& folder)
@@ -114,7 +100,7 @@ void draw_iterations(const fs::path& folder)
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
   deformation.set_options(options);
-  prepare(deformation, bar);
+  insert_selection(deformation, bar.mesh, bar.selection, bar.transform);
 
   const std::set<unsigned int> shown = {0, 1, 2, 5, 10, 100};
   std::vector<Panel> panels;
@@ -130,7 +116,8 @@ void draw_iterations(const fs::path& folder)
   });
   if(!report)
     throw std::runtime_error(report.message);
-  draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420}, folder / "iterations.png");
+  draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420},
+       folder / "iterations.png");
 }
 
 // The largest difference of height between the left and the right of a sheet over [-1, 1]^2, each
@@ -156,7 +143,7 @@ Panel deformed_sheet(const Demo_shape& sheet, const std::string& caption)
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   deformation.set_options(options);
-  prepare(deformation, sheet);
+  insert_selection(deformation, sheet.mesh, sheet.selection, sheet.transform);
   const auto report = deformation.deform(2000, 1e-4);
   if(!report)
     throw std::runtime_error(report.message);

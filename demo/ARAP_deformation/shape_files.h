@@ -51,6 +51,23 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
+// Tells a deformation what is free, and where the handles go. `rest` is a copy of its mesh.
+template <typename Deformation>
+void insert_selection(Deformation& deformation, const Mesh& rest,
+                      const std::vector<int>& selection, const Transform& transform)
+{
+  for(Mesh::Vertex_index v : rest.vertices())
+  {
+    if(selection[v] != FIXED)
+      deformation.insert_roi_vertex(v);
+    if(selection[v] == HANDLE)
+    {
+      deformation.insert_control_vertex(v);
+      deformation.set_target_position(v, transformed(transform, rest.point(v)));
+    }
+  }
+}
+
 inline std::ifstream open_for_reading(const std::string& file)
 {
   std::error_code ignored;
@@ -89,8 +106,8 @@ inline Mesh read_mesh(const std::string& file)
   Mesh mesh;
   if(!CGAL::IO::read_polygon_mesh(file, mesh))
     throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
-                             lower_case_extension(file) + " files, or holds a coordinate that is "
-                             "not a finite number, or is not an oriented manifold surface");
+                             lower_case_extension(file) + " files, or holds a coordinate that "
+                             "is not a finite number, or is not an oriented manifold surface");
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
     throw std::runtime_error(file + ": has no faces");
   for(Mesh::Vertex_index v : mesh.vertices())
@@ -168,7 +185,8 @@ inline Transform read_transform(const std::string& file)
     throw std::runtime_error(file + ": has " + std::to_string(entries.size()) +
                              " numbers; a transform is a 4 x 4 matrix");
   std::copy(entries.begin(), entries.end(), transform.begin());
-  if(!std::equal(transform.begin() + 12, transform.end(), std::array<double, 4>{0, 0, 0, 1}.begin()))
+  const std::array<double, 4> last_row = {0, 0, 0, 1};
+  if(!std::equal(last_row.begin(), last_row.end(), transform.begin() + 12))
     throw std::runtime_error(file + ": the last row of the transform is not 0 0 0 1");
   const Transform& m = transform;
   const Kernel::Vector_3 x(m[0], m[4], m[8]), y(m[1], m[5], m[9]), z(m[2], m[6], m[10]);
@@ -179,8 +197,9 @@ inline Transform read_transform(const std::string& file)
 }
 
 // A file that is written under a temporary name beside its own, and gets its own only by commit():
-// no other program ever sees half of it, and nothing is left if commit() is never reached. Links are
-// followed, permissions kept, and what is not a file, such as /dev/stdout, is written to directly.
+// no other program ever sees half of it, and nothing is left if commit() is never reached. Links
+// are followed, permissions kept, and what is not a file, such as /dev/stdout, is written to
+// directly.
 class Output_file
 {
 public:

@@ -72,8 +72,9 @@ int main()
   using Own_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Inverse_length_weight>;
   const CGAL::ARAP_deformation_traits_3<> default_traits;
   const Own_traits own_traits({}, Inverse_length_weight(0.5));
-  const bool done = bend("cotangents, spokes and rims", default_traits, Cell_scheme::spokes_and_rims())
-                 && bend("cotangents, spokes", default_traits, Cell_scheme::spokes())
-                 && bend("inverse lengths, spokes", own_traits, Cell_scheme::spokes());
+  const bool done =
+    bend("cotangents, spokes and rims", default_traits, Cell_scheme::spokes_and_rims()) &&
+    bend("cotangents, spokes", default_traits, Cell_scheme::spokes()) &&
+    bend("inverse lengths, spokes", own_traits, Cell_scheme::spokes());
   return done ? EXIT_SUCCESS : EXIT_FAILURE;
 }

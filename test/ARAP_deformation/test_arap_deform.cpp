@@ -27,14 +27,6 @@ using Vertex = Mesh::Vertex_index;
 using CGAL::ARAP::Status;
 namespace params = CGAL::parameters;
 
-bool same_points(const Mesh& a, const Mesh& b)
-{
-  for(Vertex v : a.vertices())
-    if(a.point(v) != b.point(v))
-      return false;
-  return true;
-}
-
 // Keeps a count: it must be called itself, and not a copy.
 struct Counter
 {

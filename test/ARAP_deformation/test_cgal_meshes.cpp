@@ -63,7 +63,8 @@ int main()
       continue;
     ++found;
     test_case() = name;
-    for(auto cells : {CGAL::ARAP::Cell_scheme::spokes(), CGAL::ARAP::Cell_scheme::spokes_and_rims()})
+    using CGAL::ARAP::Cell_scheme;
+    for(auto cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
     {
       Mesh first = rest, second = rest;
       const auto report = deform(first, cells), again = deform(second, cells);

@@ -45,14 +45,6 @@ std::vector<Vertex> strip(const Mesh& mesh, double low, double high)
   return found;
 }
 
-bool same_points(const Mesh& a, const Mesh& b)
-{
-  for(Vertex v : a.vertices())
-    if(a.point(v) != b.point(v))
-      return false;
-  return true;
-}
-
 void test_sets()
 {
   test_case() = "sets";

@@ -34,14 +34,6 @@ const Shape shape = grid("sheet", 12, 6, [](double u, double v) {
   return Eigen::Vector3d(2 * u, v, 0.1 * u * u);
 });
 
-bool same_points(const Mesh& a, const Mesh& b)
-{
-  for(Vertex v : a.vertices())
-    if(a.point(v) != b.point(v))
-      return false;
-  return true;
-}
-
 void test_statuses()
 {
   const Status all[] = {

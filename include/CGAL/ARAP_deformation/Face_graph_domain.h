@@ -39,8 +39,8 @@ namespace ARAP {
 /// Only the free functions of the BGL and the property maps are used. Triangles are the simplices.
 /// The mesh must outlive the domain; its connectivity must not change meanwhile.
 ///
-/// \tparam TriangleMesh a model of `FaceGraph`, and of `VertexListGraph` if the default index map has
-///         to be filled
+/// \tparam TriangleMesh a model of `FaceGraph`, and of `VertexListGraph` if the default index map
+///         has to be filled
 /// \tparam VertexPointMap a model of `ReadWritePropertyMap` from the vertices to their points,
 ///         default the internal map of the mesh. A point type has `operator[]` and a constructor
 ///         from three coordinates.

@@ -236,6 +236,15 @@ void prepare(Deformation& deformation, const Scenario& s,
     }
 }
 
+// whether two meshes of one connectivity have the same points, to the last bit
+inline bool same_points(const Mesh& a, const Mesh& b)
+{
+  for(auto v : a.vertices())
+    if(a.point(v) != b.point(v))
+      return false;
+  return true;
+}
+
 template <typename TriangleMesh>
 auto all_vertices(const TriangleMesh& mesh)
 {

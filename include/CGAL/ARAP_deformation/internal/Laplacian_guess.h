@@ -28,9 +28,9 @@ namespace ARAP {
 namespace internal {
 
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
-// minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i and
-// p is the rest shape. The rows are those of the free vertices and their neighbours; all others are
-// constant.
+// minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
+// and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
+// are constant.
 template <typename Solver>
 class Laplacian_guess
 {
