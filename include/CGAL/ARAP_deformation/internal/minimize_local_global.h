@@ -45,7 +45,7 @@ Status minimize_local_global(Rigidity_energy& energy, const ClosestRotation& clo
                              std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
                              Report& report)
 {
-  std::vector<Coordinates> force;
+  std::vector<Coordinates> force, step;
   std::vector<double> decreases;
   report.energy_scale = energy.scale();
   for(;; ++report.iterations)
@@ -74,7 +74,7 @@ Status minimize_local_global(Rigidity_energy& energy, const ClosestRotation& clo
       return Status::iteration_limit;
 
     Scoped_seconds global(report.seconds.global_steps);
-    std::vector<Coordinates> step(force.begin(), force.begin() + number_of_free_vertices);
+    step.assign(force.begin(), force.begin() + number_of_free_vertices);
     if(!solver.solve(number_of_free_vertices, step.data()))
       return Status::solver_failed;
     double decrease = 0;
