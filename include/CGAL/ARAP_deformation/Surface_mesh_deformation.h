@@ -23,6 +23,7 @@
 #include <CGAL/Surface_mesh_deformation.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -223,7 +224,8 @@ public:
   {
     return m_deformation.move_target(v, [&](const Point& p) {
       const Vect& c = to_rotation_center;
-      const Vect r = quat * Vect(p[0] - c[0], p[1] - c[1], p[2] - c[2]);
+      const Vect r = quat * Vect(CGAL::to_double(p[0]) - c[0], CGAL::to_double(p[1]) - c[1],
+                                 CGAL::to_double(p[2]) - c[2]);
       return Point(c[0] + r[0], c[1] + r[1], c[2] + r[2]);
     });
   }
@@ -305,8 +307,9 @@ public:
 
 private:
   template <typename InputIterator, typename Function>
-  static Outcome for_each(InputIterator begin, InputIterator end, const Function& f)
+  Outcome for_each(InputIterator begin, InputIterator end, const Function& f)
   {
+    m_deformation.update_region(); // also where the range is empty
     Outcome first(Status::success, "all targets are set");
     for(; begin != end; ++begin)
       if(Outcome outcome = f(*begin); first && !outcome)

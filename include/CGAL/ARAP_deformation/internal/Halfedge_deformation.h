@@ -125,6 +125,13 @@ public:
     return place != Region::none ? m_region.points[place] : Point(get(m_point_map, v));
   }
 
+  // makes the region fit the region of interest; what has left it is put back
+  void update_region()
+  {
+    if(m_is_region_outdated)
+      take_region(make_next_region());
+  }
+
   // the target of a control vertex becomes move(target)
   template <typename Function>
   Outcome move_target(Vertex v, const Function& move)
@@ -139,21 +146,10 @@ public:
 
   bool preprocess()
   {
-    // the mesh is not written and the region is kept until all has succeeded
-    std::optional<Region> next;
-    if(m_is_region_outdated)
-      next.emplace(make_next_region());
-    std::optional<System> system;
-    if(!m_system)
-    {
-      m_outcome = prepare(next ? *next : m_region, system.emplace());
-      if(!m_outcome)
-        return false;
-    }
-    if(next)
-      take_region(std::move(*next));
-    if(system)
-      m_system = std::move(system);
+    Update update;
+    if(!prepare(update))
+      return false;
+    take(std::move(update));
     return true;
   }
 
@@ -198,6 +194,13 @@ private:
     std::size_t number_of_triangles = 0;
   };
 
+  // What is out of date, made anew: taken when all has succeeded, so that what fails changes nothing.
+  struct Update
+  {
+    std::optional<Region> region;
+    std::optional<System> system;
+  };
+
   // these two return true, for the sake of those above
   bool region_changed()
   {
@@ -228,10 +231,21 @@ private:
     m_is_region_outdated = false;
   }
 
-  void update_region()
+  bool prepare(Update& update)
   {
     if(m_is_region_outdated)
-      take_region(make_next_region());
+      update.region.emplace(make_next_region());
+    if(!m_system)
+      m_outcome = make_system(update.region ? *update.region : m_region, update.system.emplace());
+    return m_system || m_outcome;
+  }
+
+  void take(Update&& update)
+  {
+    if(update.region)
+      take_region(std::move(*update.region));
+    if(update.system)
+      m_system = std::move(update.system);
   }
 
   void number_vertices(const Region& region, System& system) const
@@ -253,7 +267,7 @@ private:
     return region.vertices[it - system.numbers.begin()];
   }
 
-  Outcome prepare(const Region& region, System& system) const
+  Outcome make_system(const Region& region, System& system) const
   {
     const auto about = [&](Status status, int number) {
       return internal::outcome(status, name(vertex(region, system, number)));
@@ -305,38 +319,43 @@ private:
     if(Tag == SRE_ARAP && m_alpha != 0)
       return Outcome(Status::invalid_option,
                      "SRE_ARAP can be run with alpha = 0 only: rotations are not smoothed yet");
+    Update update;
     {
       const Scoped_seconds seconds(report.seconds.preprocess);
-      if(!preprocess())
+      if(!prepare(update))
         return m_outcome;
     }
-    report.free_vertices = m_system->number_of_free_vertices;
-    report.simplices = m_system->number_of_triangles;
+    const Region& region = update.region ? *update.region : m_region;
+    System& system = update.system ? *update.system : *m_system;
+    report.free_vertices = system.number_of_free_vertices;
+    report.simplices = system.number_of_triangles;
 
-    std::vector<Coordinates> x(m_region.size());
-    for(int k = 0; k < m_region.size(); ++k)
+    std::vector<Coordinates> x(region.size());
+    for(int k = 0; k < region.size(); ++k)
     {
-      x[m_system->numbers[k]] = point_coordinates(m_region.points[k]);
-      if(!is_finite(x[m_system->numbers[k]]))
-        return internal::outcome(Status::non_finite_point, name(m_region.vertices[k]));
+      const Coordinates c = point_coordinates(region.points[k]);
+      if(!is_finite(c))
+        return internal::outcome(Status::non_finite_point, name(region.vertices[k]));
+      x[system.numbers[k]] = c;
     }
-    std::vector<Matrix_3x3> rotations = m_region.rotations;
+    std::vector<Matrix_3x3> rotations = region.rotations;
     const Status status =
-      minimize_global_local(m_system->energy, m_closest_rotation, m_system->solver,
+      minimize_global_local(system.energy, m_closest_rotation, system.solver,
                             report.free_vertices, iterations, tolerance, x, rotations, report);
     if(!succeeded(status))
       return internal::outcome(status);
 
     // all points are there before the first is written
     std::vector<Point> points;
-    points.reserve(m_region.points.size());
-    for(int k = 0; k < m_region.size(); ++k)
+    points.reserve(region.points.size());
+    for(int k = 0; k < region.size(); ++k)
     {
-      const int number = m_system->numbers[k];
-      points.push_back(number < m_system->number_of_free_vertices
+      const int number = system.numbers[k];
+      points.push_back(number < system.number_of_free_vertices
                          ? Point(x[number][0], x[number][1], x[number][2])
-                         : m_region.points[k]);
+                         : region.points[k]);
     }
+    take(std::move(update));
     m_region.points = std::move(points);
     m_region.rotations = std::move(rotations);
     for(int k = 0; k < m_region.roi_size; ++k)
