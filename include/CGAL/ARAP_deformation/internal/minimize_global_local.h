@@ -30,8 +30,8 @@ namespace internal {
 
 // The iteration of minimize_local_global() in another order: each iteration first solves for the
 // positions with the rotations that it is given, and then fits the rotations to them. It ends when
-// the energy changes by less than `tolerance` of itself. The first and the last iteration are not
-// asked for that, as in CGAL's class.
+// the energy changes by less than `tolerance` of itself; the first iteration is not asked, as in
+// CGAL's class, since the energy before it has rotations that were not fitted to the targets.
 template <typename ClosestRotation, typename Solver>
 Status minimize_global_local(Rigidity_energy& energy, const ClosestRotation& closest_rotation,
                              Solver& solver, std::size_t number_of_free_vertices,
@@ -63,7 +63,7 @@ Status minimize_global_local(Rigidity_energy& energy, const ClosestRotation& clo
       report.energy.push_back(energy.evaluate(closest_rotation, x, rotations, force));
     }
     ++report.iterations;
-    if(tolerance > 0 && report.iterations > 1 && report.iterations < iterations)
+    if(tolerance > 0 && report.iterations > 1)
     {
       const double now = report.energy.back(), before = report.energy[report.iterations - 1];
       if(std::abs((before - now) / now) < tolerance)
