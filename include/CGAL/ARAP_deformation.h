@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/Session.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Default.h>
@@ -51,6 +52,8 @@ class ARAP_deformation
 {
   using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits_3<>>::type;
   using Domain_ = typename Default::Get<Domain, ARAP::Face_graph_domain<Mesh>>::type;
+
+  static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
 
 public:
   /// \name Types

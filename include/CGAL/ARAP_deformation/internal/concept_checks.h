@@ -114,16 +114,10 @@ using Call_edge_weight = Requires_convertible<
   decltype(std::declval<const Weight&>().edge_weight(
     std::declval<Edge_set>(), std::size_t(), std::size_t(), double())), double>;
 
-// whether the model has weights for simplices with that many vertices
-template <typename Weight, int Number_of_vertices>
-constexpr bool has_simplex_weights = Number_of_vertices == 3
-                                   ? is_valid<Call_triangle_weights, Weight>
-                                   : is_valid<Call_tetrahedron_weights, Weight>;
-
 template <typename Weight>
 struct Edge_weight_requirements
 {
-  static_assert(has_simplex_weights<Weight, 3> || has_simplex_weights<Weight, 4>,
+  static_assert(is_valid<Call_triangle_weights, Weight>,
     "the model of ARAPEdgeWeight_3 lacks: std::array<double, 3> "
     "simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>&) const");
   static_assert(is_valid<Call_edge_weight, Weight>,
@@ -248,9 +242,9 @@ struct Function_of_simplex
 };
 
 template <typename Domain>
-using Call_for_each_incident_simplex = Requires_convertible<
+using Call_for_each_incident_simplex =
   decltype(std::declval<const Domain&>().for_each_incident_simplex(
-    std::declval<Vertex_of<Domain>>(), std::declval<const Function_of_simplex<Domain>&>())), bool>;
+    std::declval<Vertex_of<Domain>>(), std::declval<const Function_of_simplex<Domain>&>()));
 
 // 0 if there is no constant
 template <typename Domain, typename = void>
@@ -259,7 +253,8 @@ template <typename Domain>
 constexpr int dimension_of<Domain, std::void_t<Constant_dimension<Domain>>> =
   Constant_dimension<Domain>::value;
 
-// What a domain needs, and what the weights need for its dimension.
+// What a domain needs, and what the weights need for its dimension. (Members that return `auto` are
+// instantiated to know what they return.)
 template <typename Domain, typename Weight>
 struct Domain_requirements
 {
@@ -290,7 +285,7 @@ struct Domain_requirements
     "the model of ARAPDomain_3 lacks: static Point make_point(const CGAL::ARAP::Coordinates&)");
   static_assert(is_valid<Call_for_each_incident_simplex, Domain>,
     "the model of ARAPDomain_3 lacks: "
-    "bool for_each_incident_simplex(vertex_descriptor, const Function&) const");
+    "void for_each_incident_simplex(vertex_descriptor, const Function&) const");
   static_assert(std::is_copy_constructible_v<Domain>,
     "the model of ARAPDomain_3 lacks: a copy constructor");
   static_assert(std::is_copy_assignable_v<Domain>,
@@ -299,10 +294,7 @@ struct Domain_requirements
   static constexpr int dimension = dimension_of<Domain>;
   static_assert(dimension == 0 || dimension == 2 || dimension == 3,
     "the dimension of the model of ARAPDomain_3 must be 2 or 3");
-  static_assert(dimension != 2 || has_simplex_weights<Weight, 3>,
-    "the model of ARAPEdgeWeight_3 lacks, for a domain of dimension 2: std::array<double, 3> "
-    "simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>&) const");
-  static_assert(dimension != 3 || has_simplex_weights<Weight, 4>,
+  static_assert(dimension != 3 || is_valid<Call_tetrahedron_weights, Weight>,
     "the model of ARAPEdgeWeight_3 lacks, for a domain of dimension 3: std::array<double, 6> "
     "simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>&) const");
   static constexpr bool are_met = true;
