@@ -54,6 +54,8 @@ class ARAP_deformation
   using Domain_ = typename Default::Get<Domain, ARAP::Face_graph_domain<Mesh>>::type;
 
   static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
+  static_assert(
+    ARAP::internal::Domain_requirements<Domain_, typename Traits_::Edge_weight>::are_met);
 
 public:
   /// \name Types

@@ -128,24 +128,24 @@ private:
   void check_sums()
   {
     const EdgeWeight copy(m_weight);
-    m_weights.push_back(0);
+    std::vector<double> sums = m_weights; // on the border, and of two simplices
+    for(std::size_t k = 1; k < m_weights.size(); ++k)
+      sums.push_back(m_weights[k - 1] + m_weights[k]);
+    sums.push_back(0);
     for(const auto& [i, j] : m_edges)
       for(Edge_set edge_set : {Edge_set::star, Edge_set::simplex})
-        for(std::size_t k = 0; k < m_weights.size(); ++k)
-        {
-          const double sum = m_weights[k] + (k % 2 == 0 ? m_weights[m_weights.size() / 2] : 0);
-          for(double s : {sum, -sum})
+        for(double size : sums)
+          for(double sum : {size, -size})
           {
-            const double w = m_weight.edge_weight(edge_set, i, j, s);
+            const double w = m_weight.edge_weight(edge_set, i, j, sum);
             m_violations.check(std::isfinite(w), "edge_weight() is not finite for a finite sum");
             if(!std::isfinite(w))
               continue;
-            m_violations.check(m_weight.edge_weight(edge_set, i, j, s) == w,
+            m_violations.check(m_weight.edge_weight(edge_set, i, j, sum) == w,
                                "edge_weight() is another when asked for again");
-            m_violations.check(copy.edge_weight(edge_set, i, j, s) == w,
+            m_violations.check(copy.edge_weight(edge_set, i, j, sum) == w,
                                "edge_weight() of a copy is another");
           }
-        }
   }
 
   EdgeWeight m_weight;

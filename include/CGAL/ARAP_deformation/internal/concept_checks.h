@@ -148,7 +148,7 @@ template <typename Traits>
 using Call_closest_rotation_object = Requires_convertible<
   decltype(std::declval<const Traits&>().closest_rotation_object()), Closest_rotation_of<Traits>>;
 
-// Requirements of a nested type, or nothing if there is no such type.
+// The requirements of a nested type; none if there is no such type, of which a sentence tells.
 template <template <typename> class Requirements, template <typename...> class Type,
           typename Traits, bool = is_valid<Type, Traits>>
 struct Requirements_of : Requirements<Type<Traits>> {};
@@ -157,7 +157,7 @@ template <template <typename> class Requirements, template <typename...> class T
           typename Traits>
 struct Requirements_of<Requirements, Type, Traits, false>
 {
-  static constexpr bool are_met = false;
+  static constexpr bool are_met = true;
 };
 
 template <typename Traits>
@@ -169,10 +169,11 @@ struct Deformation_traits_requirements
     "the model of ARAPDeformationTraits_3 lacks: the type Edge_weight");
   static_assert(is_valid<Closest_rotation_of, Traits>,
     "the model of ARAPDeformationTraits_3 lacks: the type Closest_rotation");
-  static constexpr bool are_models =
-    Requirements_of<Sparse_solver_requirements, Sparse_solver_of, Traits>::are_met &&
-    Requirements_of<Edge_weight_requirements, Edge_weight_of, Traits>::are_met &&
-    Requirements_of<Closest_rotation_requirements, Closest_rotation_of, Traits>::are_met;
+  static_assert(
+    Requirements_of<Sparse_solver_requirements, Sparse_solver_of, Traits>::are_met);
+  static_assert(Requirements_of<Edge_weight_requirements, Edge_weight_of, Traits>::are_met);
+  static_assert(
+    Requirements_of<Closest_rotation_requirements, Closest_rotation_of, Traits>::are_met);
   static_assert(is_valid<Call_sparse_solver_object, Traits>,
     "the model of ARAPDeformationTraits_3 lacks: Sparse_solver sparse_solver_object() const");
   static_assert(is_valid<Call_edge_weight_object, Traits>,
