@@ -120,7 +120,8 @@ public:
   /// constructs the domain with both maps. Points are written to where they are read from.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map)
-    : Face_graph_domain(mesh, vertex_point_map, vertex_index_map, vertex_point_map)
+    : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(vertex_point_map),
+      m_index_map(vertex_index_map), m_is_in_place(true)
   {}
 
   /// constructs the domain with a map to the points that are read, and one to those that are written:
@@ -128,7 +129,7 @@ public:
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map, Output_point_map output_point_map)
     : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(output_point_map),
-      m_index_map(vertex_index_map)
+      m_index_map(vertex_index_map), m_is_in_place(false)
   {}
 
   /// returns the index of `v`, by which tables are indexed and sentences name the vertex.
@@ -145,6 +146,9 @@ public:
   {
     put(m_output_point_map, v, point);
   }
+
+  /// returns whether points are written to where they are read from.
+  bool is_in_place() const { return m_is_in_place; }
 
   /// returns the range of all vertices.
   auto vertices() const { return internal::vertices_of_graph(*m_mesh); }
@@ -186,6 +190,7 @@ private:
   Vertex_point_map m_point_map;
   Output_point_map m_output_point_map;
   Vertex_index_map m_index_map;
+  bool m_is_in_place;
 };
 
 /// \ingroup PkgARAPDeformationDomains

@@ -94,6 +94,9 @@ public:
   /// sets the point of `v` in the range that is written.
   void set_point(vertex_descriptor v, const Point& point) const { (*m_output_points)[v] = point; }
 
+  /// returns whether points are written to where they are read from.
+  bool is_in_place() const { return m_points == m_output_points; }
+
   /// returns the range of all vertices.
   auto vertices() const { return boost::counting_range(std::size_t(0), m_points->size()); }
 

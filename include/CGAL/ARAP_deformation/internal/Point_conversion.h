@@ -18,11 +18,23 @@
 
 #include <CGAL/number_utils.h>
 
+#include <type_traits>
+
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What ARAPDomain_3 asks about points, for each type that has operator[] and a constructor from three
+// a point from its coordinates, which are not rounded if the point takes them as they are
+template <typename Point, typename FT>
+Point construct_point(const FT& x, const FT& y, const FT& z)
+{
+  if constexpr(std::is_constructible_v<Point, FT, FT, FT>)
+    return Point(x, y, z);
+  else
+    return Point{x, y, z}; // std::array
+}
+
+// What ARAPDomain_3 asks about points, for each type that has operator[] and is made of three
 // coordinates. A base of the domains.
 template <typename Point>
 struct Point_conversion
@@ -32,7 +44,7 @@ struct Point_conversion
     return {CGAL::to_double(point[0]), CGAL::to_double(point[1]), CGAL::to_double(point[2])};
   }
 
-  static Point make_point(const Coordinates& c) { return Point(c[0], c[1], c[2]); }
+  static Point make_point(const Coordinates& c) { return construct_point<Point>(c[0], c[1], c[2]); }
 };
 
 } // namespace internal

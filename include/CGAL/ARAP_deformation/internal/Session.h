@@ -159,6 +159,15 @@ public:
   {
     if(is_in_a_run())
       return;
+    if(domain().is_in_place()) // the points may have been changed by others
+    {
+      std::vector<Point> points;
+      points.reserve(m_vertices.entries().size());
+      for(const auto& entry : m_vertices.entries())
+        points.push_back(domain().point(entry.vertex));
+      for(std::size_t k = 0; k < points.size(); ++k)
+        m_vertices.entries()[k].present = std::move(points[k]);
+    }
     note_change(true);
     for(auto& entry : m_vertices.entries())
       entry.rest = entry.present;
