@@ -60,15 +60,15 @@ public:
     }
   }
 
-  std::array<double, 3>
-  simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const
+  template <std::size_t N>
+  auto simplex_weights(const std::array<CGAL::ARAP::Coordinates, N>& simplex) const
   {
-    return std::visit([&](const auto& w) { return w.simplex_weights(triangle); }, m_weight);
+    return std::visit([&](const auto& w) { return w.simplex_weights(simplex); }, m_weight);
   }
 
-  double edge_weight(CGAL::ARAP::Edge_set edge_set, double sum) const
+  double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
   {
-    return std::visit([&](const auto& w) { return w.edge_weight(edge_set, sum); }, m_weight);
+    return std::visit([&](const auto& w) { return w.edge_weight(edge_set, i, j, sum); }, m_weight);
   }
 
 private:

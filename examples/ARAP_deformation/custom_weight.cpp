@@ -28,8 +28,12 @@ public:
     return {weight(p[0], p[1]), weight(p[0], p[2]), weight(p[1], p[2])};
   }
 
-  // of an edge, from the sum over the triangles in its edge set
-  double edge_weight(CGAL::ARAP::Edge_set, double sum) const { return sum; }
+  // of the edge from one vertex to another, given by their indices, from the sum over the triangles
+  // in its edge set
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double sum) const
+  {
+    return sum;
+  }
 
 private:
   double weight(const CGAL::ARAP::Coordinates& p, const CGAL::ARAP::Coordinates& q) const

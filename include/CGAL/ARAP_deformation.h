@@ -15,16 +15,19 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Default_visitor.h>
-#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/internal/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/Session.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/assertions.h>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,20 +40,31 @@ namespace CGAL {
 ///
 /// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
 /// move: the *control vertices* among them go to their targets, the others are *free* and are
-/// solved for. All other vertices are *held* where they are; so are free vertices without any face.
+/// solved for. All other vertices are *held* where they are; so are free vertices without any simplex.
 ///
 /// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an
 /// index map. The mesh must outlive the object. Meanwhile its connectivity must not change, and its
 /// points only by this object. Computations are in `double`, whatever the type of the points.
 ///
-/// \tparam Mesh the type of the mesh
+/// \tparam Mesh the type of the mesh, or of its domain
 /// \tparam Traits a model of `ARAPDeformationTraits_3`, default `ARAP_deformation_traits_3<>`
-/// \tparam Domain a model of `ARAPDomain_3`, default `ARAP::Face_graph_domain<Mesh>`
+/// \tparam Domain a model of `ARAPDomain_3`. The default depends on `Mesh`:
+///         - if `Mesh` is itself a model of `ARAPDomain_3`, `Mesh`;
+///         - for triangulations and complexes in them `ARAP::Triangulation_domain_3`, whose header
+///           has to be included;
+///         - for linear cell complexes of dimension 3, or over generalized maps,
+///           `ARAP::Linear_cell_complex_domain_3`, whose header has to be included;
+///         - else `ARAP::Face_graph_domain<Mesh>`.
 template <typename Mesh, typename Traits = Default, typename Domain = Default>
 class ARAP_deformation
 {
   using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits_3<>>::type;
-  using Domain_ = typename Default::Get<Domain, ARAP::Face_graph_domain<Mesh>>::type;
+  using Domain_ =
+    typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
+
+  static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
+  static_assert(
+    ARAP::internal::Domain_requirements<Domain_, typename Traits_::Edge_weight>::are_met);
 
 public:
   /// \name Types
@@ -59,7 +73,7 @@ public:
   using Deformation_domain = Domain_; ///< the domain.
   using Point = typename Domain_::Point; ///< a point of the mesh.
   using vertex_descriptor = typename Domain_::vertex_descriptor; ///< a vertex of the mesh.
-  using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face of a surface.
+  using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face or tetrahedron.
 #ifdef DOXYGEN_RUNNING
   using Iterate = unspecified_type; ///< what a visitor is given, a model of `ARAPIterate`.
 #else
@@ -70,10 +84,16 @@ public:
   /// \name Construction
   /// @{
 
+#ifdef DOXYGEN_RUNNING
   /// constructs a deformation of `mesh` with the mesh's own points and an empty region of interest.
-  explicit ARAP_deformation(Mesh& mesh, const Deformation_traits& traits = Deformation_traits())
-    : ARAP_deformation(Deformation_domain(mesh), traits)
+  explicit ARAP_deformation(Mesh& mesh, const Deformation_traits& traits = Deformation_traits());
+#else
+  template <typename Mesh_, typename = std::enable_if_t<std::is_same_v<Mesh_, Mesh> &&
+                                                        !std::is_same_v<Mesh_, Domain_>>>
+  explicit ARAP_deformation(Mesh_& mesh, const Deformation_traits& traits = Deformation_traits())
+    : ARAP_deformation(ARAP::internal::make_domain<Deformation_domain>(mesh), traits)
   {}
+#endif
 
   /// constructs a deformation from a domain, which knows the property maps to use.
   explicit ARAP_deformation(Deformation_domain domain,
@@ -86,6 +106,9 @@ public:
 
   /// moves. What is moved from can only be assigned to or destroyed.
   ARAP_deformation& operator=(ARAP_deformation&&) = default;
+
+  /// returns the domain.
+  const Deformation_domain& domain() const { return m_session.vertices().domain(); }
 
   /// returns the options.
   const ARAP::Options& options() const { return m_session.options(); }
@@ -189,7 +212,7 @@ public:
   ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
   {
     return change_target(v, [&t](const Point& p) {
-      return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
+      return ARAP::internal::construct_point<Point>(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
     });
   }
 

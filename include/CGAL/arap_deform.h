@@ -16,27 +16,49 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
-#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/internal/Default_domain.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Named_function_parameters.h>
 
+#include <type_traits>
+
 namespace CGAL {
 
+namespace ARAP {
+namespace internal {
+
+// the domain of a shape that is a domain or a mesh; named parameters tell about a FaceGraph
+template <typename Shape, typename NamedParameters>
+auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
+{
+  using Domain = typename Default_domain<std::remove_const_t<Shape>>::type;
+  if constexpr(std::is_same_v<Domain, Face_graph_domain<std::remove_const_t<Shape>>>)
+    return make_face_graph_domain(shape, np);
+  else if constexpr(Is_domain<std::remove_const_t<Shape>>::value)
+    return std::remove_const_t<Shape>(shape);
+  else
+    return make_domain<Domain>(shape);
+}
+
+} // namespace internal
+} // namespace ARAP
+
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a triangulated surface as rigidly as possible, in one call.
+/// \brief deforms a shape as rigidly as possible, in one call.
 ///
 /// The constrained vertices get their targets, and all others follow. To deform a part of a mesh,
 /// or to move the targets again and again, use the class `ARAP_deformation`.
 ///
-/// \tparam TriangleMesh a model of `FaceGraph` and `VertexListGraph`
+/// \tparam Shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
+///         `ARAPDomain_3`
 /// \tparam VertexConstrainedMap a model of `ReadablePropertyMap` from vertices to `bool`
 /// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
 /// \tparam NamedParameters a sequence of named parameters
 ///
-/// \param mesh the shape: what it is before the call is the rest shape
+/// \param shape the shape: what it is before the call is the rest shape
 /// \param constrained tells which vertices are held at their targets
 /// \param targets gives each constrained vertex its target; for one that stays, its own point
 /// \param options what is chosen at run time
@@ -44,12 +66,12 @@ namespace CGAL {
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices, read and written}
+///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written}
 ///     \cgalParamType{a model of `ReadWritePropertyMap`}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex, from 0 on}
+///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, from 0 on}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd
@@ -76,10 +98,10 @@ namespace CGAL {
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \returns what was done. If it did not succeed, the mesh is as it was.
-template <typename TriangleMesh, typename VertexConstrainedMap, typename VertexTargetMap,
+/// \returns what was done. If it did not succeed, the shape is as it was.
+template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
           typename CGAL_NP_TEMPLATE_PARAMETERS>
-ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
+ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,
                          VertexTargetMap targets, const ARAP::Options& options,
                          const CGAL_NP_CLASS& np = parameters::default_values())
 {
@@ -95,16 +117,16 @@ ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
   using Visitor = typename internal_np::Lookup_named_param_def<
     internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;
 
-  auto domain = ARAP::make_face_graph_domain(mesh, np);
-  ARAP_deformation<TriangleMesh, Traits, decltype(domain)> deformation(domain,
-                                                                      Traits(solver, weight));
+  const auto domain = ARAP::internal::make_domain_with_parameters(shape, np);
+  using Domain = std::remove_const_t<decltype(domain)>;
+  ARAP_deformation<Domain, Traits> deformation(domain, Traits(solver, weight));
   if(ARAP::Outcome checked = deformation.set_options(options); !checked)
   {
     ARAP::Report report;
     static_cast<ARAP::Outcome&>(report) = checked;
     return report;
   }
-  for(auto v : vertices(mesh))
+  for(auto v : domain.vertices())
   {
     deformation.insert_roi_vertex(v);
     if(!get(constrained, v))
@@ -121,17 +143,15 @@ ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
 }
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a triangulated surface as rigidly as possible, in one call, with the default
-/// options.
+/// \brief deforms a shape as rigidly as possible, in one call, with the default options.
 ///
 /// The parameters are those of the overload with `options`.
-template <typename TriangleMesh, typename VertexConstrainedMap, typename VertexTargetMap,
+template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
           typename CGAL_NP_TEMPLATE_PARAMETERS>
-ARAP::Report arap_deform(TriangleMesh& mesh, VertexConstrainedMap constrained,
-                         VertexTargetMap targets,
+ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained, VertexTargetMap targets,
                          const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  return arap_deform(mesh, constrained, targets, ARAP::Options(), np);
+  return arap_deform(shape, constrained, targets, ARAP::Options(), np);
 }
 
 } // namespace CGAL

@@ -60,10 +60,10 @@ int main()
     for(const Edge_set set : {Edge_set::star, Edge_set::simplex})
     {
       const double sum = entry(random);
-      CHECK(Cotangent_weight().edge_weight(set, sum) == sum);
-      CHECK(Clamped_cotangent_weight().edge_weight(set, sum) == (std::max)(sum, 0.0));
-      CHECK(Uniform_weight().edge_weight(set, sum) == 1);
-      CHECK(Safe_cotangent_weight().edge_weight(set, sum) ==
+      CHECK(Cotangent_weight().edge_weight(set, 0, 1, sum) == sum);
+      CHECK(Clamped_cotangent_weight().edge_weight(set, 0, 1, sum) == (std::max)(sum, 0.0));
+      CHECK(Uniform_weight().edge_weight(set, 0, 1, sum) == 1);
+      CHECK(Safe_cotangent_weight().edge_weight(set, 0, 1, sum) ==
             (set == Edge_set::star ? (std::max)(sum, 0.0) : sum));
     }
   }
@@ -77,8 +77,8 @@ int main()
 
   // nothing that is not a number is hidden by the clamping
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(std::isnan(Clamped_cotangent_weight().edge_weight(Edge_set::star, nan)));
-  CHECK(std::isnan(Safe_cotangent_weight().edge_weight(Edge_set::star, nan)));
+  CHECK(std::isnan(Clamped_cotangent_weight().edge_weight(Edge_set::star, 0, 1, nan)));
+  CHECK(std::isnan(Safe_cotangent_weight().edge_weight(Edge_set::star, 0, 1, nan)));
   const Triangle degenerate = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}};
   for(double weight : Cotangent_weight().simplex_weights(degenerate))
     CHECK(!std::isfinite(weight));

@@ -14,58 +14,85 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
-#include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
 namespace ARAP {
 
+namespace internal {
+
+// outside of the class, where `vertices` is its member
+template <typename Graph>
+auto vertices_of_graph(const Graph& graph)
+{
+  return vertices(graph);
+}
+
+// a const mesh has a map to its points that cannot be written
+template <typename PolygonMesh, typename VertexPointMap>
+using Vertex_point_map_or_default = typename Default::Get<
+  VertexPointMap,
+  std::conditional_t<
+    std::is_const_v<PolygonMesh>,
+    typename boost::property_map<std::remove_const_t<PolygonMesh>, vertex_point_t>::const_type,
+    typename boost::property_map<std::remove_const_t<PolygonMesh>, vertex_point_t>::type>>::type;
+
+} // namespace internal
+
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a triangulated surface, given as any model of `FaceGraph`.
+/// \brief a surface of triangles or polygons, given as any model of `FaceGraph`.
 ///
-/// Only the free functions of the BGL and the property maps are used. Triangles are the simplices.
+/// Only the free functions of the BGL and the property maps are used. The faces are the simplices; a
+/// polygon has the average weights of all its triangulations.
 /// The mesh must outlive the domain; its connectivity must not change meanwhile.
 ///
-/// \tparam TriangleMesh a model of `FaceGraph`, and of `VertexListGraph` if the default index map
-///         has to be filled
-/// \tparam VertexPointMap a model of `ReadWritePropertyMap` from the vertices to their points,
-///         default the internal map of the mesh. A point type has `operator[]` and a constructor
-///         from three coordinates.
+/// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; it may be `const` if the
+///         points are written to an output map
+/// \tparam VertexPointMap a model of `ReadablePropertyMap` from the vertices to their points, and of
+///         `ReadWritePropertyMap` if there is no output map; default the internal map of the mesh.
+///         A point type has `operator[]` and a constructor from three coordinates.
 /// \tparam VertexIndexMap a model of `ReadablePropertyMap` from the vertices to 0, 1, ..., default
 ///         the internal map of the mesh or, if there is none, one that is filled at construction
+/// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
+///         type, default `VertexPointMap`
 ///
 /// \cgalModels{ARAPDomain_3}
-template <typename TriangleMesh, typename VertexPointMap = Default,
-          typename VertexIndexMap = Default>
+template <typename PolygonMesh, typename VertexPointMap = Default,
+          typename VertexIndexMap = Default, typename OutputPointMap = Default>
 class Face_graph_domain
+  : public internal::Point_conversion<typename boost::property_traits<
+      internal::Vertex_point_map_or_default<PolygonMesh, VertexPointMap>>::value_type>
 {
-  using Graph_traits = boost::graph_traits<TriangleMesh>;
+  using Graph = std::remove_const_t<PolygonMesh>;
+  using Graph_traits = boost::graph_traits<Graph>;
   using halfedge_descriptor = typename Graph_traits::halfedge_descriptor;
 
 public:
   /// the type of the mesh.
-  using Mesh = TriangleMesh;
+  using Mesh = PolygonMesh;
 
-  /// the type of the map to the points.
-  using Vertex_point_map = typename Default::Get<
-    VertexPointMap, typename boost::property_map<Mesh, vertex_point_t>::type>::type;
+  /// the type of the map from which points are read.
+  using Vertex_point_map = internal::Vertex_point_map_or_default<PolygonMesh, VertexPointMap>;
+
+  /// the type of the map to which points are written.
+  using Output_point_map = typename Default::Get<OutputPointMap, Vertex_point_map>::type;
 
   /// the type of the map to the indices.
   using Vertex_index_map = typename Default::Get<
-    VertexIndexMap, typename GetInitializedVertexIndexMap<Mesh>::type>::type;
+    VertexIndexMap, typename GetInitializedVertexIndexMap<Graph>::const_type>::type;
 
   /// the type of a point.
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;
@@ -76,8 +103,8 @@ public:
   /// a face.
   using simplex_descriptor = typename Graph_traits::face_descriptor;
 
-  /// 3: the simplices are triangles.
-  static constexpr std::size_t vertices_per_simplex = 3;
+  /// 2: the simplices are triangles and polygons.
+  static constexpr int dimension = 2;
 
   /// constructs the domain with the default maps.
   explicit Face_graph_domain(Mesh& mesh)
@@ -86,13 +113,23 @@ public:
 
   /// constructs the domain with a map to the points and the default map to the indices.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map)
-    : Face_graph_domain(mesh, vertex_point_map, get_initialized_vertex_index_map(mesh))
+    : Face_graph_domain(mesh, vertex_point_map,
+                        get_initialized_vertex_index_map(std::as_const(mesh)))
   {}
 
-  /// constructs the domain with both maps.
+  /// constructs the domain with both maps. Points are written to where they are read from.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map)
-    : m_mesh(&mesh), m_point_map(vertex_point_map), m_index_map(vertex_index_map)
+    : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(vertex_point_map),
+      m_index_map(vertex_index_map), m_is_in_place(true)
+  {}
+
+  /// constructs the domain with a map to the points that are read, and one to those that are written:
+  /// the points of all vertices of the region of interest.
+  Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
+                    Vertex_index_map vertex_index_map, Output_point_map output_point_map)
+    : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(output_point_map),
+      m_index_map(vertex_index_map), m_is_in_place(false)
   {}
 
   /// returns the index of `v`, by which tables are indexed and sentences name the vertex.
@@ -101,20 +138,20 @@ public:
     return static_cast<std::size_t>(get(m_index_map, v));
   }
 
-  /// returns the point of `v`.
+  /// returns the point of `v` in the map that is read.
   Point point(vertex_descriptor v) const { return get(m_point_map, v); }
 
-  /// sets the point of `v`.
-  void set_point(vertex_descriptor v, const Point& point) const { put(m_point_map, v, point); }
-
-  /// returns the coordinates of `point`, rounded to `double`.
-  static Coordinates coordinates(const Point& point)
+  /// sets the point of `v` in the map that is written.
+  void set_point(vertex_descriptor v, const Point& point) const
   {
-    return {CGAL::to_double(point[0]), CGAL::to_double(point[1]), CGAL::to_double(point[2])};
+    put(m_output_point_map, v, point);
   }
 
-  /// returns the point with the given coordinates.
-  static Point make_point(const Coordinates& c) { return Point(c[0], c[1], c[2]); }
+  /// returns whether points are written to where they are read from.
+  bool is_in_place() const { return m_is_in_place; }
+
+  /// returns the range of all vertices.
+  auto vertices() const { return internal::vertices_of_graph(*m_mesh); }
 
   /// returns whether no face is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
@@ -125,47 +162,39 @@ public:
     return true;
   }
 
-  /// returns the vertices of the triangle `s`.
-  std::array<vertex_descriptor, 3> simplex_vertices(simplex_descriptor s) const
+  /// returns the range of the vertices of the face `s`, in their order around it.
+  auto simplex_vertices(simplex_descriptor s) const
   {
-    const halfedge_descriptor h = halfedge(s, *m_mesh);
-    return {source(h, *m_mesh), target(h, *m_mesh), target(next(h, *m_mesh), *m_mesh)};
+    return vertices_around_face(halfedge(s, *m_mesh), *m_mesh);
   }
 
-  /// calls `f(s, vertices)` for each face `s` at `v` with the `std::array` of its three vertices.
-  /// Returns `false` at the first face that is not a triangle.
+  /// calls `f(s, simplex_vertices(s))` for each face `s` at `v`.
   template <typename Function>
-  bool for_each_incident_simplex(vertex_descriptor v, const Function& f) const
+  void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
   {
     for(halfedge_descriptor h : halfedges_to(v))
-    {
-      if(is_border(h, *m_mesh))
-        continue;
-      const halfedge_descriptor h1 = next(h, *m_mesh), h2 = next(h1, *m_mesh);
-      if(next(h2, *m_mesh) != h)
-        return false;
-      f(face(h, *m_mesh), std::array<vertex_descriptor, 3>{
-          v, target(h1, *m_mesh), target(h2, *m_mesh)});
-    }
-    return true;
+      if(!is_border(h, *m_mesh))
+        f(face(h, *m_mesh), vertices_around_face(h, *m_mesh));
   }
 
 private:
-  Iterator_range<Halfedge_around_target_iterator<Mesh>> halfedges_to(vertex_descriptor v) const
+  Iterator_range<Halfedge_around_target_iterator<Graph>> halfedges_to(vertex_descriptor v) const
   {
     const halfedge_descriptor h = halfedge(v, *m_mesh);
     if(h == Graph_traits::null_halfedge())
-      return {Halfedge_around_target_iterator<Mesh>(), Halfedge_around_target_iterator<Mesh>()};
-    return halfedges_around_target(h, *m_mesh);
+      return {Halfedge_around_target_iterator<Graph>(), Halfedge_around_target_iterator<Graph>()};
+    return halfedges_around_target(h, std::as_const(*m_mesh));
   }
 
   Mesh* m_mesh;
   Vertex_point_map m_point_map;
+  Output_point_map m_output_point_map;
   Vertex_index_map m_index_map;
+  bool m_is_in_place;
 };
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of a triangulated surface with the property maps of named parameters.
+/// \brief returns the domain of a surface with the property maps of named parameters.
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
@@ -179,18 +208,16 @@ private:
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
-template <typename TriangleMesh, typename NamedParameters = parameters::Default_named_parameters>
-auto make_face_graph_domain(TriangleMesh& mesh,
+template <typename PolygonMesh, typename NamedParameters = parameters::Default_named_parameters>
+auto make_face_graph_domain(PolygonMesh& mesh,
                             const NamedParameters& np = parameters::default_values())
 {
-  using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
-  using Vertex_index_map =
-    typename GetInitializedVertexIndexMap<TriangleMesh, NamedParameters>::type;
-  return Face_graph_domain<TriangleMesh, Vertex_point_map, Vertex_index_map>(
-    mesh,
+  auto point_map =
     parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                 get_property_map(vertex_point, mesh)),
-    get_initialized_vertex_index_map(mesh, np));
+                                 get_property_map(vertex_point, mesh));
+  auto index_map = get_initialized_vertex_index_map(std::as_const(mesh), np);
+  return Face_graph_domain<PolygonMesh, decltype(point_map), decltype(index_map)>(
+    mesh, point_map, index_map);
 }
 
 } // namespace ARAP

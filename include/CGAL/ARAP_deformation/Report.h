@@ -57,7 +57,11 @@ struct Report : Outcome
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
   std::size_t free_vertices = 0; ///< vertices whose positions were solved for
-  std::size_t simplices = 0;     ///< triangles in the region that was considered
+  std::size_t simplices = 0;     ///< simplices in the region that was considered
+
+  /// tetrahedra among them that are inside out: the sign of their volume is no longer that in the
+  /// rest shape. 0 on a surface, whose faces have no inside.
+  std::size_t inverted_simplices = 0;
 
   Phase_seconds seconds; ///< where the time went
 };

@@ -16,9 +16,11 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace CGAL {
 namespace ARAP {
@@ -28,9 +30,13 @@ namespace ARAP {
 ///
 /// The edge of a triangle weighs half the cotangent of the opposite angle, the edge of a star the
 /// sum over its triangles: \f$w_{ij} = (\cot \alpha_{ij} + \cot \beta_{ij}) / 2\f$
-/// \cgalCite{Pinkall1993Cotangent}. With simplices as edge sets the energy is never negative. With
-/// stars it can be where angles are obtuse, and its minimum is then a distorted shape:
-/// prefer `Safe_cotangent_weight`.
+/// \cgalCite{Pinkall1993Cotangent}. The edge \f$(i, j)\f$ of a tetrahedron \f$ijkl\f$ weighs
+/// \f$|kl| \cot \theta_{kl} / 6\f$, with \f$\theta_{kl}\f$ the dihedral angle at the opposite
+/// edge. For every linear map \f$D\f$ the sum of \f$w \|D e\|^2\f$ over the edges of a
+/// simplex is then its area or volume times \f$\|D\|_F^2\f$, over its plane or space.
+///
+/// With simplices as edge sets the energy is never negative. With stars it can be where angles are
+/// obtuse, and its minimum is then a distorted shape: prefer `Safe_cotangent_weight`.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Cotangent_weight
@@ -45,19 +51,33 @@ public:
             half_cotangent(triangle[0], triangle[1], triangle[2])};
   }
 
+  /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(0,3)\f$, \f$(1,2)\f$,
+  /// \f$(1,3)\f$, \f$(2,3)\f$ of a tetrahedron, a length. They are not finite if it has no volume.
+  std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>& tetrahedron) const
+  {
+    // The gradients of the barycentric coordinates are g / (6 V), and the weight of an edge (i, j)
+    // is -V times the product of those of i and j.
+    const auto& [p0, p1, p2, p3] = tetrahedron;
+    const Coordinates a = internal::difference(p1, p0), b = internal::difference(p2, p0),
+                      c = internal::difference(p3, p0);
+    const Coordinates g1 = internal::cross(b, c), g2 = internal::cross(c, a),
+                      g3 = internal::cross(a, b);
+    const Coordinates g0 = {-g1[0] - g2[0] - g3[0], -g1[1] - g2[1] - g3[1], -g1[2] - g2[2] - g3[2]};
+    const double factor = -1 / (6 * std::abs(internal::dot(a, g1)));
+    return {factor * internal::dot(g0, g1), factor * internal::dot(g0, g2),
+            factor * internal::dot(g0, g3), factor * internal::dot(g1, g2),
+            factor * internal::dot(g1, g3), factor * internal::dot(g2, g3)};
+  }
+
   /// returns `sum`.
-  double edge_weight(Edge_set, double sum) const { return sum; }
+  double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return sum; }
 
 private:
   static double half_cotangent(const Coordinates& apex, const Coordinates& p, const Coordinates& q)
   {
-    const Coordinates a = {p[0] - apex[0], p[1] - apex[1], p[2] - apex[2]};
-    const Coordinates b = {q[0] - apex[0], q[1] - apex[1], q[2] - apex[2]};
-    const double sine = std::hypot(a[1] * b[2] - a[2] * b[1],
-                                   a[2] * b[0] - a[0] * b[2],
-                                   a[0] * b[1] - a[1] * b[0]);
-    const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    return 0.5 * cosine / sine;
+    const Coordinates a = internal::difference(p, apex), b = internal::difference(q, apex);
+    const Coordinates normal = internal::cross(a, b);
+    return 0.5 * internal::dot(a, b) / std::hypot(normal[0], normal[1], normal[2]);
   }
 };
 
@@ -65,16 +85,19 @@ private:
 /// \brief cotangent weights, of which negative ones are replaced by 0.
 ///
 /// It is the weight of an edge in its edge set that is clamped: in a star the sum over the
-/// triangles at the edge. The energy is never negative, whatever the cells. With simplices as
-/// edge sets obtuse triangles lose an edge, and the identity of `Cotangent_weight` with the area
-/// is lost there too: prefer `Safe_cotangent_weight`.
+/// simplices at the edge. The energy is never negative, whatever the cells. With simplices as
+/// edge sets obtuse ones lose an edge, and the identity of `Cotangent_weight` with the area or
+/// volume is lost there too: prefer `Safe_cotangent_weight`.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Clamped_cotangent_weight : public Cotangent_weight
 {
 public:
   /// returns `sum` or 0, whichever is larger; a `sum` that is not a number is returned.
-  double edge_weight(Edge_set, double sum) const { return sum < 0 ? 0 : sum; }
+  double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const
+  {
+    return sum < 0 ? 0 : sum;
+  }
 };
 
 /// \ingroup PkgARAPDeformationWeights
@@ -87,14 +110,15 @@ class Safe_cotangent_weight : public Cotangent_weight
 {
 public:
   /// returns `sum`, or 0 if `edge_set` is a star and `sum` is negative.
-  double edge_weight(Edge_set edge_set, double sum) const
+  double edge_weight(Edge_set edge_set, std::size_t, std::size_t, double sum) const
   {
     return edge_set == Edge_set::star && sum < 0 ? 0 : sum;
   }
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief 1 for each edge of each edge set, whatever the shape.
+/// \brief 1 for each edge of each edge set, whatever the shape; the diagonals of a polygon are edges
+/// too.
 ///
 /// Needs no geometry and never fails, but the result depends on how the shape is meshed (Figure 2
 /// of \cgalCite{Sorkine2007AsRigidAs}).
@@ -109,8 +133,14 @@ public:
     return {1, 1, 1};
   }
 
+  /// returns 1 for each edge.
+  std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>&) const
+  {
+    return {1, 1, 1, 1, 1, 1};
+  }
+
   /// returns 1.
-  double edge_weight(Edge_set, double) const { return 1; }
+  double edge_weight(Edge_set, std::size_t, std::size_t, double) const { return 1; }
 };
 
 } // namespace ARAP

@@ -232,7 +232,8 @@ void prepare(Deformation& deformation, const Scenario& s,
       deformation.insert_control_vertex(vertices[k]);
       const auto& t = s.targets[k];
       deformation.set_target_position(vertices[k],
-                                      typename Deformation::Point(t.x(), t.y(), t.z()));
+                                      Deformation::Deformation_domain::make_point(
+                                        {t.x(), t.y(), t.z()}));
     }
 }
 

@@ -45,14 +45,14 @@ struct Diagnosis
 };
 
 // The deformation of a region: all of it that is numbers, and nothing that is a mesh.
-template <typename Traits, std::size_t N>
+template <typename Traits>
 class Deformation_core
 {
   using Solver = typename Traits::Sparse_solver;
 
 public:
   // Computes what depends on the region and not on the positions: energy, matrix, factor.
-  Deformation_core(const Traits& traits, Region<N> region, Cell_scheme scheme)
+  Deformation_core(const Traits& traits, Region region, Cell_scheme scheme)
     : m_region(std::move(region)), m_weight(traits.edge_weight_object()),
       m_closest_rotation(traits.closest_rotation_object()),
       m_prototype_solver(traits.sparse_solver_object()), m_solver(m_prototype_solver)
@@ -63,7 +63,7 @@ public:
   // what is wrong with the region, if anything; then the other members must not be called
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
-  const Region<N>& region() const { return m_region; }
+  const Region& region() const { return m_region; }
 
   // for each cell; identities before the first run
   const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }
@@ -100,7 +100,26 @@ public:
                                   rotations, report)};
   }
 
+  // the number of tetrahedra that are inside out at the positions x; 0 on a surface
+  std::size_t number_of_inverted_simplices(const std::vector<Coordinates>& x) const
+  {
+    std::size_t count = 0;
+    if(m_region.dimension == 3)
+      for(int s = 0; s < m_region.number_of_simplices(); ++s)
+        count += orientation(s, m_region.rest) * orientation(s, x) < 0;
+    return count;
+  }
+
 private:
+  // the sign of the volume of the tetrahedron s
+  int orientation(int s, const std::vector<Coordinates>& x) const
+  {
+    const int* c = m_region.corners_of(s);
+    const double volume = dot(cross(difference(x[c[1]], x[c[0]]), difference(x[c[2]], x[c[0]])),
+                              difference(x[c[3]], x[c[0]]));
+    return (volume > 0) - (volume < 0);
+  }
+
   Diagnosis prepare(Cell_scheme scheme)
   {
     const int n = m_region.number_of_free_vertices;
@@ -122,11 +141,11 @@ private:
     return {};
   }
 
-  Region<N> m_region;
+  Region m_region;
   typename Traits::Edge_weight m_weight;
   typename Traits::Closest_rotation m_closest_rotation;
   Solver m_prototype_solver; // as the traits hand it out
-  Solver m_solver;        // holds the factor of the Laplacian
+  Solver m_solver;           // holds the factor of the Laplacian
   Rigidity_energy m_energy;
   std::optional<Laplacian_guess<Solver>> m_laplacian_guess;
   std::vector<Matrix_3x3> m_rotations;

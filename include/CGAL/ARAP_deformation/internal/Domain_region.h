@@ -18,7 +18,6 @@
 #include <CGAL/ARAP_deformation/internal/Region.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -33,19 +32,19 @@ struct Domain_region
 {
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using simplex_descriptor = typename Domain::simplex_descriptor;
-  static constexpr std::size_t N = Domain::vertices_per_simplex;
 
-  Region<N> flat;
+  Region flat;
   std::vector<vertex_descriptor> vertices;
   std::vector<simplex_descriptor> simplices;
   // the simplices whose smallest vertex is v are first_simplex[v] to first_simplex[v + 1] - 1
   std::vector<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
-  // Collects the region of the given free vertices. Returns false if there is a face that is not a
-  // simplex: refused_vertex() is at it.
+  // Collects the region of the given free vertices, but for the positions of its vertices. Returns
+  // false if there is something that is not a simplex: refused_vertex() is at it.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& free_vertices)
   {
+    flat.dimension = Domain::dimension;
     for(vertex_descriptor v : free_vertices)
       number(domain, v);
     flat.number_of_free_vertices = flat.number_of_centres = static_cast<int>(vertices.size());
@@ -92,6 +91,7 @@ private:
       n = static_cast<int>(vertices.size());
       numbers.set(index, n);
       vertices.push_back(v);
+      flat.indices.push_back(index);
     }
     return n;
   }
@@ -103,24 +103,48 @@ private:
     for(int v = begin; v < end; ++v)
     {
       first_simplex.push_back(static_cast<int>(simplices.size()));
-      const bool are_simplices = domain.for_each_incident_simplex(
-        vertices[v], [&](simplex_descriptor s, const std::array<vertex_descriptor, N>& corners) {
-          std::array<int, N> simplex;
+      bool are_simplices = true;
+      domain.for_each_incident_simplex(
+        vertices[v], [&](simplex_descriptor s, const auto& corners) {
           bool is_first_visit = true;
-          for(std::size_t k = 0; k < N; ++k)
+          for(vertex_descriptor corner : corners)
           {
-            simplex[k] = number(domain, corners[k]);
-            is_first_visit &= simplex[k] >= v;
+            flat.corners.push_back(number(domain, corner));
+            is_first_visit &= flat.corners.back() >= v;
           }
-          if(!is_first_visit)
-            return;
-          simplices.push_back(s);
-          flat.simplices.push_back(simplex);
+          are_simplices &= is_simplex(flat.corners.begin() + flat.first_corner.back(),
+                                      flat.corners.end());
+          if(is_first_visit)
+          {
+            simplices.push_back(s);
+            flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
+          }
+          else
+            flat.corners.resize(flat.first_corner.back());
         });
       if(!are_simplices)
         return false;
     }
     return true;
+  }
+
+  // whether there are as many corners as the dimension asks for, all different
+  template <typename Iterator>
+  static bool is_simplex(Iterator begin, Iterator end)
+  {
+    const auto n = end - begin;
+    if(Domain::dimension == 2 ? n < 3 : n != Domain::dimension + 1)
+      return false;
+    if(n <= 4)
+    {
+      for(Iterator a = begin; a != end; ++a)
+        if(std::find(a + 1, end, *a) != end)
+          return false;
+      return true;
+    }
+    std::vector<int> sorted(begin, end);
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
   }
 };
 

@@ -17,12 +17,11 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/simplex_weights.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -49,26 +48,24 @@ struct Edge_sets
 };
 
 // calls f(s, i, j, w) for each edge (i, j) of each simplex s of the region with its weight w there
-template <typename EdgeWeight, std::size_t N, typename Function>
-void for_each_simplex_edge(const EdgeWeight& weight, const Region<N>& region, const Function& f)
+template <typename EdgeWeight, typename Function>
+void for_each_simplex_edge(const EdgeWeight& weight, const Region& region, const Function& f)
 {
-  for(std::size_t s = 0; s < region.simplices.size(); ++s)
+  std::vector<double> weights;
+  for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    const auto& simplex = region.simplices[s];
-    std::array<Coordinates, N> points;
-    for(std::size_t a = 0; a < N; ++a)
-      points[a] = region.rest[simplex[a]];
-    const auto weights = weight.simplex_weights(points);
+    compute_simplex_weights(weight, region, s, weights);
+    const int* corners = region.corners_of(s);
     auto w = weights.begin();
-    for(std::size_t a = 0; a < N; ++a)
-      for(std::size_t b = a + 1; b < N; ++b, ++w)
-        f(static_cast<int>(s), simplex[a], simplex[b], *w);
+    for(int a = 0; a < region.number_of_corners(s); ++a)
+      for(int b = a + 1; b < region.number_of_corners(s); ++b, ++w)
+        f(s, corners[a], corners[b], *w);
   }
 }
 
 // the index of a simplex whose weights are not finite, or -1
-template <typename EdgeWeight, std::size_t N>
-int find_bad_simplex(const EdgeWeight& weight, const Region<N>& region)
+template <typename EdgeWeight>
+int find_bad_simplex(const EdgeWeight& weight, const Region& region)
 {
   int bad = -1;
   for_each_simplex_edge(weight, region, [&bad](int s, int, int, double w) {
@@ -79,34 +76,38 @@ int find_bad_simplex(const EdgeWeight& weight, const Region<N>& region)
 }
 
 // one edge set for each simplex
-template <typename EdgeWeight, std::size_t N>
-Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Region<N>& region)
+template <typename EdgeWeight>
+Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Region& region)
 {
-  constexpr int edges_per_simplex = N * (N - 1) / 2;
   Edge_sets sets;
-  sets.edges.reserve(region.simplices.size() * edges_per_simplex);
+  sets.begin.reserve(region.number_of_simplices() + 1);
+  sets.edges.reserve(region.dimension == 3 ? 6 * region.number_of_simplices()
+                                           : region.corners.size());
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+  {
+    const int n = region.number_of_corners(s);
+    sets.begin.push_back(sets.begin.back() + n * (n - 1) / 2);
+  }
   for_each_simplex_edge(weight, region, [&](int, int i, int j, double w) {
-    sets.edges.push_back({i, j, weight.edge_weight(Edge_set::simplex, w),
+    sets.edges.push_back({i, j, weight.edge_weight(Edge_set::simplex, region.indices[i],
+                                                   region.indices[j], w),
                           difference(region.rest[i], region.rest[j])});
   });
-  sets.begin.resize(region.simplices.size() + 1);
-  for(std::size_t s = 0; s < region.simplices.size(); ++s)
-    sets.begin[s + 1] = sets.begin[s] + edges_per_simplex;
   return sets;
 }
 
 // one edge set for each centre: its edges to its neighbours, in the order of their numbers
-template <typename EdgeWeight, std::size_t N>
-Edge_sets star_edge_sets(const EdgeWeight& weight, const Region<N>& region)
+template <typename EdgeWeight>
+Edge_sets star_edge_sets(const EdgeWeight& weight, const Region& region)
 {
   // the neighbours of centre i, each with one weight for each simplex at the edge, will be
   // neighbours[first[i]] to neighbours[first[i + 1] - 1]
   using Neighbour = std::pair<int, double>;
   std::vector<int> first(region.number_of_centres + 1, 0);
-  for(const auto& simplex : region.simplices)
-    for(int i : simplex)
-      if(i < region.number_of_centres)
-        first[i + 1] += static_cast<int>(N) - 1;
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+    for(int k = region.first_corner[s]; k < region.first_corner[s + 1]; ++k)
+      if(const int i = region.corners[k]; i < region.number_of_centres)
+        first[i + 1] += region.number_of_corners(s) - 1;
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Neighbour> neighbours(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
@@ -117,7 +118,7 @@ Edge_sets star_edge_sets(const EdgeWeight& weight, const Region<N>& region)
 
   Edge_sets sets;
   sets.begin.reserve(first.size());
-  sets.edges.reserve(neighbours.size() / (N - 1));
+  sets.edges.reserve(neighbours.size() / 2);
   for(int i = 0; i < region.number_of_centres; ++i)
   {
     const auto end = neighbours.begin() + first[i + 1];
@@ -128,7 +129,8 @@ Edge_sets star_edge_sets(const EdgeWeight& weight, const Region<N>& region)
       double sum = 0;
       for(; it != end && it->first == j; ++it)
         sum += it->second;
-      sets.edges.push_back({i, j, weight.edge_weight(Edge_set::star, sum),
+      sets.edges.push_back({i, j, weight.edge_weight(Edge_set::star, region.indices[i],
+                                                     region.indices[j], sum),
                             difference(region.rest[i], region.rest[j])});
     }
     sets.begin.push_back(static_cast<int>(sets.edges.size()));

@@ -16,7 +16,6 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -28,16 +27,24 @@ namespace internal {
 // The free vertices come first, then their neighbours, then the neighbours of those. The first two
 // are the centres: the vertices whose simplices are all here. Every vertex that is not free is
 // held. The simplices that have a free vertex come first.
-template <std::size_t VerticesPerSimplex>
 struct Region
 {
-  using Simplex = std::array<int, VerticesPerSimplex>;
-
+  int dimension = 2; // of the simplices: 2 for triangles and polygons, 3 for tetrahedra
   int number_of_free_vertices = 0;
   int number_of_centres = 0;
   int number_of_free_simplices = 0;
-  std::vector<Coordinates> rest; // for each vertex its position in the rest shape
-  std::vector<Simplex> simplices;
+  std::vector<Coordinates> rest;    // for each vertex its position in the rest shape
+  std::vector<std::size_t> indices; // for each vertex its index in the mesh
+
+  // the corners of simplex s are corners[first_corner[s]] to corners[first_corner[s + 1] - 1],
+  // those of a polygon in their order around it
+  std::vector<int> first_corner = {0};
+  std::vector<int> corners;
+
+  int number_of_vertices() const { return static_cast<int>(rest.size()); }
+  int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }
+  int number_of_corners(int s) const { return first_corner[s + 1] - first_corner[s]; }
+  const int* corners_of(int s) const { return corners.data() + first_corner[s]; }
 };
 
 } // namespace internal

@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -55,22 +54,20 @@ inline Cells separate_cells(int number_of_sets)
 }
 
 // the simplices at each centre are a cell
-template <std::size_t N>
-Cells vertex_cells(const Region<N>& region)
+inline Cells vertex_cells(const Region& region)
 {
   Cells cells;
   cells.begin.assign(region.number_of_centres + 1, 0);
-  for(const auto& simplex : region.simplices)
-    for(int v : simplex)
-      if(v < region.number_of_centres)
-        ++cells.begin[v + 1];
+  for(int v : region.corners)
+    if(v < region.number_of_centres)
+      ++cells.begin[v + 1];
   std::partial_sum(cells.begin.begin(), cells.begin.end(), cells.begin.begin());
   cells.sets.resize(cells.begin.back());
   std::vector<int> next(cells.begin.begin(), cells.begin.end() - 1);
-  for(std::size_t s = 0; s < region.simplices.size(); ++s)
-    for(int v : region.simplices[s])
-      if(v < region.number_of_centres)
-        cells.sets[next[v]++] = static_cast<int>(s);
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+    for(int k = region.first_corner[s]; k < region.first_corner[s + 1]; ++k)
+      if(const int v = region.corners[k]; v < region.number_of_centres)
+        cells.sets[next[v]++] = s;
   cells.stiffness.assign(region.number_of_centres, 1);
   return cells;
 }
@@ -201,9 +198,9 @@ private:
   double m_sum_of_weights = 0;
 };
 
-template <typename EdgeWeight, std::size_t N>
+template <typename EdgeWeight>
 Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, Cell_scheme scheme,
-                                     const Region<N>& region)
+                                     const Region& region)
 {
   if(scheme.edge_set() == Edge_set::star)
     return Rigidity_energy(star_edge_sets(weight, region),

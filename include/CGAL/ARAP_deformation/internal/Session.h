@@ -75,7 +75,7 @@ public:
   // the target of a control vertex, the point of any other
   Point target(vertex_descriptor v) const
   {
-    return m_vertices.is_control(v) ? m_vertices.find(v)->target : domain().point(v);
+    return m_vertices.is_control(v) ? m_vertices.find(v)->target : m_vertices.present(v);
   }
 
   // changes the region: f(vertices) returns whether it did; then all that follows from it is stale
@@ -107,12 +107,12 @@ public:
     });
     Region_ region;
     if(!region.collect(domain(), free_vertices))
-      return outcome(Status::not_a_triangle, name(region.refused_vertex()));
+      return outcome(Status::not_a_simplex, name(region.refused_vertex()));
 
     std::vector<Coordinates> positions;
     for(vertex_descriptor v : region.vertices)
     {
-      positions.push_back(Domain::coordinates(domain().point(v)));
+      positions.push_back(Domain::coordinates(m_vertices.present(v)));
       const auto* entry = m_vertices.find(v);
       region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
     }
@@ -147,9 +147,9 @@ public:
     for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
     for(auto& entry : m_vertices.entries())
-      entry.target = entry.rest;
+      entry.target = entry.present = entry.rest;
     for(std::size_t k = 0; k < m_positions.size(); ++k)
-      m_positions[k] = Domain::coordinates(domain().point(m_region.vertices[k]));
+      m_positions[k] = Domain::coordinates(m_vertices.present(m_region.vertices[k]));
     if(m_core)
       m_core->reset_rotations();
     m_energy = not_a_number;
@@ -159,13 +159,18 @@ public:
   {
     if(is_in_a_run())
       return;
-    std::vector<Point> points;
-    points.reserve(m_vertices.entries().size());
-    for(const auto& entry : m_vertices.entries())
-      points.push_back(domain().point(entry.vertex));
+    if(domain().is_in_place()) // the points may have been changed by others
+    {
+      std::vector<Point> points;
+      points.reserve(m_vertices.entries().size());
+      for(const auto& entry : m_vertices.entries())
+        points.push_back(domain().point(entry.vertex));
+      for(std::size_t k = 0; k < points.size(); ++k)
+        m_vertices.entries()[k].present = std::move(points[k]);
+    }
     note_change(true);
-    for(std::size_t k = 0; k < points.size(); ++k)
-      m_vertices.entries()[k].rest = points[k];
+    for(auto& entry : m_vertices.entries())
+      entry.rest = entry.present;
   }
 
   double energy() const { return m_energy; }
@@ -186,7 +191,7 @@ private:
   friend Iterate;
 
   using Region_ = Domain_region<Domain>;
-  using Core = Deformation_core<Traits, Domain::vertices_per_simplex>;
+  using Core = Deformation_core<Traits>;
 
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -217,10 +222,7 @@ private:
       return outcome(diagnosis.status, name(region.vertices[diagnosis.vertex]));
     if(diagnosis.simplex < 0)
       return outcome(diagnosis.status);
-    std::string corners;
-    for(int v : core.region().simplices[diagnosis.simplex])
-      corners += (corners.empty() ? "" : ", ") + std::to_string(domain().index(region.vertices[v]));
-    return outcome(diagnosis.status, "the face with the vertices " + corners);
+    return outcome(diagnosis.status, simplex_name(core.region(), diagnosis.simplex));
   }
 
   template <typename Visitor>
@@ -239,7 +241,7 @@ private:
         return prepared;
     }
     report.free_vertices = m_core->region().number_of_free_vertices;
-    report.simplices = m_core->region().simplices.size();
+    report.simplices = m_core->region().number_of_simplices();
 
     std::vector<Coordinates> positions = m_positions;
     for(const auto& entry : m_vertices.entries())
@@ -264,26 +266,34 @@ private:
     Outcome result = explain(diagnosis, m_region, *m_core);
     if(result)
     {
-      for(const auto& [v, point] : new_points(positions))
+      std::vector<std::pair<vertex_descriptor, Point>> points = new_points(positions);
+      for(const auto& [v, point] : points)
         domain().set_point(v, point);
+      for(auto& [v, point] : points)
+        m_vertices.find(v)->present = std::move(point);
       m_positions.swap(positions);
       m_core->set_rotations(std::move(rotations));
       m_energy = report.energy.back();
+      report.inverted_simplices = m_core->number_of_inverted_simplices(m_positions);
     }
     return result;
   }
 
-  // the points of the free vertices at their positions, and those of the control vertices
+  // The new points of the region of interest: of the free vertices at their positions, of the
+  // control vertices, and of the vertices without simplices, which stay where they are: a domain
+  // may write to other places than it reads from.
   std::vector<std::pair<vertex_descriptor, Point>>
   new_points(const std::vector<Coordinates>& positions) const
   {
     std::vector<std::pair<vertex_descriptor, Point>> points;
-    points.reserve(m_core->region().number_of_free_vertices);
+    points.reserve(m_vertices.entries().size());
     for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
       points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
     for(const auto& entry : m_vertices.entries())
       if(entry.is_control)
         points.emplace_back(entry.vertex, entry.target);
+      else if(entry.is_roi && m_region.find_vertex(domain(), entry.vertex) < 0)
+        points.emplace_back(entry.vertex, entry.present);
     return points;
   }
 

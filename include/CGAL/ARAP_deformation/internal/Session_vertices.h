@@ -24,9 +24,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The region of interest, the control vertices and their targets, and the rest shape. Vertices keep
-// their entry when they leave the region of interest: they may have been moved, and the entry knows
-// the rest shape.
+// The region of interest, the control vertices and their targets, the rest shape and the present
+// one. Vertices keep their entry when they leave the region of interest: they may have been moved,
+// and the entry knows the rest shape.
 template <typename Domain>
 class Session_vertices
 {
@@ -38,6 +38,7 @@ public:
   {
     vertex_descriptor vertex;
     Point rest;
+    Point present;
     Point target; // of a control vertex
     bool is_roi = false;
     bool is_control = false;
@@ -55,11 +56,23 @@ public:
     return slot == Paged_index_map::none ? nullptr : &m_entries[slot];
   }
 
+  Entry* find(vertex_descriptor v)
+  {
+    return const_cast<Entry*>(std::as_const(*this).find(v));
+  }
+
+  // where v is: the domain knows the points of vertices only that were not yet moved
+  Point present(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry == nullptr ? m_domain.point(v) : entry->present;
+  }
+
   // the entry of v if it is a control vertex, else nullptr
   Entry* find_control(vertex_descriptor v)
   {
-    const int slot = m_slots[m_domain.index(v)];
-    return slot != Paged_index_map::none && m_entries[slot].is_control ? &m_entries[slot] : nullptr;
+    Entry* entry = find(v);
+    return entry != nullptr && entry->is_control ? entry : nullptr;
   }
 
   bool is_roi(vertex_descriptor v) const
@@ -86,7 +99,7 @@ public:
     Entry& entry = find_or_insert(v);
     if(entry.is_control)
       return false;
-    entry.target = m_domain.point(v);
+    entry.target = entry.present;
     entry.is_roi = entry.is_control = true;
     return true;
   }
@@ -146,7 +159,7 @@ private:
       slot = static_cast<int>(m_entries.size());
       const Point point = m_domain.point(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
-      m_entries.push_back({v, point, point});
+      m_entries.push_back({v, point, point, point});
       m_slots.set(index, slot);
     }
     return m_entries[slot];

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/Region.h>
 
 #include <cstddef>
 #include <string>
@@ -28,8 +29,16 @@ inline std::string vertex_name(std::size_t index)
   return "vertex " + std::to_string(index);
 }
 
-// The sentence for a status that is about a vertex, the face of three vertices, or the whole
-// (an empty `what`).
+inline std::string simplex_name(const Region& region, int simplex)
+{
+  std::string name = region.dimension == 3 ? "the tetrahedron" : "the face";
+  for(int k = 0; k < region.number_of_corners(simplex); ++k)
+    name += (k == 0 ? " with the vertices " : ", ") +
+            std::to_string(region.indices[region.corners_of(simplex)[k]]);
+  return name;
+}
+
+// The sentence for a status that is about a vertex, a simplex, or the whole (an empty `what`).
 inline Outcome outcome(Status status, const std::string& what = std::string())
 {
   const auto about = [status, &what](const std::string& rest) {
@@ -49,7 +58,9 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::not_a_control_vertex:
     return about(" is not a control vertex and cannot be given a target; "
                  "insert it as a control vertex first");
-  case Status::not_a_triangle: return about(" is at a face that is not a triangle");
+  case Status::not_a_simplex:
+    return about(" is at a face or cell that is neither a polygon nor a tetrahedron with different "
+                 "corners that exist");
   case Status::non_finite_point:
     return about(" has a coordinate that is infinite or not a number");
   case Status::non_finite_weight:

@@ -1,0 +1,108 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_EDGE_MAP_WEIGHT_H
+#define CGAL_ARAP_DEFORMATION_EDGE_MAP_WEIGHT_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <boost/functional/hash.hpp>
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationWeights
+/// \brief weights that the user gives, one for each edge, whatever the geometry.
+///
+/// An edge has its weight in each edge set that it belongs to: in the stars of both its vertices, or in
+/// each simplex at it. An edge that was given none weighs 0, as do the diagonals of polygons.
+/// With weights that are not negative no cell has a negative energy. Copies share the weights.
+///
+/// \cgalModels{ARAPEdgeWeight_3}
+///
+/// \sa `make_edge_map_weight()`
+class Edge_map_weight
+{
+public:
+  /// gives the edge between the vertices with the indices `i` and `j` of the domain the weight
+  /// `weight`, in both directions.
+  void set_weight(std::size_t i, std::size_t j, double weight)
+  {
+    (*m_weights)[std::minmax(i, j)] = weight;
+  }
+
+  /// returns zeros.
+  std::array<double, 3> simplex_weights(const std::array<Coordinates, 3>&) const { return {}; }
+
+  /// returns zeros.
+  std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>&) const { return {}; }
+
+  /// returns the weight that was given to the edge, or 0.
+  double edge_weight(Edge_set, std::size_t i, std::size_t j, double) const
+  {
+    const auto found = m_weights->find(std::minmax(i, j));
+    return found == m_weights->end() ? 0 : found->second;
+  }
+
+private:
+  using Edge = std::pair<std::size_t, std::size_t>; // the smaller index first
+  using Weights = std::unordered_map<Edge, double, boost::hash<Edge>>;
+
+  std::shared_ptr<Weights> m_weights = std::make_shared<Weights>();
+};
+
+/// \ingroup PkgARAPDeformationWeights
+/// \brief returns the weights of a map from the edges of a mesh. Linear time.
+///
+/// \param mesh a model of `EdgeListGraph`
+/// \param edge_weight_map a model of `ReadablePropertyMap` from edges to numbers
+/// \param np an optional sequence of named parameters among those below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_index_map}
+///     \cgalParamDescription{a unique index for each vertex: the one that the domain has}
+///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
+///     \cgalParamDefault{the initialized index map of the mesh}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+template <typename Graph, typename EdgeWeightMap,
+          typename NamedParameters = parameters::Default_named_parameters>
+Edge_map_weight make_edge_map_weight(const Graph& mesh, EdgeWeightMap edge_weight_map,
+                                     const NamedParameters& np = parameters::default_values())
+{
+  Edge_map_weight weight;
+  const auto index_map = get_initialized_vertex_index_map(mesh, np);
+  for(auto edge : edges(mesh))
+    weight.set_weight(get(index_map, source(edge, mesh)), get(index_map, target(edge, mesh)),
+                      get(edge_weight_map, edge));
+  return weight;
+}
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_EDGE_MAP_WEIGHT_H

@@ -1,0 +1,172 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H
+#define CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Incidence_table.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+
+#include <CGAL/assertions.h>
+
+#include <boost/range/iterator_range.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief the volumes of a linear cell complex of dimension 3, or the faces of one of dimension 2, over
+/// a combinatorial or a generalized map.
+///
+/// Volumes must be tetrahedra: one that is not is refused where the region of interest meets it.
+///
+/// Construction takes linear time and memory, for tables of vertices and simplices. The complex must
+/// outlive the domain; its cells must not change meanwhile.
+///
+/// \tparam LinearCellComplex a `CGAL::Linear_cell_complex_for_combinatorial_map` or
+///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with points in space
+///
+/// \cgalModels{ARAPDomain_3}
+template <typename LinearCellComplex>
+class Linear_cell_complex_domain_3 : public internal::Point_conversion<typename LinearCellComplex::Point>
+{
+  static_assert(LinearCellComplex::dimension == 2 || LinearCellComplex::dimension == 3,
+                "Linear_cell_complex_domain_3: the dimension of the complex is 2 or 3");
+  static_assert(LinearCellComplex::ambient_dimension == 3,
+                "Linear_cell_complex_domain_3: the points of the complex are in space");
+
+  // the names of handles are not the same in all versions of CGAL
+  using Dart = decltype(std::declval<LinearCellComplex&>().create_dart());
+
+public:
+  /// the type of a point.
+  using Point = typename LinearCellComplex::Point;
+
+#ifdef DOXYGEN_RUNNING
+  /// a vertex: the handle of its attribute.
+  using vertex_descriptor = unspecified_type;
+#else
+  using vertex_descriptor =
+    decltype(std::declval<LinearCellComplex&>().vertex_attribute(std::declval<Dart>()));
+#endif
+
+  /// a simplex: its number in the order of `LinearCellComplex::one_dart_per_cell()`.
+  using simplex_descriptor = std::size_t;
+
+  /// the dimension of the simplices: that of the complex.
+  static constexpr int dimension = static_cast<int>(LinearCellComplex::dimension);
+
+  /// constructs the domain.
+  explicit Linear_cell_complex_domain_3(LinearCellComplex& complex)
+    : m_complex(&complex), m_tables(std::make_shared<const Tables>(complex))
+  {}
+
+  /// returns the number of `v`.
+  std::size_t index(vertex_descriptor v) const { return m_tables->indices.at(v); }
+
+  /// returns the point of `v`.
+  Point point(vertex_descriptor v) const { return m_complex->point_of_vertex_attribute(v); }
+
+  /// sets the point of `v`.
+  void set_point(vertex_descriptor v, const Point& point) const
+  {
+    m_complex->point_of_vertex_attribute(v) = point;
+  }
+
+  /// returns `true`: points are written to where they are read from.
+  bool is_in_place() const { return true; }
+
+  /// returns the range of all vertices.
+  auto vertices() const { return boost::make_iterator_range(m_tables->vertices); }
+
+  /// returns whether no simplex is incident to `v`.
+  bool is_isolated(vertex_descriptor v) const
+  {
+    return m_tables->incidences->is_isolated(index(v));
+  }
+
+  /// returns the vertices of `s`, those of a face in their order around it.
+  auto simplex_vertices(simplex_descriptor s) const
+  {
+    return boost::make_iterator_range(m_tables->corners[s]);
+  }
+
+  /// calls `f(s, simplex_vertices(s))` for each simplex `s` at `v`.
+  template <typename Function>
+  void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
+  {
+    m_tables->incidences->for_each_simplex_at(
+      index(v), [&](simplex_descriptor s) { f(s, simplex_vertices(s)); });
+  }
+
+private:
+  struct Tables
+  {
+    std::vector<vertex_descriptor> vertices;
+    std::unordered_map<vertex_descriptor, std::size_t> indices;
+    std::vector<std::vector<vertex_descriptor>> corners; // of each simplex
+    std::unique_ptr<const internal::Incidence_table> incidences;
+
+    explicit Tables(LinearCellComplex& complex)
+    {
+      auto& attributes = complex.vertex_attributes();
+      for(auto it = attributes.begin(); it != attributes.end(); ++it)
+      {
+        indices.emplace(it, vertices.size());
+        vertices.push_back(it);
+      }
+      auto cells = complex.template one_dart_per_cell<dimension>();
+      std::vector<std::vector<std::size_t>> numbers;
+      for(auto it = cells.begin(); it != cells.end(); ++it)
+      {
+        corners.push_back(corners_of_cell(complex, it));
+        numbers.emplace_back();
+        for(vertex_descriptor v : corners.back())
+          numbers.back().push_back(indices.at(v));
+      }
+      incidences = std::make_unique<const internal::Incidence_table>(vertices.size(), numbers);
+    }
+
+    static std::vector<vertex_descriptor> corners_of_cell(LinearCellComplex& complex, Dart cell)
+    {
+      std::vector<vertex_descriptor> corners;
+      if constexpr(dimension == 2)
+      {
+        for(Dart dart = cell; corners.empty() || dart != cell; dart = complex.next(dart))
+          corners.push_back(complex.vertex_attribute(dart));
+      }
+      else
+      {
+        auto darts = complex.template one_dart_per_incident_cell<0, dimension>(cell);
+        for(auto it = darts.begin(); it != darts.end(); ++it)
+          corners.push_back(complex.vertex_attribute(it));
+      }
+      return corners;
+    }
+  };
+
+  LinearCellComplex* m_complex;
+  std::shared_ptr<const Tables> m_tables; // shared by copies
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H

@@ -1,0 +1,146 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_SIMPLEX_SOUP_DOMAIN_H
+#define CGAL_ARAP_DEFORMATION_SIMPLEX_SOUP_DOMAIN_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Incidence_table.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+
+#include <CGAL/assertions.h>
+
+#include <boost/range/counting_range.hpp>
+
+#include <cstddef>
+#include <iterator>
+#include <memory>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief a surface or a tetrahedral complex, given as a range of points and a range of simplices
+/// that index them.
+///
+/// Vertices and simplices are identified by their places in the ranges. Nothing else is asked for:
+/// faces need not be oriented, an edge may have any number of faces, a tetrahedron either sign. A
+/// simplex with a corner that does not exist, or with a corner twice, is refused where the region of
+/// interest meets it.
+///
+/// Construction takes linear time and memory, for a table of the simplices at each vertex. The ranges
+/// must outlive the domain; their sizes, and the simplices, must not change meanwhile.
+///
+/// \tparam Dimension 2 if the simplices are triangles or polygons, 3 if they are tetrahedra
+/// \tparam PointRange a model of `RandomAccessContainer` of points. A point type has `operator[]` and
+///         a constructor from three coordinates.
+/// \tparam SimplexRange a model of `RandomAccessContainer` of ranges of integers, such as
+///         `std::vector<std::array<int, 3>>`. The corners of a polygon are in their order around it.
+///
+/// \cgalModels{ARAPDomain_3}
+template <int Dimension, typename PointRange, typename SimplexRange>
+class Simplex_soup_domain
+  : public internal::Point_conversion<typename PointRange::value_type>
+{
+  static_assert(Dimension == 2 || Dimension == 3,
+                "Simplex_soup_domain: the dimension of the simplices is 2 (triangles and polygons) "
+                "or 3 (tetrahedra)");
+
+public:
+  /// the type of a point.
+  using Point = typename PointRange::value_type;
+
+  /// a vertex: the place of its point in the range.
+  using vertex_descriptor = std::size_t;
+
+  /// a simplex: its place in the range.
+  using simplex_descriptor = std::size_t;
+
+  /// the dimension of the simplices.
+  static constexpr int dimension = Dimension;
+
+  /// constructs the domain. The points are changed in place.
+  Simplex_soup_domain(PointRange& points, const SimplexRange& simplices)
+    : Simplex_soup_domain(points, simplices, points)
+  {}
+
+  /// constructs the domain with points that are read, and others that are written: those of all
+  /// vertices of the region of interest.
+  /// \pre `output_points.size() == points.size()`
+  Simplex_soup_domain(const PointRange& points, const SimplexRange& simplices,
+                      PointRange& output_points)
+    : m_points(&points), m_output_points(&output_points), m_simplices(&simplices),
+      m_incidences(std::make_shared<const internal::Incidence_table>(points.size(), simplices))
+  {
+    CGAL_precondition(output_points.size() == points.size());
+  }
+
+  /// returns `v`.
+  std::size_t index(vertex_descriptor v) const { return v; }
+
+  /// returns the point of `v` in the range that is read.
+  const Point& point(vertex_descriptor v) const { return (*m_points)[v]; }
+
+  /// sets the point of `v` in the range that is written.
+  void set_point(vertex_descriptor v, const Point& point) const { (*m_output_points)[v] = point; }
+
+  /// returns whether points are written to where they are read from.
+  bool is_in_place() const { return m_points == m_output_points; }
+
+  /// returns the range of all vertices.
+  auto vertices() const { return boost::counting_range(std::size_t(0), m_points->size()); }
+
+  /// returns whether no simplex is incident to `v`.
+  bool is_isolated(vertex_descriptor v) const { return m_incidences->is_isolated(v); }
+
+  /// returns the corners of `s`, or nothing if one of them does not exist.
+  auto simplex_vertices(simplex_descriptor s) const
+  {
+    const auto& simplex = (*m_simplices)[s];
+    const auto begin = std::begin(simplex);
+    auto end = std::end(simplex);
+    for(auto corner : simplex)
+      if(static_cast<std::size_t>(corner) >= m_points->size())
+        end = begin;
+    return boost::make_iterator_range(begin, end);
+  }
+
+  /// calls `f(s, simplex_vertices(s))` for each simplex `s` at `v`.
+  template <typename Function>
+  void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
+  {
+    m_incidences->for_each_simplex_at(
+      v, [&](simplex_descriptor s) { f(s, simplex_vertices(s)); });
+  }
+
+private:
+  const PointRange* m_points;
+  PointRange* m_output_points;
+  const SimplexRange* m_simplices;
+  std::shared_ptr<const internal::Incidence_table> m_incidences; // shared by copies
+};
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief a range of points and a range of triangles or polygons.
+template <typename PointRange, typename PolygonRange>
+using Polygon_soup_domain = Simplex_soup_domain<2, PointRange, PolygonRange>;
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief a range of points and a range of tetrahedra.
+template <typename PointRange, typename TetrahedronRange>
+using Tetrahedron_soup_domain = Simplex_soup_domain<3, PointRange, TetrahedronRange>;
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_SIMPLEX_SOUP_DOMAIN_H

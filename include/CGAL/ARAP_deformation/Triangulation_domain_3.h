@@ -1,0 +1,200 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
+#define CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/triangulation_caches.h>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief the finite cells of a 3D triangulation, or a selection of them.
+///
+/// Deforming moves vertices and changes nothing else: the combinatorial structure, indices and weights
+/// of the points are kept. **A deformed triangulation is in general no longer %Delaunay or regular**, a
+/// cell may be inside out, and the boundary need no longer be convex. Locating points in it, inserting
+/// and removing vertices, or dual constructions must then not be asked of it; walking over its cells,
+/// and writing it to a file, is fine. What cells keep for later, such as circumcenters and
+/// qualities, is marked out of date at each vertex that is moved.
+///
+/// Construction takes linear time, to number the vertices. The triangulation must outlive the domain;
+/// its vertices and cells, and which cells are selected, must not change meanwhile.
+///
+/// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not, other
+///         than a periodic one
+///
+/// \cgalModels{ARAPDomain_3}
+///
+/// \sa `make_triangulation_domain()`
+/// \sa `make_complex_domain()`
+template <typename Triangulation>
+class Triangulation_domain_3
+  : public internal::Point_conversion<typename Triangulation::Geom_traits::Point_3>
+{
+public:
+  /// a point without a weight.
+  using Point = typename Triangulation::Geom_traits::Point_3;
+
+  /// a finite vertex.
+  using vertex_descriptor = typename Triangulation::Vertex_handle;
+
+  /// a selected cell.
+  using simplex_descriptor = typename Triangulation::Cell_handle;
+
+  /// 3: the simplices are tetrahedra.
+  static constexpr int dimension = 3;
+
+  /// tells whether a finite cell is selected.
+  using Cell_predicate = std::function<bool(simplex_descriptor)>;
+
+  /// constructs the domain of the finite cells for which `is_selected` is `true`.
+  Triangulation_domain_3(Triangulation& triangulation, Cell_predicate is_selected)
+    : m_triangulation(&triangulation), m_is_selected(std::move(is_selected)),
+      m_indices(std::make_shared<Indices>())
+  {
+    for(vertex_descriptor v : triangulation.finite_vertex_handles())
+      m_indices->emplace(v, m_indices->size());
+  }
+
+  /// constructs the domain of all finite cells. If cells have a subdomain index, those where it has
+  /// its default value, which stands for the outside, are left out.
+  explicit Triangulation_domain_3(Triangulation& triangulation)
+    : Triangulation_domain_3(triangulation, [](simplex_descriptor cell) {
+        return internal::is_in_a_subdomain(*cell);
+      })
+  {}
+
+  /// returns the number of `v` in the order of `Triangulation::finite_vertex_handles()`.
+  std::size_t index(vertex_descriptor v) const { return m_indices->at(v); }
+
+  /// returns the point of `v`.
+  Point point(vertex_descriptor v) const { return internal::bare_point<Point>(v->point()); }
+
+  /// sets the point of `v`, which keeps its weight, and marks what the cells at `v` have cached as
+  /// out of date.
+  void set_point(vertex_descriptor v, const Point& point) const
+  {
+    v->set_point(internal::with_weight_of(v->point(), point));
+    for_each_incident_cell(v, [](simplex_descriptor cell) { internal::invalidate_caches(*cell); });
+  }
+
+  /// returns `true`: points are written to where they are read from.
+  bool is_in_place() const { return true; }
+
+  /// returns the range of all finite vertices.
+  auto vertices() const { return m_triangulation->finite_vertex_handles(); }
+
+  /// returns whether no selected cell is incident to `v`.
+  bool is_isolated(vertex_descriptor v) const
+  {
+    bool is_isolated = true;
+    for_each_incident_cell(v, [&](simplex_descriptor cell) { is_isolated &= !is_in(cell); });
+    return is_isolated;
+  }
+
+  /// returns the vertices of the cell `s`.
+  std::array<vertex_descriptor, 4> simplex_vertices(simplex_descriptor s) const
+  {
+    return {s->vertex(0), s->vertex(1), s->vertex(2), s->vertex(3)};
+  }
+
+  /// calls `f(s, simplex_vertices(s))` for each selected cell `s` at `v`.
+  template <typename Function>
+  void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
+  {
+    for_each_incident_cell(v, [&](simplex_descriptor cell) {
+      if(is_in(cell))
+        f(cell, simplex_vertices(cell));
+    });
+  }
+
+private:
+  using Indices = std::unordered_map<vertex_descriptor, std::size_t>;
+
+  bool is_in(simplex_descriptor cell) const
+  {
+    return !m_triangulation->is_infinite(cell) && m_is_selected(cell);
+  }
+
+  // calls f for each cell at v, infinite ones too
+  template <typename Function>
+  void for_each_incident_cell(vertex_descriptor v, const Function& f) const
+  {
+    if(m_triangulation->dimension() < 3)
+      return;
+    std::vector<simplex_descriptor> cells;
+    m_triangulation->incident_cells(v, std::back_inserter(cells));
+    for(simplex_descriptor cell : cells)
+      f(cell);
+  }
+
+  Triangulation* m_triangulation;
+  Cell_predicate m_is_selected;
+  std::shared_ptr<Indices> m_indices; // shared by copies
+};
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of all finite cells of a 3D triangulation. If cells have a subdomain index,
+/// those where it has its default value, which stands for the outside, are left out.
+template <typename Triangulation>
+Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& triangulation)
+{
+  return Triangulation_domain_3<Triangulation>(triangulation);
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of the cells of a complex in a 3D triangulation, of all subdomains.
+/// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
+template <typename MeshComplex>
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex)
+{
+  using Triangulation = typename MeshComplex::Triangulation;
+  return Triangulation_domain_3<Triangulation>(
+    complex.triangulation(), [&complex](typename Triangulation::Cell_handle cell) {
+      return complex.is_in_complex(cell);
+    });
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices that it shares
+/// with others belong to it: hold them if the others are to keep their shape.
+/// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
+template <typename MeshComplex>
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex, typename MeshComplex::Subdomain_index subdomain)
+{
+  using Triangulation = typename MeshComplex::Triangulation;
+  return Triangulation_domain_3<Triangulation>(
+    complex.triangulation(), [&complex, subdomain](typename Triangulation::Cell_handle cell) {
+      return complex.is_in_complex(cell) && complex.subdomain_index(cell) == subdomain;
+    });
+}
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
