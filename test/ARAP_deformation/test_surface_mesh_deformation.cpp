@@ -694,7 +694,7 @@ void test_failures()
   quad.add_face(p, q, r, t);
   Deformation on_quad(quad);
   on_quad.insert_roi_vertex(p);
-  CHECK(!on_quad.preprocess() && on_quad.outcome().status == Status::not_a_triangle);
+  CHECK(!on_quad.preprocess() && on_quad.outcome().status == Status::not_a_simplex);
 }
 
 int main(int argc, char** argv)

@@ -218,6 +218,20 @@ inline Scenario scenario(const Shape& shape, double angle = 0.9)
   return result;
 }
 
+// the point of a class with a domain, and of one without
+template <typename Deformation>
+auto point_of(const Eigen::Vector3d& p, int)
+  -> decltype(Deformation::Deformation_domain::make_point({p.x(), p.y(), p.z()}))
+{
+  return Deformation::Deformation_domain::make_point({p.x(), p.y(), p.z()});
+}
+
+template <typename Deformation>
+auto point_of(const Eigen::Vector3d& p, long)
+{
+  return typename Deformation::Point(p.x(), p.y(), p.z());
+}
+
 // inserts region and controls of a scenario; vertex k of the mesh is vertex k of the shape
 template <typename Deformation>
 void prepare(Deformation& deformation, const Scenario& s,
@@ -230,10 +244,7 @@ void prepare(Deformation& deformation, const Scenario& s,
     if(s.selection[k] == 2)
     {
       deformation.insert_control_vertex(vertices[k]);
-      const auto& t = s.targets[k];
-      deformation.set_target_position(vertices[k],
-                                      Deformation::Deformation_domain::make_point(
-                                        {t.x(), t.y(), t.z()}));
+      deformation.set_target_position(vertices[k], point_of<Deformation>(s.targets[k], 0));
     }
 }
 

@@ -281,7 +281,8 @@ private:
     if constexpr(Tag == SPOKES_AND_RIMS)
     {
       if(const int k = builder.find_non_triangle(); k >= 0)
-        return internal::outcome(Status::not_a_triangle, name(region.vertices[k]));
+        return Outcome(Status::not_a_simplex,
+                       name(region.vertices[k]) + " is at a face that is not a triangle");
       system.energy = builder.spokes_and_rims();
     }
     else
