@@ -9,8 +9,9 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// CGAL::ARAP::Surface_mesh_deformation against CGAL::Surface_mesh_deformation, side by side on copies
-// of one mesh: random sequences of all their functions, and after each deform() the same points.
+// CGAL::ARAP::Surface_mesh_deformation against CGAL::Surface_mesh_deformation, side by side on
+// copies of one mesh: random sequences of all their functions, and after each deform() the same
+// points.
 //
 // Kept out, as CGAL's class has no defined result there: covariances of rank one, whose closest
 // rotation is not unique; systems with a part that nothing holds, which LU may factorize; and an
@@ -68,7 +69,7 @@ Eigen::Vector3d random_vector(double size)
   return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
 }
 
-// A point with no more than what CGAL's class asks for, and a map to points that are not in the mesh
+// A point with no more than what CGAL's class asks for, and a map to points outside the mesh
 struct Bare_point
 {
   Bare_point() = default;
@@ -472,7 +473,7 @@ void test_iterates()
   }
 }
 
-// a run of `iterations` iterations of our class on a shape
+// the points after four iterations of our class on a shape
 template <typename Deformation, typename Prepare>
 std::vector<Point> run(const Shape& shape, const Prepare& prepare_deformation)
 {
@@ -578,7 +579,7 @@ struct One_weight
   double value = 1;
 };
 
-// What fails says why and which vertex is to blame, and leaves the mesh and the object as they were.
+// What fails says why and which vertex is to blame, and leaves mesh and object as they were.
 void test_failures()
 {
   using CGAL::ARAP::Status;

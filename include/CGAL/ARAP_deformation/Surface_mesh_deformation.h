@@ -35,11 +35,11 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief `CGAL::Surface_mesh_deformation` with the numeric part of this package: for programs that
-/// use that class already.
+/// \brief `CGAL::Surface_mesh_deformation` with the numeric part of this package: for programs
+/// that use that class already.
 ///
-/// A program moves over by including this header and writing `CGAL::ARAP::Surface_mesh_deformation`.
-/// Template parameters, members, their meaning, and the iterates are those of
+/// A program moves over by including this header and writing
+/// `CGAL::ARAP::Surface_mesh_deformation`. Template parameters, members, their meaning, and the iterates are those of
 /// `CGAL::Surface_mesh_deformation` in the version of \cgal that is installed; its reference manual
 /// applies. For new programs there is `CGAL::ARAP_deformation`.
 ///
@@ -50,15 +50,15 @@ namespace ARAP {
 ///
 /// What differs:
 ///
-/// - *Failure.* `preprocess()` returns `false` as before, and `outcome()` says why, and which vertex is
-///   to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the
-///   mesh and the object as they were. Functions that set a target return an `Outcome`.
+/// - *Failure.* `preprocess()` returns `false` as before, and `outcome()` says why, and which
+///   vertex is to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the mesh and
+///   the object as they were. Functions that set a target return an `Outcome`.
 /// - *Targets* of vertices that are not control vertices are ignored by all functions, not only by
 ///   `set_target_position()`; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
-///   \cgal's. The defaults are `Eigen_cholesky_solver` and `SVD_closest_rotation`. A Cholesky factorization
-///   needs weights for which the matrix is positive definite, as it is with those of \cgal;
-///   where negative weights make it indefinite, `preprocess()` fails.
+///   \cgal's. The defaults are `Eigen_cholesky_solver` and `SVD_closest_rotation`. A Cholesky
+///   factorization needs weights for which the matrix is positive definite, as it is with those of
+///   \cgal; where negative weights make it indefinite, `preprocess()` fails.
 /// - *Free parts.* If a part of the region of interest is not tied to any vertex that is held,
 ///   `preprocess()` always fails, and never depends on rounding.
 /// - *Points.* Within a run positions are `double`; they are rounded to the type of the points
@@ -67,9 +67,9 @@ namespace ARAP {
 /// - *Index maps.* The halfedge index map may number the halfedges in any order.
 /// - *Copies.* The class cannot be copied, whatever its template arguments.
 /// - *Cost.* `erase_roi_vertex()` takes constant time, amortized. The functions that only
-///   read are `const`, and `target_position()` returns a copy.
-/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` can be run, which is
-///   `ORIGINAL_ARAP`. With any other value, 0.02 if none is set, `preprocess()` works, and
+///   read are `const`; `target_position()` returns a copy, and does not put back what has left.
+/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` can be run, which
+///   is `ORIGINAL_ARAP`. With any other value, 0.02 if none is set, `preprocess()` works, and
 ///   `deform()` returns `Status::invalid_option` and does nothing.
 ///
 /// \tparam TM a model of `HalfedgeGraph` and `VertexListGraph` of which all faces are triangles
@@ -154,8 +154,8 @@ public:
   /// erases all control vertices, which stay in the region of interest.
   void clear_control_vertices() { m_deformation.clear_controls(); }
 
-  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Returns `true`
-  /// if it was no control vertex.
+  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Returns
+  /// `true` if it was no control vertex.
   bool insert_control_vertex(vertex_descriptor v) { return m_deformation.insert_control(v); }
 
   /// makes the vertices of a range control vertices.
@@ -217,8 +217,8 @@ public:
     return for_each(begin, end, [&](vertex_descriptor v) { return translate(v, t); });
   }
 
-  /// rotates the target of a control vertex by the quaternion `quat` about the point that the vector
-  /// `to_rotation_center` leads to from the origin. Ignored if `v` is no control vertex.
+  /// rotates the target of a control vertex by the quaternion `quat` about the point that the
+  /// vector `to_rotation_center` leads to from the origin. Ignored if `v` is no control vertex.
   template <typename Quaternion, typename Vect>
   Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
   {
@@ -253,8 +253,8 @@ public:
   /// less than `tolerance` of itself is the last; the status is then `Status::converged`.
   ///
   /// `Report::energy[0]` is the energy with the targets and the rotations of the run before.
-  /// `Report::estimated_relative_gap` is not computed. `Report::simplices` is 0 with `ORIGINAL_ARAP`,
-  /// whose cells have no triangles.
+  /// `Report::estimated_relative_gap` is not computed. `Report::simplices` is 0 with
+  /// `ORIGINAL_ARAP`, whose cells have no triangles.
   Report deform(unsigned int iterations, double tolerance)
   {
     return m_deformation.deform(iterations, tolerance);
@@ -263,8 +263,8 @@ public:
   /// puts the region of interest back to the rest shape, targets included.
   void reset() { m_deformation.reset(); }
 
-  /// takes the present points of the region of interest for the rest shape, and computes the weights
-  /// at its vertices again.
+  /// takes the present points of the region of interest for the rest shape, and computes the
+  /// weights at its vertices again.
   void overwrite_initial_geometry() { m_deformation.overwrite_initial_geometry(); }
   /// @}
 

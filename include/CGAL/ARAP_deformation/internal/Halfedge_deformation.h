@@ -194,7 +194,7 @@ private:
     std::size_t number_of_triangles = 0;
   };
 
-  // What is out of date, made anew: taken when all has succeeded, so that what fails changes nothing.
+  // What is out of date, made anew. Taken when all has succeeded: what fails changes nothing.
   struct Update
   {
     std::optional<Region> region;

@@ -24,7 +24,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The region of interest in the order of insertion, and the control vertices, all of which are in it.
+// The region of interest in the order of insertion, and the control vertices, all of which are in
+// it.
 template <typename Vertex, typename VertexIndexMap>
 class Ordered_roi
 {
