@@ -39,9 +39,9 @@ namespace ARAP {
 /// that use that class already.
 ///
 /// A program moves over by including this header and writing
-/// `CGAL::ARAP::Surface_mesh_deformation`. Template parameters, members, their meaning, and the iterates are those of
-/// `CGAL::Surface_mesh_deformation` in the version of \cgal that is installed; its reference manual
-/// applies. For new programs there is `CGAL::ARAP_deformation`.
+/// `CGAL::ARAP::Surface_mesh_deformation`. Template parameters, members, their meaning, and the
+/// iterates are those of `CGAL::Surface_mesh_deformation` in the version of \cgal that is installed;
+/// its reference manual applies. For new programs there is `CGAL::ARAP_deformation`.
 ///
 /// As there, the weights of all halfedges are computed at construction, and
 /// `overwrite_initial_geometry()` computes those at vertices of the region of interest again.
@@ -51,8 +51,8 @@ namespace ARAP {
 /// What differs:
 ///
 /// - *Failure.* `preprocess()` returns `false` as before, and `outcome()` says why, and which
-///   vertex is to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the mesh and
-///   the object as they were. Functions that set a target return an `Outcome`.
+///   vertex is to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the
+///   mesh and the object as they were. Functions that set a target return an `Outcome`.
 /// - *Targets* of vertices that are not control vertices are ignored by all functions, not only by
 ///   `set_target_position()`; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
