@@ -211,6 +211,10 @@ using Call_set_point = decltype(std::declval<const Domain&>().set_point(
   std::declval<Vertex_of<Domain>>(), std::declval<const Point_of<Domain>&>()));
 
 template <typename Domain>
+using Call_is_in_place =
+  Requires_convertible<decltype(std::declval<const Domain&>().is_in_place()), bool>;
+
+template <typename Domain>
 using Call_is_isolated = Requires_convertible<
   decltype(std::declval<const Domain&>().is_isolated(std::declval<Vertex_of<Domain>>())), bool>;
 
@@ -276,6 +280,8 @@ struct Domain_requirements
     "the model of ARAPDomain_3 lacks: Point point(vertex_descriptor) const");
   static_assert(is_valid<Call_set_point, Domain>,
     "the model of ARAPDomain_3 lacks: void set_point(vertex_descriptor, const Point&) const");
+  static_assert(is_valid<Call_is_in_place, Domain>,
+    "the model of ARAPDomain_3 lacks: bool is_in_place() const");
   static_assert(is_valid<Call_is_isolated, Domain>,
     "the model of ARAPDomain_3 lacks: bool is_isolated(vertex_descriptor) const");
   static_assert(is_valid<Call_is_in_place, Domain>,
