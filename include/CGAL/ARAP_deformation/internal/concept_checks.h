@@ -218,10 +218,6 @@ template <typename Domain>
 using Call_is_isolated = Requires_convertible<
   decltype(std::declval<const Domain&>().is_isolated(std::declval<Vertex_of<Domain>>())), bool>;
 
-template <typename Domain>
-using Call_is_in_place =
-  Requires_convertible<decltype(std::declval<const Domain&>().is_in_place()), bool>;
-
 template <typename Domain, typename Range>
 using Requires_vertex_range =
   Requires_convertible<decltype(*std::begin(std::declval<Range&>())), Vertex_of<Domain>>;
@@ -284,8 +280,6 @@ struct Domain_requirements
     "the model of ARAPDomain_3 lacks: bool is_in_place() const");
   static_assert(is_valid<Call_is_isolated, Domain>,
     "the model of ARAPDomain_3 lacks: bool is_isolated(vertex_descriptor) const");
-  static_assert(is_valid<Call_is_in_place, Domain>,
-    "the model of ARAPDomain_3 lacks: bool is_in_place() const");
   static_assert(is_valid<Call_vertices, Domain>,
     "the model of ARAPDomain_3 lacks: vertices() const, a range of vertex_descriptor");
   static_assert(is_valid<Call_simplex_vertices, Domain>,
