@@ -52,8 +52,8 @@ void add_sheet(Soup<3>& soup, int nu, int nv, Place f)
     }
 }
 
-// A palm: its trunk is made of open cones, each of which is in the next one or does not reach it, and
-// its leaves cross each other.
+// A palm: its trunk is made of open cones, which reach into the next one or do not reach it, and its
+// leaves cross each other.
 inline Soup<3> make_palm()
 {
   Soup<3> palm;
@@ -67,7 +67,8 @@ inline Soup<3> make_palm()
     });
   }
   for(int k = 0; k < leaves; ++k) {
-    const double angle = 2 * CGAL_PI * (k + 0.3) / leaves, c = std::cos(angle), s = std::sin(angle);
+    const double angle = 2 * CGAL_PI * (k + 0.3) / leaves;
+    const double c = std::cos(angle), s = std::sin(angle);
     add_sheet(palm, 20, 6, [=](double u, double v) {
       const double r = 1.9 * u - 0.2, side = 2 * v - 1;
       const double t = 0.34 * side * std::sqrt(u * (1 - u) + 0.004);
@@ -95,10 +96,10 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
     Vector centre(0, 0, 0);
     for(const Node& n : corners)
       centre += (place(n) - CGAL::ORIGIN) / 4;
-    const bool is_close = std::any_of(surface.points.begin(), surface.points.end(), [&](const Point& p) {
+    const auto is_close = [&](const Point& p) {
       return CGAL::squared_distance(p, CGAL::ORIGIN + centre) < distance * distance;
-    });
-    if(is_close)
+    };
+    if(std::any_of(surface.points.begin(), surface.points.end(), is_close))
       volume.simplices.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2]),
                                   vertex(corners[3])});
   };
@@ -147,8 +148,8 @@ inline std::set<std::pair<int, int>> boundary_edges(const Soup<4>& volume)
   return edges;
 }
 
-// The panel that shows a surface and the boundary edges of the volume around it. The selection is one of
-// the vertices of the volume.
+// The panel that shows a surface and the boundary edges of the volume around it. The selection is
+// one of the vertices of the volume.
 inline Panel panel(const Soup<3>& surface, const Soup<4>& volume, const std::vector<int>& selection,
                    const std::string& caption)
 {

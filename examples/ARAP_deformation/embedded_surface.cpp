@@ -21,16 +21,16 @@
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Vector = Kernel::Vector_3;
+using Triangle = std::array<std::size_t, 3>;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Mesh_domain = CGAL::Polyhedral_mesh_domain_3<Mesh, Kernel>;
 using Mesh_triangulation = CGAL::Mesh_triangulation_3<Mesh_domain>::type;
 using Mesh_criteria = CGAL::Mesh_criteria_3<Mesh_triangulation>;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Mesh_triangulation>;
 
-// A surface as modelling tools leave it: rings that do not touch, the ends of some in others, and two
-// sheets that cross them and each other. The faces of the sheets are there twice.
-void make_unclean_surface(std::vector<Point>& points, std::vector<std::array<std::size_t, 3>>& faces)
+// A surface as modelling tools leave it: open rings, some of which reach into the next one and some
+// do not reach it, and two sheets that cross them and each other. The sheets are there twice.
+void make_unclean_surface(std::vector<Point>& points, std::vector<Triangle>& faces)
 {
   const auto add_strip = [&](int n, const auto& one_side, const auto& other_side) {
     for(int k = 0; k <= n; ++k)
@@ -63,12 +63,12 @@ void make_unclean_surface(std::vector<Point>& points, std::vector<std::array<std
 int main()
 {
   std::vector<Point> points;
-  std::vector<std::array<std::size_t, 3>> faces;
+  std::vector<Triangle> faces;
   make_unclean_surface(points, faces);
 
-  // a coarse volume around it
+  // a coarse volume around it: what a ball of radius 1 cannot enter, with a layer of 0.25
   Mesh wrap;
-  CGAL::alpha_wrap_3(points, faces, 1.0, 0.25, wrap); // no ball of radius 1 gets in, 0.25 around all
+  CGAL::alpha_wrap_3(points, faces, 1.0, 0.25, wrap);
   const Mesh_domain mesh_domain(wrap);
   const Mesh_criteria criteria(Mesh_criteria::Facet_criteria(25, 0.8, 0.1),
                                Mesh_criteria::Cell_criteria(3, 0.8));
@@ -89,8 +89,8 @@ int main()
     outside += embedding.distance(k) > 0;
     farthest = (std::max)(farthest, embedding.distance(k));
   }
-  std::cout << outside << " of " << embedding.size() << " points are outside, by at most " << farthest
-            << std::endl;
+  std::cout << outside << " of " << embedding.size() << " points are outside, by at most "
+            << farthest << std::endl;
   if(farthest > 0.25)
     return EXIT_FAILURE;
 

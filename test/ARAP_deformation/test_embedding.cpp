@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Points embedded in a tetrahedral complex: against a search over all tetrahedra, under affine and other
-// maps, inside, outside and where tetrahedra meet, in all domains, and data that is refused.
+// Points embedded in a tetrahedral complex: against a search over all tetrahedra, under affine and
+// other maps, inside, outside and where tetrahedra meet, in several domains; data that is refused.
 
 #include "include/domains.h"
 
@@ -295,7 +295,8 @@ void test_ranges()
                                       {2, 1, 1}, {2, 1.5, 4}, {1.5, 0.5, 0.5}};
   const Embedding ties(cubes, outside);
   CHECK(ties.outcome());
-  const std::vector<double> distances = {std::sqrt(3.0), std::sqrt(3.0), std::sqrt(0.5), 0, 0, 2, 0};
+  const std::vector<double> distances = {std::sqrt(3.0), std::sqrt(3.0), std::sqrt(0.5), 0, 0, 2,
+                                         0};
   for(std::size_t k = 0; k < ties.size(); ++k)
     CHECK_AT_MOST(std::abs(ties.distance(k) - distances[k]), 1e-14);
 
@@ -460,8 +461,8 @@ void test_failures()
   check_refused("no points in the complex", Status::no_tetrahedron, "", {}, Simplices(), probe);
   check_refused("no tetrahedra", Status::no_tetrahedron, "", points, Simplices(), probe);
   check_refused("flat", Status::no_tetrahedron, "", points, Simplices{{0, 1, 2, 4}}, probe);
-  check_refused("one point", Status::no_tetrahedron, "", std::vector<Point>(4, Point(1, 2, 3)), good,
-                probe);
+  check_refused("one point", Status::no_tetrahedron, "", std::vector<Point>(4, Point(1, 2, 3)),
+                good, probe);
   check_refused("triangle", Status::not_a_simplex, "vertex 0 ", points,
                 Simplices{{0, 1, 2, 3}, {0, 1, 2}}, probe);
   check_refused("corner twice", Status::not_a_simplex, "vertex 1 ", points,

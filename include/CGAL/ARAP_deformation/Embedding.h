@@ -36,25 +36,26 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief points that follow a tetrahedral complex: the vertices of a shape that cannot be deformed
+/// \brief points that follow a tetrahedral complex: those of a shape that cannot be deformed
 /// itself, in a coarse volume around it that can (Section 5 of \cgalCite{Sorkine2007AsRigidAs}).
 ///
-/// At construction each point \f$p\f$ is bound to the tetrahedron that contains it, by its barycentric
-/// coordinates \f$\lambda_k\f$: \f$p = \sum_k \lambda_k p_k\f$ with \f$\sum_k \lambda_k = 1\f$, where
-/// \f$p_k\f$ are the corners. When these have moved to \f$p'_k\f$, the point is at
-/// \f$p' = \sum_k \lambda_k p'_k\f$. This reproduces affine maps, and is continuous in the complex.
+/// At construction each point \f$p\f$ is bound to the tetrahedron that contains it, by its
+/// barycentric coordinates \f$\lambda_k\f$: \f$p = \sum_k \lambda_k p_k\f$ with
+/// \f$\sum_k \lambda_k = 1\f$, where \f$p_k\f$ are the corners. When these have moved to
+/// \f$p'_k\f$, the point is at \f$p' = \sum_k \lambda_k p'_k\f$. This reproduces affine maps, and
+/// is continuous in the complex.
 ///
-/// A point outside is bound in the same way to the nearest tetrahedron, whose affine map it follows:
-/// some coordinates are negative. The map is not continuous there. That does not show close to
-/// the complex, and grows with `distance()`, by which a program can refuse what is too far.
-/// If several tetrahedra are equally near, the one with the largest smallest coordinate is taken. The
-/// order of the simplices has no influence.
+/// A point outside is bound in the same way to the nearest tetrahedron, whose affine map it
+/// follows: some coordinates are negative. The map has jumps there, which grow with the distance
+/// from the complex: `distance()` is there to refuse what is too far. If several tetrahedra are
+/// equally near, the one with the largest smallest coordinate is taken. The order of the simplices
+/// has no influence.
 ///
-/// Tetrahedra without volume, that is, flatter than rounding lets see (1e-12 of their size), have no
-/// points bound to them. The others must not overlap when the points are bound.
+/// No point is bound to a tetrahedron without volume, that is, one that is flat up to 1e-12 of its
+/// size. The others must not overlap when the points are bound.
 ///
-/// The mesh of the domain must outlive the object; its simplices must not change meanwhile. The points
-/// that are embedded are not needed later.
+/// The mesh of the domain must outlive the object; its simplices must not change meanwhile. The
+/// points that are embedded are not needed later.
 ///
 /// \tparam Domain a model of `ARAPDomain_3` of dimension 3
 template <typename Domain>
@@ -67,7 +68,7 @@ public:
   /// a vertex of the complex.
   using vertex_descriptor = typename Domain::vertex_descriptor;
 
-  /// \brief binds points to the present shape of a complex, which should be its rest shape.
+  /// \brief binds points to the present shape of a complex, which ought to be its rest shape.
   ///
   /// If this is not possible, `outcome()` says why, and the object has no points:
   ///  - `Status::non_finite_point`: a point or a vertex has a coordinate that is infinite or not a
@@ -75,8 +76,8 @@ public:
   ///  - `Status::not_a_simplex`: a simplex is not a tetrahedron;
   ///  - `Status::no_tetrahedron`: there is no tetrahedron with a volume.
   ///
-  /// Takes \f$O(n \log n)\f$ time for `n` tetrahedra, for a search tree that is gone afterwards, and
-  /// as a rule \f$O(\log n)\f$ for each point.
+  /// Takes \f$O(n \log n)\f$ time and linear memory for a search tree over `n` tetrahedra, which is
+  /// gone afterwards, and as a rule \f$O(\log n)\f$ time for each point.
   ///
   /// \param domain the complex
   /// \param points a range of points with `operator[]`, for example a `std::vector` or what
@@ -98,7 +99,8 @@ public:
 
   /// \brief returns where point `k` is for the present points of the domain. Constant time.
   ///
-  /// These are the points that the domain reads: if it writes to other ones, use the domain of those.
+  /// These are the points that the domain reads. If it writes to other ones, such as those of another
+  /// range, use a domain that reads these.
   /// \pre `k < size()`
   Coordinates position(std::size_t k) const
   {
@@ -109,8 +111,8 @@ public:
     return result;
   }
 
-  /// \brief assigns all positions to the points of a range, in the order of those that were embedded.
-  /// Linear time.
+  /// \brief assigns all positions to the points of a range, in the order of those that were
+  /// embedded. Linear time.
   ///
   /// \param points a range of points, for example that which was embedded
   /// \pre the range has `size()` points; in Release nothing is written if it has not
@@ -130,7 +132,7 @@ public:
     }
   }
 
-  /// returns how far outside of the complex point `k` was when it was bound, and 0 if it was inside.
+  /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside.
   /// \pre `k < size()`
   double distance(std::size_t k) const { return binding(k).distance; }
 

@@ -45,9 +45,9 @@ namespace internal {
 using Barycentric_coordinates = std::array<double, 4>;
 using Tetrahedron_corners = std::array<Coordinates, 4>;
 
-// The barycentric coordinates of a point, or nothing if the tetrahedron has no volume up to rounding.
-// They add up to 1. The solution is backward stable: they reproduce the point also where the
-// tetrahedron is thin.
+// The barycentric coordinates of a point, or nothing if the tetrahedron has no volume up to
+// rounding. They add up to 1. The solution is backward stable: they reproduce the point also
+// where the tetrahedron is thin.
 inline std::optional<Barycentric_coordinates>
 barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& point)
 {
@@ -69,11 +69,12 @@ barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& p
 
 // Finds the tetrahedron that contains a point, or else the nearest one.
 //
-// Both have the face that is nearest to the point: the segment to the nearest point of all faces crosses
-// no other face, and so does not leave the tetrahedron, or the outside, where it begins. An
-// edge or a vertex can be nearest too; then the tetrahedra around it are equally near. Of all those that
-// are nearest up to rounding, the one with the largest smallest barycentric coordinate is taken:
-// it contains the point if one of them does, and else it extrapolates least. The first one decides the rest.
+// Both have the face that is nearest to the point: the segment to the nearest point of all faces
+// crosses no other face, and so does not leave the tetrahedron, or the outside, where it begins.
+// Several faces can be equally near, those at an edge or a vertex for example. Of the tetrahedra of
+// all faces that are nearest up to rounding, the one with the largest smallest barycentric
+// coordinate is taken: it contains the point if one of them does, and else extrapolates least. If
+// there are several even then, the first one is taken.
 class Tetrahedron_search
 {
 public:
