@@ -22,7 +22,8 @@ namespace ARAP {
 enum class Edge_set
 {
   star,   ///< the edges \f$(i, j)\f$ from a vertex \f$i\f$ to its neighbours
-  simplex ///< the edges of one simplex: three for a triangle
+  simplex ///< the edges of one simplex: three in a triangle, six in a tetrahedron, and in a polygon
+          ///< its sides and diagonals
 };
 
 /// \ingroup PkgARAPDeformationOptions
@@ -37,11 +38,11 @@ public:
   /// edges to its neighbours.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
-  /// one cell for each vertex, with the three edges of each incident triangle
+  /// one cell for each vertex, with the edges of each incident simplex
   /// \cgalCite{Chao2010SimpleGeomModel}. Never negative with cotangent weights; the default.
   static constexpr Cell_scheme spokes_and_rims() { return Cell_scheme(Edge_set::simplex, true); }
 
-  /// one cell for each triangle. On surfaces nothing resists bending: a membrane that folds freely.
+  /// one cell for each simplex. On surfaces nothing resists bending: a membrane that folds freely.
   static constexpr Cell_scheme elements() { return Cell_scheme(Edge_set::simplex, false); }
 
   /// the kind of the edge sets.
