@@ -162,15 +162,15 @@ private:
                                                  name == "Quadrilaterals" || name == "Tetrahedra"));
   }
 
-  // The places where the contents of the sections start that are read. Others may hold anything: they
-  // end where the next keyword is.
+  // The places where the contents start of the sections that are read. Others may hold anything:
+  // they end where the next keyword is.
   std::map<std::string_view, std::size_t> find_sections() const
   {
     Words words(m_text);
     const std::string_view first = words.next();
     if(m_text.find('\0') != std::string::npos)
-      throw std::runtime_error(m_name + ": is binary; of Medit's formats only .mesh is read, which is "
-                                        "text, and not .meshb");
+      throw std::runtime_error(m_name + ": is binary; of Medit's formats only .mesh is read, which "
+                                        "is text, and not .meshb");
     if(first != "MeshVersionFormatted")
       refuse(words, "a .mesh file starts with 'MeshVersionFormatted', but this with");
     std::map<std::string_view, std::size_t> sections;

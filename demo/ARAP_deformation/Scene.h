@@ -227,8 +227,8 @@ struct Temporary_folder
   }
 };
 
-// Runs POV-Ray in the folder, for its files and its messages, and returns its exit code. No name that
-// a user chose reaches the shell, and that of the folder is quoted for it.
+// Runs POV-Ray in the folder, for its files and its messages, and returns its exit code. No name
+// that a user chose reaches the shell, and that of the folder is quoted for it.
 inline int run_povray(const Temporary_folder& folder, const std::string& options)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");

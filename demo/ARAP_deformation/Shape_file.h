@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
 
-// The two kinds of shapes that the command deforms, with one interface: each is read at construction,
-// deformed by its domain, and written.
+// The two kinds of shapes that the command deforms, with one interface: each is read at
+// construction, deformed by its domain, and written.
 
 #include "Medit_file.h"
 #include "shape_files.h"
@@ -23,8 +23,8 @@
 
 #include <array>
 #include <cstddef>
+#include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {

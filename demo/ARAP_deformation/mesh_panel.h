@@ -35,8 +35,8 @@ struct Skin
   std::vector<std::array<int, 3>> triangles;
 };
 
-// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles from its
-// first corner, so that a strongly concave one is drawn larger than it is.
+// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles from
+// its first corner, so that a strongly concave one is drawn larger than it is.
 inline Skin skin(const Mesh& mesh)
 {
   Skin result;

@@ -269,7 +269,8 @@ void test_polygons()
   if(std::system("povray --version > /dev/null 2>&1") == 0)
     CHECK(run("tube.off" + call + "off --image tube.png").exit_code == 0);
   write("precious.off", "precious");
-  check_refused("tube.off" + call + "stl", 1, "new.stl: an .stl file holds triangles only, but face");
+  check_refused("tube.off" + call + "stl", 1,
+                "new.stl: an .stl file holds triangles only, but face");
 }
 
 void test_refusals()

@@ -168,7 +168,8 @@ void test_checks()
     CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points());
   const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
   CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(domain, rest_points) - of_graph) < 1e-14);
-  const std::vector<Point> square = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0)};
+  const std::vector<Point> square = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0),
+                                     Point(0, 1, 0)};
   std::vector<Point> stretched = square;
   stretched[2] = stretched[3] = Point(0, 3, 0);
   const std::vector<std::array<int, 4>> corners = {{0, 1, 2, 3}};
@@ -178,7 +179,8 @@ void test_checks()
   const double left = 2, top = -1, right = std::sqrt(10.0) - 1; // errors of the sides, all 1 before
   const double rising = 3 - std::sqrt(2.0), falling = std::sqrt(10.0) - std::sqrt(2.0);
   const double sides = left * left + top * top + right * right;
-  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(face, square) - std::sqrt(sides / 4)) < 1e-14);
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(face, square) -
+                 std::sqrt(sides / 4)) < 1e-14);
   CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(flat, square) -
                  std::sqrt((sides + rising * rising + falling * falling) / 8)) < 1e-14);
 }

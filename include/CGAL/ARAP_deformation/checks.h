@@ -113,8 +113,8 @@ double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, Ve
 }
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns the relative root mean square error of the edge lengths as above, over the edges of
-/// all simplices of a domain, each once. The edges of a polygon are its sides.
+/// \brief returns the relative root mean square error of the edge lengths as above, over the edges
+/// of all simplices of a domain, each once. The edges of a polygon are its sides.
 ///
 /// \param domain a model of `ARAPDomain_3` from which the points of the deformed shape are read
 /// \param rest_points a range with `operator[]`: the point of `v` in the rest shape is

@@ -90,8 +90,8 @@ inline void check_refused(const std::string& arguments, int exit_code, const std
   CHECK(content(folder / "precious.off") == "precious");
 }
 
-// Calls test() in a new folder with the command whose path is the argument of the program; without it
-// nothing is tested. Returns what main() returns.
+// Calls test() in a new folder with the command whose path is the argument of the program; without
+// it nothing is tested. Returns what main() returns.
 template <typename Test>
 int test_command(int argc, char** argv, const Test& test)
 {
