@@ -47,6 +47,7 @@ struct Panel
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> selection;
   std::string caption;
+  std::vector<std::array<int, 2>> lines = {}; // thin and pale, from point to point
 };
 
 // How the panels of a picture are seen: all from the same side and at the same scale.
@@ -145,16 +146,24 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
           << (selection[v] == 0 ? "Fixed" : "Handle") << " } }\n";
 }
 
-inline void write_edges(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
+// The texture is the name of one.
+template <typename Lines>
+void write_lines(std::ostream& out, const Lines& lines, const std::vector<Vector>& points,
+                 const char* texture)
 {
-  std::set<std::pair<int, int>> edges;
+  for(const auto& [a, b] : lines)
+    if(points[a] != points[b]) // POV-Ray takes no cylinder without length
+      out << "cylinder { " << Pov{points[a]} << ", " << Pov{points[b]} << ", Line_radius texture { "
+          << texture << " } no_shadow }\n";
+}
+
+inline std::set<std::pair<int, int>> edges(const Panel& panel)
+{
+  std::set<std::pair<int, int>> result;
   for(const auto& t : panel.triangles)
     for(int i = 0; i < 3; ++i)
-      edges.insert(std::minmax({t[i], t[(i + 1) % 3]}));
-  for(const auto& [a, b] : edges)
-    if(points[a] != points[b]) // POV-Ray takes no cylinder without length
-      out << "cylinder { " << Pov{points[a]} << ", " << Pov{points[b]}
-          << ", Line_radius texture { Line } no_shadow }\n";
+      result.insert(std::minmax({t[i], t[(i + 1) % 3]}));
+  return result;
 }
 
 // The text with a backslash before each of the special characters.
@@ -182,6 +191,7 @@ inline constexpr const char* stage = R"(
 #declare Handle = texture { pigment { srgb <0.98, 0.80, 0.10> } finish { Paint } }
 #declare Line_radius = 0.5;
 #declare Line = texture { pigment { srgb <0.18, 0.20, 0.26> } finish { emission 1 diffuse 0 } }
+#declare Pale_line = texture { pigment { srgb <0.50, 0.58, 0.70> } finish { emission 1 diffuse 0 } }
 #macro Caption(Text, X, Size)
   #local Letters = text { internal 2 Text 0.01, 0 }
   object { Letters
@@ -302,7 +312,8 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
   for(std::size_t k = 0; k < panels.size(); ++k) {
     internal::write_surface(out, panels[k], seen[k]);
     if(view.show_edges)
-      internal::write_edges(out, panels[k], seen[k]);
+      internal::write_lines(out, internal::edges(panels[k]), seen[k], "Line");
+    internal::write_lines(out, panels[k].lines, seen[k], "Pale_line");
     if(!panels[k].caption.empty())
       out << "Caption(\"" << internal::escaped(panels[k].caption, "\\\"") << "\", " << slot(k)
           << ", " << letters << ")\n";

@@ -20,10 +20,13 @@
 //                                      table
 
 #include "demo_shapes.h"
+#include "embedded_shape.h"
 #include "mesh_panel.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Embedding.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/checks.h>
 
 #include <nlohmann/json.hpp>
@@ -207,6 +210,38 @@ void print_row(const fs::path& folder, const std::string& name)
             << report["seconds"]["deform"].get<double>() << '\n';
 }
 
+// Section 5 of the paper: a surface of many pieces follows a coarse volume around it.
+void draw_embedding(const fs::path& folder)
+{
+  Soup<3> palm = make_palm();
+  Soup<4> volume = make_lattice_around(palm, 0.17, 0.17);
+  using Domain =
+    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
+  const Domain domain(volume.points, volume.simplices);
+  const CGAL::ARAP::Embedding embedding(domain, palm.points);
+  if(!embedding.outcome())
+    throw std::runtime_error(embedding.outcome().message);
+
+  const Transform transform = motion(1, 50, Point(0, 0, 3.7), Vector(1.4, 0, -0.6));
+  CGAL::ARAP_deformation<Domain> deformation(domain);
+  std::vector<int> selection;
+  for(const Point& p : volume.points)
+  {
+    const bool is_crown = p.z() > 3.5 && std::hypot(p.x(), p.y()) < 0.4;
+    selection.push_back(p.z() < 0.3 ? FIXED : is_crown ? HANDLE : FREE);
+  }
+  insert_selection(deformation, selection, transform);
+  const Panel before = panel(palm, volume, selection, "a surface in a coarse volume");
+  const auto report = deformation.deform();
+  if(!report)
+    throw std::runtime_error(report.message);
+  embedding.put_points(palm.points);
+  std::cout << "  " << palm.points.size() << " points in " << volume.simplices.size()
+            << " tetrahedra\n";
+  draw({before, panel(palm, volume, selection, "deformed")},
+       View{Vector(0.3, -1, 0.3), Vector(0, 0, 1), 480, 480}, folder / "embedding.png");
+}
+
 void draw_pictures(const fs::path& folder, const fs::path& meshes)
 {
   std::cout << "Pictures:\n";
@@ -218,6 +253,7 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
   draw_model(folder, volume);
   draw_iterations(folder);
   draw_weights(folder);
+  draw_embedding(folder);
 
   std::cout << "\nmodel         vertices   free  iterations    energy  edge error   seconds\n";
   for(const Demo_shape& model : all)

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/Session.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Default.h>
@@ -60,6 +61,10 @@ class ARAP_deformation
   using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits_3<>>::type;
   using Domain_ =
     typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
+
+  static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
+  static_assert(
+    ARAP::internal::Domain_requirements<Domain_, typename Traits_::Edge_weight>::are_met);
 
 public:
   /// \name Types

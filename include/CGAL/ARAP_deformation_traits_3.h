@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
 
 #include <CGAL/Default.h>
 
@@ -52,6 +53,10 @@ public:
   /// the type of the rotation fitting.
   using Closest_rotation =
     typename Default::Get<ClosestRotation, ARAP::SVD_closest_rotation>::type;
+
+  static_assert(ARAP::internal::Sparse_solver_requirements<Sparse_solver>::are_met);
+  static_assert(ARAP::internal::Edge_weight_requirements<Edge_weight>::are_met);
+  static_assert(ARAP::internal::Closest_rotation_requirements<Closest_rotation>::are_met);
 
   /// constructs the traits from the objects that they hand out.
   explicit ARAP_deformation_traits_3(Sparse_solver solver = Sparse_solver(),

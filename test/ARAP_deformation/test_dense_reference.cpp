@@ -9,35 +9,38 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The iterates of the package and of a dense, slow reference agree, energies and positions, for each
-// cell scheme, each weight, whole meshes and regions of interest.
+// Iterates and energies against the dense reference: triangles, polygons and tetrahedra, whole shapes
+// and regions of interest, each cell scheme with each weight.
 
-#include "include/check.h"
 #include "include/dense_reference.h"
-#include "include/shapes.h"
+#include "include/domains.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-using CGAL::ARAP::Cell_scheme;
+using Simplices = std::vector<Dense_reference::Simplex>;
 
-template <typename Weight>
-void compare(const Shape& shape, const Scenario& s, Cell_scheme cells,
+template <int Dimension, typename Weight>
+void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplices,
+             double diameter, const Scenario& s, Cell_scheme cells,
              Dense_reference::Cells dense_cells, Dense_reference::Weights dense_weights)
 {
+  using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
   using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>;
-  Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh);
+  std::vector<Point> points = points_of(rest);
+  CGAL::ARAP_deformation<Domain, Traits> deformation(Domain(points, simplices));
   CGAL::ARAP::Options options;
   options.cells = cells;
   CHECK(deformation.set_options(options));
-  prepare(deformation, s, all_vertices(mesh));
+  prepare(deformation, s, numbers(points.size()));
 
-  const Dense_reference reference(shape, s.selection, dense_cells, dense_weights);
+  const Dense_reference reference(rest, simplices, Dimension, s.selection, dense_cells,
+                                  dense_weights);
   std::vector<Eigen::Vector3d> x = s.targets;
   const unsigned int iterations = 8;
   std::vector<double> energies = {reference.energy(x)};
@@ -50,12 +53,13 @@ void compare(const Shape& shape, const Scenario& s, Cell_scheme cells,
   }
 
   const CGAL::ARAP::Report report = deformation.deform(iterations, 0, [&](const auto& iterate) {
-    Mesh copy = mesh;
-    iterate.put_points(copy.points());
+    std::vector<Point> copy = points;
+    iterate.put_points(boost::make_iterator_property_map(copy.begin(),
+                                                         boost::typed_identity_property_map<std::size_t>()));
     double error = 0;
-    for(auto v : mesh.vertices())
-      error = (std::max)(error, (vector(copy.point(v)) - iterates[iterate.iteration()][v]).norm());
-    CHECK_AT_MOST(error, 1e-10 * shape.diameter());
+    for(std::size_t v = 0; v < copy.size(); ++v)
+      error = (std::max)(error, (vector(copy[v]) - iterates[iterate.iteration()][v]).norm());
+    CHECK_AT_MOST(error, 1e-10 * diameter);
     return CGAL::ARAP::Visitor_action::proceed;
   });
   CHECK(report.status == CGAL::ARAP::Status::iteration_limit);
@@ -66,34 +70,74 @@ void compare(const Shape& shape, const Scenario& s, Cell_scheme cells,
                   1e-10 * std::abs(energies[k]) + 1e-14 * report.energy_scale);
 }
 
-int main()
+template <int Dimension>
+void compare_all(const std::string& name, const std::vector<Eigen::Vector3d>& points,
+                 const Simplices& simplices, double diameter)
 {
   const std::pair<Cell_scheme, Dense_reference::Cells> schemes[] = {
     {Cell_scheme::spokes(), Dense_reference::SPOKES},
     {Cell_scheme::spokes_and_rims(), Dense_reference::SPOKES_AND_RIMS},
     {Cell_scheme::elements(), Dense_reference::ELEMENTS}};
+  const Scenario part = scenario(Shape{"", points, {}}, 0.6);
+  Scenario whole = part;
+  for(int& status : whole.selection) // all but the handles: the region is the whole shape
+    if(status == 0)
+      status = 2;
+  for(const Scenario& s : {part, whole})
+    for(const auto& [cells, dense_cells] : schemes)
+    {
+      test_case() = name + ", cells " + std::to_string(dense_cells);
+      compare<Dimension, CGAL::ARAP::Safe_cotangent_weight>(
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::SAFE);
+      compare<Dimension, CGAL::ARAP::Cotangent_weight>(
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::COTANGENT);
+      compare<Dimension, CGAL::ARAP::Uniform_weight>(
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::UNIFORM);
+      if(dense_cells == Dense_reference::SPOKES) // in a simplex a weight of zero may cut it off
+        compare<Dimension, CGAL::ARAP::Clamped_cotangent_weight>(
+          points, simplices, diameter, s, cells, dense_cells, Dense_reference::CLAMPED);
+    }
+}
+
+// a sheet of hexagons and quads, not flat
+void test_polygons()
+{
+  std::vector<Eigen::Vector3d> points;
+  const int n = 9, m = 8;
+  for(int i = 0; i <= n; ++i)
+    for(int j = 0; j <= m; ++j)
+      points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j, 0.1 * std::sin(i) * std::cos(0.7 * j));
+  const auto vertex = [=](int i, int j) { return std::size_t(i * (m + 1) + j); };
+  Simplices polygons;
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < m; ++j)
+      if(j % 3 == 2)
+        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      else if(j % 3 == 0 && j + 2 <= m)
+        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                            vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});
+  Eigen::AlignedBox3d box;
+  for(const auto& p : points)
+    box.extend(p);
+  compare_all<2>("polygons", points, polygons, box.diagonal().norm());
+}
+
+int main()
+{
   for(const Shape& shape : shapes())
   {
     if(shape.points.size() > 180)
       continue;
-    Scenario whole = scenario(shape, 0.6);
-    for(int& status : whole.selection) // all but the handles: the region is the whole mesh
-      if(status == 0)
-        status = 2;
-    for(const Scenario& s : {scenario(shape, 0.6), whole})
-      for(const auto& [cells, dense_cells] : schemes)
-      {
-        test_case() = shape.name + ", cells " + std::to_string(dense_cells);
-        compare<CGAL::ARAP::Safe_cotangent_weight>(shape, s, cells, dense_cells,
-                                                   Dense_reference::SAFE);
-        compare<CGAL::ARAP::Cotangent_weight>(shape, s, cells, dense_cells,
-                                              Dense_reference::COTANGENT);
-        compare<CGAL::ARAP::Uniform_weight>(shape, s, cells, dense_cells,
-                                            Dense_reference::UNIFORM);
-        if(dense_cells == Dense_reference::SPOKES) // with triangles a weight of zero may cut it off
-          compare<CGAL::ARAP::Clamped_cotangent_weight>(shape, s, cells, dense_cells,
-                                                        Dense_reference::CLAMPED);
-      }
+    Simplices triangles;
+    for(const auto& t : shape.triangles)
+      triangles.emplace_back(t.begin(), t.end());
+    compare_all<2>(shape.name, shape.points, triangles, shape.diameter());
   }
+  test_polygons();
+  const Block solid = block(4, 2, 2);
+  Simplices tetrahedra;
+  for(const auto& t : solid.tetrahedra)
+    tetrahedra.emplace_back(t.begin(), t.end());
+  compare_all<3>("tetrahedra", solid.points, tetrahedra, solid.diameter());
   return checks_result();
 }

@@ -44,8 +44,11 @@ int main()
       const Scenario s = scenario(shape, 0.5);
       const bool is_spokes = cells == Cell_scheme::spokes();
       // whatever the cells, L has the weights of stars
-      const Dense_reference reference(shape, s.selection, Dense_reference::SPOKES,
-                                      Dense_reference::CLAMPED);
+      std::vector<Dense_reference::Simplex> triangles;
+      for(const auto& t : shape.triangles)
+        triangles.emplace_back(t.begin(), t.end());
+      const Dense_reference reference(shape.points, triangles, 2, s.selection,
+                                      Dense_reference::SPOKES, Dense_reference::CLAMPED);
       std::vector<Eigen::Vector3d> x = s.targets, step = s.targets;
       reference.laplacian_guess(x);
       reference.iterate(step);

@@ -12,10 +12,13 @@ present ones.
 A model may hold data. `CGAL::ARAP_deformation` works on a copy of the object that its traits hand
 out, and calls it from one thread.
 
+The function `CGAL::ARAP::check_closest_rotation()` tells which identities a model violates.
+
 \cgalRefines{CopyConstructible,Assignable}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::SVD_closest_rotation}
+\cgalHasModels{CGAL::ARAP::Closest_rotation_traits_adaptor<ClosestRotationTraits>}
 \cgalHasModelsEnd
 
 \sa `ARAPDeformationTraits_3`

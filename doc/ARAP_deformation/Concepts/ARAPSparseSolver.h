@@ -2,8 +2,11 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPSparseSolver` describes a direct solver for sparse symmetric positive
-definite matrices and right-hand sides of three columns.
+\brief The concept `ARAPSparseSolver` describes a solver for sparse symmetric positive definite
+matrices and right-hand sides of three columns.
+
+The solver may be direct or iterative. What it solves for are corrections, so that the result does
+not depend on its accuracy; how many iterations it takes may.
 
 The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times. They
 come from one thread.
@@ -12,12 +15,17 @@ come from one thread.
 factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
 need not have it too. A move, on the other hand, keeps the factor, and does not throw.
 
+The function `CGAL::ARAP::check_sparse_solver()` tells which of these identities a model violates.
+
 A call may throw, for example `std::bad_alloc`; the deformation is then as it was before.
 
 \cgalRefines{CopyConstructible,MoveConstructible,MoveAssignable}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Eigen_cholesky_solver}
+\cgalHasModels{CGAL::ARAP::Cholmod_solver}
+\cgalHasModels{CGAL::ARAP::Eigen_sparse_solver<EigenSolver>}
+\cgalHasModels{CGAL::ARAP::Sparse_linear_algebra_adaptor<SparseLinearAlgebra>}
 \cgalHasModelsEnd
 
 \sa `ARAPDeformationTraits_3`
@@ -25,7 +33,8 @@ A call may throw, for example `std::bad_alloc`; the deformation is then as it wa
 class ARAPSparseSolver
 {
 public:
-  /// prepares the factorization of matrices with the pattern of `a`.
+  /// prepares the factorization of matrices with the pattern of `a`. An iterative solver may have
+  /// nothing to do here.
   ///
   /// Only the lower triangle of `a` is stored, in Eigen's compressed form, and `a` has at least one row.
   /// Its values need not be looked at. Some of them may be zero. The matrix does not outlive

@@ -169,7 +169,8 @@ Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& t
 /// \brief returns the domain of the cells of a complex in a 3D triangulation, of all subdomains.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
-auto make_complex_domain(MeshComplex& complex)
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex)
 {
   using Triangulation = typename MeshComplex::Triangulation;
   return Triangulation_domain_3<Triangulation>(
@@ -183,8 +184,8 @@ auto make_complex_domain(MeshComplex& complex)
 /// with others belong to it: hold them if the others are to keep their shape.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
-auto make_complex_domain(MeshComplex& complex,
-                         typename MeshComplex::Subdomain_index subdomain)
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex, typename MeshComplex::Subdomain_index subdomain)
 {
   using Triangulation = typename MeshComplex::Triangulation;
   return Triangulation_domain_3<Triangulation>(

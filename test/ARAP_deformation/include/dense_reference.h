@@ -15,9 +15,8 @@
 // The energy and the iteration of local/global, written down a second time: dense matrices, each
 // cell spelled out from the definition, nothing shared with the package. Slow, for small shapes.
 
-#include "shapes.h"
-
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +37,12 @@ public:
     double weight;
   };
 
-  Dense_reference(const Shape& shape, const std::vector<int>& selection, Cells cells,
-                  Weights weights)
-    : m_rest(shape.points), m_triangles(shape.triangles), m_selection(selection),
+  using Simplex = std::vector<std::size_t>; // a polygon, or a tetrahedron if the dimension is 3
+
+  Dense_reference(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<Simplex>& simplices, int dimension,
+                  const std::vector<int>& selection, Cells cells, Weights weights)
+    : m_rest(points), m_simplices(simplices), m_dimension(dimension), m_selection(selection),
       m_weights(weights)
   {
     for(std::size_t v = 0; v < m_rest.size(); ++v)
@@ -132,6 +134,59 @@ private:
     return a.dot(b) / a.cross(b).norm();
   }
 
+  static bool contains(const Simplex& s, std::size_t v)
+  {
+    return std::find(s.begin(), s.end(), v) != s.end();
+  }
+
+  // all ways to cut a polygon into triangles
+  static std::vector<std::vector<Simplex>> triangulations(const Simplex& polygon)
+  {
+    if(polygon.size() < 3)
+      return {{}};
+    std::vector<std::vector<Simplex>> all; // by the third corner of the triangle at the first edge
+    for(std::size_t k = 2; k < polygon.size(); ++k)
+    {
+      const Simplex right(polygon.begin() + 1, polygon.begin() + std::ptrdiff_t(k) + 1);
+      Simplex left(polygon.begin() + std::ptrdiff_t(k), polygon.end());
+      left.push_back(polygon[0]);
+      for(const auto& r : triangulations(right))
+        for(const auto& l : triangulations(left))
+        {
+          std::vector<Simplex> cut = {{polygon[0], polygon[1], polygon[k]}};
+          cut.insert(cut.end(), r.begin(), r.end());
+          cut.insert(cut.end(), l.begin(), l.end());
+          all.push_back(cut);
+        }
+    }
+    return all;
+  }
+
+  // the weight of the edge (i, j) in a simplex, before it is clamped or replaced
+  double cotangent_weight(const Simplex& s, std::size_t i, std::size_t j) const
+  {
+    Simplex others = s;
+    others.erase(std::find(others.begin(), others.end(), i));
+    others.erase(std::find(others.begin(), others.end(), j));
+    if(m_dimension == 3) // |kl| cot(dihedral angle at kl) / 6
+    {
+      const Eigen::Vector3d k = m_rest[others[0]], axis = m_rest[others[1]] - k;
+      const auto across = [&](const Eigen::Vector3d& p) {
+        return Eigen::Vector3d(p - k - (p - k).dot(axis) / axis.squaredNorm() * axis);
+      };
+      return axis.norm() * cotangent({0, 0, 0}, across(m_rest[i]), across(m_rest[j])) / 6;
+    }
+    if(s.size() == 3)
+      return cotangent(m_rest[others[0]], m_rest[i], m_rest[j]) / 2;
+    const auto all = triangulations(s);
+    double sum = 0;
+    for(const auto& triangulation : all)
+      for(const Simplex& triangle : triangulation)
+        if(contains(triangle, i) && contains(triangle, j))
+          sum += cotangent_weight(triangle, i, j);
+    return sum / double(all.size());
+  }
+
   double edge_weight(bool is_star, double sum) const
   {
     switch(m_weights)
@@ -147,32 +202,28 @@ private:
   double star_weight(std::size_t i, std::size_t j) const
   {
     double sum = 0;
-    for(const auto& t : m_triangles)
-      for(int k = 0; k < 3; ++k)
-        if((t[k] == i && t[(k + 1) % 3] == j) || (t[k] == j && t[(k + 1) % 3] == i))
-          sum += cotangent(m_rest[t[(k + 2) % 3]], m_rest[i], m_rest[j]) / 2;
+    for(const Simplex& s : m_simplices)
+      if(contains(s, i) && contains(s, j))
+        sum += cotangent_weight(s, i, j);
     return edge_weight(true, sum);
   }
 
   std::set<std::size_t> neighbours(std::size_t i) const
   {
     std::set<std::size_t> found;
-    for(const auto& t : m_triangles)
-      if(t[0] == i || t[1] == i || t[2] == i)
-        found.insert(t.begin(), t.end());
+    for(const Simplex& s : m_simplices)
+      if(contains(s, i))
+        found.insert(s.begin(), s.end());
     found.erase(i);
     return found;
   }
 
-  std::vector<Edge> triangle_edges(const std::array<std::size_t, 3>& t) const
+  std::vector<Edge> simplex_edges(const Simplex& s) const
   {
     std::vector<Edge> edges;
-    for(int k = 0; k < 3; ++k)
-    {
-      const std::size_t i = t[k], j = t[(k + 1) % 3], apex = t[(k + 2) % 3];
-      edges.push_back(
-        {i, j, edge_weight(false, cotangent(m_rest[apex], m_rest[i], m_rest[j]) / 2)});
-    }
+    for(std::size_t a = 0; a < s.size(); ++a)
+      for(std::size_t b = 0; b < a; ++b)
+        edges.push_back({s[a], s[b], edge_weight(false, cotangent_weight(s, s[a], s[b]))});
     return edges;
   }
 
@@ -190,8 +241,8 @@ private:
     };
     if(scheme == ELEMENTS)
     {
-      for(const auto& t : m_triangles)
-        add(triangle_edges(t));
+      for(const Simplex& s : m_simplices)
+        add(simplex_edges(s));
       return;
     }
     for(std::size_t i = 0; i < m_rest.size(); ++i)
@@ -201,9 +252,9 @@ private:
         for(std::size_t j : neighbours(i))
           cell.push_back({i, j, star_weight(i, j)});
       else
-        for(const auto& t : m_triangles)
-          if(t[0] == i || t[1] == i || t[2] == i)
-            for(const Edge& e : triangle_edges(t))
+        for(const Simplex& s : m_simplices)
+          if(contains(s, i))
+            for(const Edge& e : simplex_edges(s))
               cell.push_back(e);
       add(cell);
     }
@@ -227,7 +278,8 @@ private:
   }
 
   std::vector<Eigen::Vector3d> m_rest;
-  std::vector<std::array<std::size_t, 3>> m_triangles;
+  std::vector<Simplex> m_simplices;
+  int m_dimension;
   std::vector<int> m_selection;
   Weights m_weights;
   std::vector<std::size_t> m_free;

@@ -25,6 +25,10 @@ namespace ARAP {
 template <typename Triangulation>
 class Triangulation_domain_3;
 
+template <typename MeshComplex>
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex);
+
 template <typename LinearCellComplex>
 class Linear_cell_complex_domain_3;
 

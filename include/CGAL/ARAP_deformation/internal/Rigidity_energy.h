@@ -96,6 +96,7 @@ public:
   }
 
   int number_of_cells() const { return m_cells.size(); }
+  int number_of_edge_sets() const { return m_sets.size(); }
 
   // sum of k w ||e||^2: the natural unit of the energy
   double scale() const { return m_scale; }
@@ -129,7 +130,13 @@ public:
   {
     compute_covariances(x);
     closest_rotation(rotations.size(), m_covariances.data(), rotations.data());
+    return evaluate(x, rotations, force);
+  }
 
+  // The same with the rotations given.
+  double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
+                  std::vector<Coordinates>& force) const
+  {
     double energy = 0;
     force.assign(x.size(), Coordinates{0, 0, 0});
     for(int c = 0; c < m_cells.size(); ++c)

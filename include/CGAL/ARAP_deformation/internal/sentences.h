@@ -61,6 +61,8 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::not_a_simplex:
     return about(" is at a face or cell that is neither a polygon nor a tetrahedron with different "
                  "corners that exist");
+  case Status::no_tetrahedron:
+    return about("there is no tetrahedron with a volume to embed points in");
   case Status::non_finite_point:
     return about(" has a coordinate that is infinite or not a number");
   case Status::non_finite_weight:

@@ -16,25 +16,15 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
 
 #include <array>
 #include <cstddef>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// whether a model of ARAPEdgeWeight_3 has weights for tetrahedra
-template <typename EdgeWeight, typename = void>
-struct Has_tetrahedron_weights : std::false_type {};
-
-template <typename EdgeWeight>
-struct Has_tetrahedron_weights<EdgeWeight, std::void_t<
-  decltype(std::declval<const EdgeWeight&>().simplex_weights(
-    std::declval<const std::array<Coordinates, 4>&>()))>> : std::true_type {};
 
 template <std::size_t N>
 std::array<Coordinates, N> corner_points(const Region& region, const std::array<int, N>& corners)
@@ -85,7 +75,7 @@ void compute_simplex_weights(const EdgeWeight& weight, const Region& region, int
   if(region.dimension == 3)
   {
     // ARAP_deformation does not compile with a domain of tetrahedra and without these weights
-    if constexpr(Has_tetrahedron_weights<EdgeWeight>::value)
+    if constexpr(is_valid<Call_tetrahedron_weights, EdgeWeight>)
     {
       const std::array<double, 6> w =
         weight.simplex_weights(corner_points<4>(region, {c[0], c[1], c[2], c[3]}));

@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
+
 #include <type_traits>
 #include <utility>
 
@@ -21,10 +23,20 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The vertices and cells of triangulations have what their base classes give them: what is there is
-// found out by overloads, of which the first whose expression is valid is taken.
-template <int n> struct Preference : Preference<n - 1> {};
-template <> struct Preference<0> {};
+// Vertices and cells have what their base classes give them.
+
+template <typename Cell>
+using Call_subdomain_index = decltype(std::declval<const Cell&>().subdomain_index());
+
+template <typename Cell>
+using Call_invalidate_circumcenter = decltype(std::declval<Cell&>().invalidate_circumcenter());
+
+template <typename Cell>
+using Call_invalidate_weighted_circumcenter_cache =
+  decltype(std::declval<Cell&>().invalidate_weighted_circumcenter_cache());
+
+template <typename Cell>
+using Call_reset_cache_validity = decltype(std::declval<Cell&>().reset_cache_validity());
 
 template <typename Bare_point, typename Point>
 Bare_point bare_point(const Point& point)
@@ -44,54 +56,26 @@ Point with_weight_of(const Point& point, const Bare_point& place)
     return Point(place, point.weight());
 }
 
-template <typename Cell>
-auto is_in_a_subdomain(const Cell& cell, Preference<1>)
-  -> decltype(cell.subdomain_index() != std::decay_t<decltype(cell.subdomain_index())>())
-{
-  return cell.subdomain_index() != std::decay_t<decltype(cell.subdomain_index())>();
-}
-
-template <typename Cell>
-bool is_in_a_subdomain(const Cell&, Preference<0>) { return true; }
-
 // whether the subdomain index of a cell, if it has one, does not stand for the outside
 template <typename Cell>
-bool is_in_a_subdomain(const Cell& cell)
+bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)
 {
-  return is_in_a_subdomain(cell, Preference<1>());
+  if constexpr(is_valid<Call_subdomain_index, Cell>)
+    return cell.subdomain_index() != std::decay_t<Call_subdomain_index<Cell>>();
+  else
+    return true;
 }
-
-template <typename Cell>
-auto invalidate_circumcenter(Cell& cell, Preference<2>)
-  -> decltype(cell.invalidate_weighted_circumcenter_cache())
-{
-  cell.invalidate_weighted_circumcenter_cache();
-}
-
-template <typename Cell>
-auto invalidate_circumcenter(Cell& cell, Preference<1>) -> decltype(cell.invalidate_circumcenter())
-{
-  cell.invalidate_circumcenter();
-}
-
-template <typename Cell>
-void invalidate_circumcenter(Cell&, Preference<0>) {}
-
-template <typename Cell>
-auto invalidate_quality(Cell& cell, Preference<1>) -> decltype(cell.reset_cache_validity())
-{
-  cell.reset_cache_validity();
-}
-
-template <typename Cell>
-void invalidate_quality(Cell&, Preference<0>) {}
 
 // marks what a cell has computed from the points of its vertices as out of date
 template <typename Cell>
-void invalidate_caches(Cell& cell)
+void invalidate_caches([[maybe_unused]] Cell& cell)
 {
-  invalidate_circumcenter(cell, Preference<2>());
-  invalidate_quality(cell, Preference<1>());
+  if constexpr(is_valid<Call_invalidate_circumcenter, Cell>)
+    cell.invalidate_circumcenter();
+  if constexpr(is_valid<Call_invalidate_weighted_circumcenter_cache, Cell>)
+    cell.invalidate_weighted_circumcenter_cache();
+  if constexpr(is_valid<Call_reset_cache_validity, Cell>)
+    cell.reset_cache_validity();
 }
 
 } // namespace internal

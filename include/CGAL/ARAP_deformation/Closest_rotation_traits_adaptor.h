@@ -1,0 +1,145 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_CLOSEST_ROTATION_TRAITS_ADAPTOR_H
+#define CGAL_ARAP_DEFORMATION_CLOSEST_ROTATION_TRAITS_ADAPTOR_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationRotations
+/// \brief makes a rotation fitting of any model of CGAL's concept
+/// `DeformationClosestRotationTraits_3`, as it is.
+///
+/// No operation is used but those of that concept, whose covariances are the transposes of ours.
+/// Before they are handed over they are scaled by powers of two to about one, so that nothing
+/// overflows or underflows. The zero matrix gets the identity, and is not handed over.
+///
+/// A result that is orthonormal but for a small error is made orthonormal up to rounding: CGAL's
+/// `Deformation_Eigen_polar_closest_rotation_traits_3` leaves errors of up to \f$5 \cdot 10^{-7}\f$.
+/// Any other result is passed on as it is.
+///
+/// \tparam ClosestRotationTraits a model of `DeformationClosestRotationTraits_3`. One object of it
+///         is made for each batch.
+///
+/// \cgalModels{ARAPClosestRotation_3}
+template <typename ClosestRotationTraits>
+class Closest_rotation_traits_adaptor
+{
+public:
+  /// the type of the rotation fitting that is adapted.
+  using Closest_rotation_traits = ClosestRotationTraits;
+
+  /// computes `rotations[k]`, the rotation closest to `covariances[k]`, for `k` in `[0, n)`.
+  void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
+  {
+    ClosestRotationTraits traits; // its functions need not be const
+    for(std::size_t k = 0; k < n; ++k)
+      rotations[k] = closest_rotation(traits, covariances[k], rotations[k]);
+  }
+
+private:
+  using Matrix = typename ClosestRotationTraits::Matrix;
+  using Vector = typename ClosestRotationTraits::Vector;
+
+  static Matrix_3x3 closest_rotation(ClosestRotationTraits& traits, const Matrix_3x3& covariance,
+                                     const Matrix_3x3& previous)
+  {
+    double largest = 0;
+    for(double entry : covariance)
+      largest = (std::max)(largest, std::isfinite(entry) ? std::abs(entry) : 0);
+    if(!(largest > 0))
+      return internal::identity_matrix();
+    int exponent;
+    std::frexp(largest, &exponent);
+    Matrix_3x3 transposed;
+    for(int row = 0; row < 3; ++row)
+      for(int column = 0; column < 3; ++column)
+        transposed[3 * row + column] = std::ldexp(covariance[3 * column + row], -exponent);
+
+    Matrix rotation = matrix(traits, previous);
+    traits.compute_close_rotation(matrix(traits, transposed), rotation);
+    Matrix_3x3 result = entries(traits, rotation);
+    for(int step = 0; step < 3 && remove_small_shear(result); ++step) {}
+    return result;
+  }
+
+  // one step r (I - e / 2) towards the orthonormal matrix closest to r, where e = r^T r - I, of
+  // which e becomes the square; returns whether there was anything to remove that is small
+  static bool remove_small_shear(Matrix_3x3& r)
+  {
+    Matrix_3x3 correction;
+    double largest = 0;
+    for(int a = 0; a < 3; ++a)
+      for(int b = 0; b < 3; ++b)
+      {
+        const double error = r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b] - (a == b);
+        if(!(std::abs(error) < 1e-3))
+          return false;
+        largest = (std::max)(largest, std::abs(error));
+        correction[3 * a + b] = -error / 2;
+      }
+    if(largest < 1e-14)
+      return false;
+    for(int row = 0; row < 3; ++row)
+    {
+      const Coordinates change = internal::product(correction, {r[3 * row], r[3 * row + 1],
+                                                                r[3 * row + 2]});
+      for(int column = 0; column < 3; ++column)
+        r[3 * row + column] += change[column];
+    }
+    return true;
+  }
+
+  // the sum over the columns c of c e^T, with e the unit vector of the column
+  static Matrix matrix(ClosestRotationTraits& traits, const Matrix_3x3& m)
+  {
+    Matrix result = traits.zero_matrix();
+    for(int column = 0; column < 3; ++column)
+      traits.add_scalar_t_vector_t_vector_transpose(
+        result, 1, traits.vector(m[column], m[3 + column], m[6 + column]), unit(traits, column));
+    return result;
+  }
+
+  // column by column, each the product with a unit vector
+  static Matrix_3x3 entries(ClosestRotationTraits& traits, const Matrix& m)
+  {
+    Matrix_3x3 result;
+    for(int column = 0; column < 3; ++column)
+    {
+      Vector product = traits.vector(0, 0, 0);
+      traits.add__scalar_t_matrix_p_scalar_t_matrix__t_vector(
+        product, 1, m, 0, traits.identity_matrix(), unit(traits, column));
+      for(int row = 0; row < 3; ++row)
+        result[3 * row + column] = traits.vector_coordinate(product, row);
+    }
+    return result;
+  }
+
+  static Vector unit(ClosestRotationTraits& traits, int k)
+  {
+    return traits.vector(k == 0, k == 1, k == 2);
+  }
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_CLOSEST_ROTATION_TRAITS_ADAPTOR_H

@@ -1,0 +1,245 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_EMBEDDING_H
+#define CGAL_ARAP_DEFORMATION_EMBEDDING_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/Tetrahedron_search.h>
+#include <CGAL/ARAP_deformation/internal/sentences.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief points that follow a tetrahedral complex: those of a shape that cannot be deformed
+/// itself, in a coarse volume around it that can (Section 5 of \cgalCite{Sorkine2007AsRigidAs}).
+///
+/// At construction each point \f$p\f$ is bound to the tetrahedron that contains it, by its
+/// barycentric coordinates \f$\lambda_k\f$: \f$p = \sum_k \lambda_k p_k\f$ with
+/// \f$\sum_k \lambda_k = 1\f$, where \f$p_k\f$ are the corners. When these have moved to
+/// \f$p'_k\f$, the point is at \f$p' = \sum_k \lambda_k p'_k\f$. This reproduces affine maps, and
+/// is continuous in the complex.
+///
+/// A point outside is bound in the same way to the nearest tetrahedron, whose affine map it
+/// follows: some coordinates are negative. The map has jumps there, which grow with the distance
+/// from the complex: `distance()` is there to refuse what is too far. If several tetrahedra are
+/// equally near, the one with the largest smallest coordinate is taken. The order of the simplices
+/// has no influence.
+///
+/// No point is bound to a tetrahedron without volume, that is, one that is flat up to 1e-12 of its
+/// size. The others must not overlap when the points are bound.
+///
+/// The mesh of the domain must outlive the object; its simplices must not change meanwhile. The
+/// points that are embedded are not needed later.
+///
+/// \tparam Domain a model of `ARAPDomain_3` of dimension 3
+template <typename Domain>
+class Embedding
+{
+  static_assert(Domain::dimension == 3,
+                "Embedding: the simplices of the domain must be tetrahedra (dimension 3)");
+
+public:
+  /// a vertex of the complex.
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+
+  /// \brief binds points to the present shape of a complex, which ought to be its rest shape.
+  ///
+  /// If this is not possible, `outcome()` says why, and the object has no points:
+  ///  - `Status::non_finite_point`: a point or a vertex has a coordinate that is infinite or not a
+  ///    number, or a point is so far away that the arithmetic overflows;
+  ///  - `Status::not_a_simplex`: a simplex is not a tetrahedron;
+  ///  - `Status::no_tetrahedron`: there is no tetrahedron with a volume.
+  ///
+  /// Takes \f$O(n \log n)\f$ time and linear memory for a search tree over `n` tetrahedra, which is
+  /// gone afterwards, and as a rule \f$O(\log n)\f$ time for each point.
+  ///
+  /// \param domain the complex
+  /// \param points a range of points with `operator[]`, for example a `std::vector` or what
+  ///        `Surface_mesh::points()` returns
+  template <typename PointRange>
+  Embedding(const Domain& domain, const PointRange& points)
+    : m_domain(domain)
+  {
+    m_outcome = bind(points);
+    if(!m_outcome)
+      m_bindings.clear();
+  }
+
+  /// returns whether the points were bound, and if not, why.
+  const Outcome& outcome() const { return m_outcome; }
+
+  /// returns the number of points.
+  std::size_t size() const { return m_bindings.size(); }
+
+  /// \brief returns where point `k` is for the present points of the domain. Constant time.
+  ///
+  /// These are the points that the domain reads. If it writes to other ones, such as those of another
+  /// range, use a domain that reads these.
+  /// \pre `k < size()`
+  Coordinates position(std::size_t k) const
+  {
+    Coordinates result = {0, 0, 0};
+    for(int corner = 0; corner < 4; ++corner)
+      internal::add(result, binding(k).coordinates[corner],
+                    Domain::coordinates(m_domain.point(binding(k).vertices[corner])));
+    return result;
+  }
+
+  /// \brief assigns all positions to the points of a range, in the order of those that were
+  /// embedded. Linear time.
+  ///
+  /// \param points a range of points, for example that which was embedded
+  /// \pre the range has `size()` points; in Release nothing is written if it has not
+  template <typename PointRange>
+  void put_points(PointRange&& points) const
+  {
+    using Point = std::decay_t<decltype(*std::begin(points))>;
+    const auto n = std::distance(std::begin(points), std::end(points));
+    CGAL_precondition(static_cast<std::size_t>(n) == size());
+    if(static_cast<std::size_t>(n) != size())
+      return;
+    std::size_t k = 0;
+    for(auto&& point : points)
+    {
+      const Coordinates c = position(k++);
+      point = internal::construct_point<Point>(c[0], c[1], c[2]);
+    }
+  }
+
+  /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside.
+  /// \pre `k < size()`
+  double distance(std::size_t k) const { return binding(k).distance; }
+
+  /// returns the vertices of the tetrahedron to which point `k` is bound, with ascending indices.
+  /// \pre `k < size()`
+  const std::array<vertex_descriptor, 4>& vertices(std::size_t k) const
+  {
+    return binding(k).vertices;
+  }
+
+  /// returns the barycentric coordinates of point `k`, in the order of `vertices(k)`.
+  /// \pre `k < size()`
+  const std::array<double, 4>& barycentric_coordinates(std::size_t k) const
+  {
+    return binding(k).coordinates;
+  }
+
+private:
+  using Tetrahedron = std::array<vertex_descriptor, 4>;
+
+  struct Binding
+  {
+    Tetrahedron vertices;
+    internal::Barycentric_coordinates coordinates;
+    double distance;
+  };
+
+  const Binding& binding(std::size_t k) const
+  {
+    CGAL_precondition(k < size());
+    return m_bindings[k];
+  }
+
+  // Each tetrahedron once, in an order that does not depend on that of the domain.
+  Outcome find_tetrahedra(std::vector<Tetrahedron>& tetrahedra) const
+  {
+    const auto is_before = [this](vertex_descriptor v, vertex_descriptor w) {
+      return m_domain.index(v) < m_domain.index(w);
+    };
+    const auto is_same = [this](vertex_descriptor v, vertex_descriptor w) {
+      return m_domain.index(v) == m_domain.index(w);
+    };
+    Outcome outcome = internal::outcome(Status::success);
+    for(vertex_descriptor v : m_domain.vertices())
+      m_domain.for_each_incident_simplex(v, [&](const auto&, const auto& simplex_vertices) {
+        std::vector<vertex_descriptor> corners(std::begin(simplex_vertices),
+                                               std::end(simplex_vertices));
+        std::sort(corners.begin(), corners.end(), is_before);
+        if(corners.size() != 4 ||
+           std::adjacent_find(corners.begin(), corners.end(), is_same) != corners.end())
+        {
+          if(outcome)
+            outcome = internal::outcome(Status::not_a_simplex,
+                                        internal::vertex_name(m_domain.index(v)));
+        }
+        else if(!is_before(corners[0], v)) // at one of its vertices
+          tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
+      });
+    std::sort(tetrahedra.begin(), tetrahedra.end(), [&](const auto& a, const auto& b) {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
+    });
+    return outcome;
+  }
+
+  template <typename PointRange>
+  Outcome bind(const PointRange& points)
+  {
+    std::vector<Tetrahedron> tetrahedra;
+    if(Outcome outcome = find_tetrahedra(tetrahedra); !outcome)
+      return outcome;
+    std::vector<internal::Tetrahedron_corners> corners(tetrahedra.size());
+    for(std::size_t t = 0; t < tetrahedra.size(); ++t)
+      for(int k = 0; k < 4; ++k)
+      {
+        const vertex_descriptor v = tetrahedra[t][k];
+        corners[t][k] = Domain::coordinates(m_domain.point(v));
+        if(!internal::is_finite(corners[t][k]))
+          return internal::outcome(Status::non_finite_point,
+                                   internal::vertex_name(m_domain.index(v)));
+      }
+    const internal::Tetrahedron_search search(std::move(corners));
+    if(search.is_empty())
+      return internal::outcome(Status::no_tetrahedron);
+
+    for(const auto& point : points)
+    {
+      using Point = std::decay_t<decltype(point)>;
+      const Coordinates c = internal::Point_conversion<Point>::coordinates(point);
+      const std::string name = "point " + std::to_string(size());
+      if(!internal::is_finite(c))
+        return internal::outcome(Status::non_finite_point, name);
+      const auto location = search.locate(c);
+      if(!location)
+        return Outcome(Status::non_finite_point,
+                       name + " is too far from the tetrahedra for the arithmetic");
+      m_bindings.push_back(
+        {tetrahedra[location->tetrahedron], location->coordinates, location->distance});
+    }
+    return Outcome(Status::success, "all points are bound to tetrahedra");
+  }
+
+  Domain m_domain;
+  Outcome m_outcome;
+  std::vector<Binding> m_bindings;
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_EMBEDDING_H

@@ -1,0 +1,331 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_SURFACE_MESH_DEFORMATION_H
+#define CGAL_ARAP_DEFORMATION_SURFACE_MESH_DEFORMATION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/Halfedge_deformation.h>
+#include <CGAL/ARAP_deformation/internal/select_model.h>
+
+#include <CGAL/Default.h>
+#include <CGAL/Surface_mesh_deformation.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <boost/graph/graph_traits.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief `CGAL::Surface_mesh_deformation` with the numeric part of this package: for programs that
+/// use that class already.
+///
+/// A program moves over by including this header and writing `CGAL::ARAP::Surface_mesh_deformation`.
+/// Template parameters, members, their meaning, and the iterates are those of
+/// `CGAL::Surface_mesh_deformation` in the version of \cgal that is installed; its reference manual
+/// applies. For new programs there is `CGAL::ARAP_deformation`.
+///
+/// As there, the weights of all halfedges are computed at construction, and
+/// `overwrite_initial_geometry()` computes those at vertices of the region of interest again.
+/// The rotations are kept from one `deform()` to the next, and each iteration solves for the
+/// positions first. A vertex that leaves the region of interest returns to its rest position.
+///
+/// What differs:
+///
+/// - *Failure.* `preprocess()` returns `false` as before, and `outcome()` says why, and which vertex is
+///   to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the
+///   mesh and the object as they were. Functions that set a target return an `Outcome`.
+/// - *Targets* of vertices that are not control vertices are ignored by all functions, not only by
+///   `set_target_position()`; the outcome is `Status::not_a_control_vertex`.
+/// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
+///   \cgal's. The defaults are `Eigen_cholesky_solver` and `SVD_closest_rotation`. A Cholesky factorization
+///   needs weights for which the matrix is positive definite, as it is with those of \cgal;
+///   where negative weights make it indefinite, `preprocess()` fails.
+/// - *Free parts.* If a part of the region of interest is not tied to any vertex that is held,
+///   `preprocess()` always fails, and never depends on rounding.
+/// - *Points.* Within a run positions are `double`; they are rounded to the type of the points
+///   once, at the end. Points may be of any type that `CGAL::to_double()` knows the coordinates of.
+///   No point outside the region of interest is written but those of vertices that leave it.
+/// - *Index maps.* The halfedge index map may number the halfedges in any order.
+/// - *Copies.* The class cannot be copied, whatever its template arguments.
+/// - *Cost.* `erase_roi_vertex()` takes constant time, amortized. The functions that only
+///   read are `const`, and `target_position()` returns a copy.
+/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` can be run, which is
+///   `ORIGINAL_ARAP`. With any other value, 0.02 if none is set, `preprocess()` works, and
+///   `deform()` returns `Status::invalid_option` and does nothing.
+///
+/// \tparam TM a model of `HalfedgeGraph` and `VertexListGraph` of which all faces are triangles
+/// \tparam VIM a model of `ReadablePropertyMap` from the vertices to 0, 1, ...
+/// \tparam HIM a model of `ReadablePropertyMap` from the halfedges to 0, 1, ...
+/// \tparam TAG `SPOKES_AND_RIMS`, `ORIGINAL_ARAP` or `SRE_ARAP`
+/// \tparam WC a model of `SurfaceMeshDeformationWeights`
+/// \tparam ST a model of `ARAPSparseSolver` or of `SparseLinearAlgebraWithFactorTraits_d`
+/// \tparam CR a model of `ARAPClosestRotation_3` or of `DeformationClosestRotationTraits_3`
+/// \tparam VPM a model of `ReadWritePropertyMap` from the vertices to their points
+///
+/// The defaults of `VIM`, `HIM`, `WC` and `VPM` are those of `CGAL::Surface_mesh_deformation`.
+///
+/// \sa `CGAL::ARAP_deformation`
+template <typename TM, typename VIM = Default, typename HIM = Default,
+          Deformation_algorithm_tag TAG = SPOKES_AND_RIMS, typename WC = Default,
+          typename ST = Default, typename CR = Default, typename VPM = Default>
+class Surface_mesh_deformation
+{
+  using Base_types = CGAL::Surface_mesh_deformation<TM, VIM, HIM, TAG, WC,
+                                                    internal::No_linear_algebra,
+                                                    internal::No_closest_rotation, VPM>;
+
+public:
+  /// \name Types
+  /// @{
+  using Triangle_mesh = TM; ///< the mesh.
+  using Vertex_index_map = typename Base_types::Vertex_index_map; ///< the indices of the vertices.
+  using Hedge_index_map = typename Base_types::Hedge_index_map; ///< the indices of the halfedges.
+  using Weight_calculator = typename Base_types::Weight_calculator; ///< the weights.
+  using Vertex_point_map = typename Base_types::Vertex_point_map; ///< the points.
+  /// the solver: `ST`, or its default.
+  using Sparse_linear_solver = typename Default::Get<ST, Eigen_cholesky_solver>::type;
+  /// the rotation: `CR`, or its default.
+  using Closest_rotation_traits = typename Default::Get<CR, SVD_closest_rotation>::type;
+  using vertex_descriptor = typename Base_types::vertex_descriptor; ///< a vertex.
+  using halfedge_descriptor = typename Base_types::halfedge_descriptor; ///< a halfedge.
+  using Point = typename Base_types::Point; ///< a point.
+  using Roi_vertex_range = std::vector<vertex_descriptor>; ///< the region of interest.
+#ifndef DOXYGEN_RUNNING
+  using Halfedge_graph = TM;
+#endif
+  /// @}
+
+  /// \name Construction
+  /// @{
+
+  /// constructs a deformation of `mesh` with default maps and weights.
+  Surface_mesh_deformation(Triangle_mesh& mesh)
+    : Surface_mesh_deformation(mesh, get_initialized_vertex_index_map(mesh))
+  {}
+
+  /// constructs a deformation with a map to the indices of the vertices.
+  Surface_mesh_deformation(Triangle_mesh& mesh, Vertex_index_map vertex_index_map)
+    : Surface_mesh_deformation(mesh, vertex_index_map, get_initialized_halfedge_index_map(mesh))
+  {}
+
+  /// constructs a deformation with both index maps.
+  Surface_mesh_deformation(Triangle_mesh& mesh, Vertex_index_map vertex_index_map,
+                           Hedge_index_map hedge_index_map)
+    : Surface_mesh_deformation(mesh, vertex_index_map, hedge_index_map, get(vertex_point, mesh))
+  {}
+
+  /// constructs a deformation with all maps. Computes the weight of each halfedge of the mesh.
+  Surface_mesh_deformation(Triangle_mesh& mesh, Vertex_index_map vertex_index_map,
+                           Hedge_index_map hedge_index_map, Vertex_point_map vertex_point_map,
+                           Weight_calculator weight_calculator = Weight_calculator())
+    : m_deformation(mesh, std::move(vertex_index_map), std::move(hedge_index_map),
+                    std::move(vertex_point_map), std::move(weight_calculator))
+  {}
+
+  Surface_mesh_deformation(const Surface_mesh_deformation&) = delete;
+  Surface_mesh_deformation& operator=(const Surface_mesh_deformation&) = delete;
+  /// @}
+
+  /// \name Preprocessing
+  /// @{
+
+  /// erases all vertices from the region of interest and the control vertices.
+  void clear_roi_vertices() { m_deformation.clear_roi(); }
+
+  /// erases all control vertices, which stay in the region of interest.
+  void clear_control_vertices() { m_deformation.clear_controls(); }
+
+  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Returns `true`
+  /// if it was no control vertex.
+  bool insert_control_vertex(vertex_descriptor v) { return m_deformation.insert_control(v); }
+
+  /// makes the vertices of a range control vertices.
+  template <typename InputIterator>
+  void insert_control_vertices(InputIterator begin, InputIterator end)
+  {
+    for(; begin != end; ++begin) insert_control_vertex(*begin);
+  }
+
+  /// makes `v` no control vertex. It stays in the region of interest. Returns `true` if it was one.
+  bool erase_control_vertex(vertex_descriptor v) { return m_deformation.erase_control(v); }
+
+  /// inserts the vertices of a range in the region of interest.
+  template <typename InputIterator>
+  void insert_roi_vertices(InputIterator begin, InputIterator end)
+  {
+    for(; begin != end; ++begin) insert_roi_vertex(*begin);
+  }
+
+  /// inserts `v` in the region of interest. Returns `true` if it was not in it.
+  bool insert_roi_vertex(vertex_descriptor v) { return m_deformation.insert_roi(v); }
+
+  /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
+  /// it. The next call that needs the region puts the vertex back to its rest position.
+  bool erase_roi_vertex(vertex_descriptor v) { return m_deformation.erase_roi(v); }
+
+  /// prepares the system, if this was not done since the last change. `deform()` calls it. Returns
+  /// `false` if it fails, and then `outcome()` says why.
+  bool preprocess() { return m_deformation.preprocess(); }
+
+  /// returns what became of the last preprocessing.
+  const Outcome& outcome() const { return m_deformation.outcome(); }
+  /// @}
+
+  /// \name Deformation
+  /// @{
+
+  /// sets the target of a control vertex. Ignored if `v` is none.
+  Outcome set_target_position(vertex_descriptor v, const Point& target_position)
+  {
+    return m_deformation.move_target(v, [&](const Point&) { return target_position; });
+  }
+
+  /// translates the target of a control vertex by `t`, which has an `operator[]`. Ignored if `v` is
+  /// none.
+  template <typename Vect>
+  Outcome translate(vertex_descriptor v, const Vect& t)
+  {
+    return m_deformation.move_target(v, [&t](const Point& p) {
+      return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
+    });
+  }
+
+  /// translates the targets of a range of control vertices. Returns the first outcome that is not a
+  /// success.
+  template <typename InputIterator, typename Vect>
+  Outcome translate(InputIterator begin, InputIterator end, const Vect& t)
+  {
+    return for_each(begin, end, [&](vertex_descriptor v) { return translate(v, t); });
+  }
+
+  /// rotates the target of a control vertex by the quaternion `quat` about the point that the vector
+  /// `to_rotation_center` leads to from the origin. Ignored if `v` is no control vertex.
+  template <typename Quaternion, typename Vect>
+  Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
+  {
+    return m_deformation.move_target(v, [&](const Point& p) {
+      const Vect& c = to_rotation_center;
+      const Vect r = quat * Vect(CGAL::to_double(p[0]) - c[0], CGAL::to_double(p[1]) - c[1],
+                                 CGAL::to_double(p[2]) - c[2]);
+      return Point(c[0] + r[0], c[1] + r[1], c[2] + r[2]);
+    });
+  }
+
+  /// rotates the targets of a range of control vertices. Returns the first outcome that is not a
+  /// success.
+  template <typename InputIterator, typename Vect, typename Quaternion>
+  Outcome rotate(InputIterator begin, InputIterator end, const Vect& to_rotation_center,
+                 const Quaternion& quat)
+  {
+    return for_each(begin, end, [&](vertex_descriptor v) {
+      return rotate(v, to_rotation_center, quat);
+    });
+  }
+
+  /// returns the target of a control vertex.
+  /// \pre `is_control_vertex(v)`
+  Point target_position(vertex_descriptor v) const { return m_deformation.target(v); }
+
+  /// deforms with `iterations()` and `tolerance()`.
+  Report deform() { return deform(m_iterations, m_tolerance); }
+
+  /// moves the region of interest: its control vertices to their targets, the others by at most
+  /// `iterations` iterations. If `tolerance` is positive, an iteration that changes the energy by
+  /// less than `tolerance` of itself is the last; the status is then `Status::converged`.
+  ///
+  /// `Report::energy[0]` is the energy with the targets and the rotations of the run before.
+  /// `Report::estimated_relative_gap` is not computed. `Report::simplices` is 0 with `ORIGINAL_ARAP`,
+  /// whose cells have no triangles.
+  Report deform(unsigned int iterations, double tolerance)
+  {
+    return m_deformation.deform(iterations, tolerance);
+  }
+
+  /// puts the region of interest back to the rest shape, targets included.
+  void reset() { m_deformation.reset(); }
+
+  /// takes the present points of the region of interest for the rest shape, and computes the weights
+  /// at its vertices again.
+  void overwrite_initial_geometry() { m_deformation.overwrite_initial_geometry(); }
+  /// @}
+
+  /// \name Utilities
+  /// @{
+
+  /// returns the number of iterations of `deform()`, 5 if none was set.
+  unsigned int iterations() const { return m_iterations; }
+
+  /// returns the tolerance of `deform()`, 1e-4 if none was set.
+  double tolerance() const { return m_tolerance; }
+
+  /// sets the number of iterations of `deform()`.
+  void set_iterations(unsigned int iterations) { m_iterations = iterations; }
+
+  /// sets the tolerance of `deform()`. With 0 all iterations are run.
+  void set_tolerance(double tolerance) { m_tolerance = tolerance; }
+
+  /// returns the vertices of the region of interest in the order of their insertion. The first call
+  /// after vertices were erased is linear in their number.
+  const Roi_vertex_range& roi_vertices() const { return m_deformation.roi().vertices(); }
+
+  /// returns whether `v` is in the region of interest.
+  bool is_roi_vertex(vertex_descriptor v) const { return m_deformation.roi().contains(v); }
+
+  /// returns whether `v` is a control vertex.
+  bool is_control_vertex(vertex_descriptor v) const { return m_deformation.roi().is_control(v); }
+
+  /// returns the mesh.
+  const Triangle_mesh& triangle_mesh() const { return m_deformation.mesh(); }
+
+#ifndef DOXYGEN_RUNNING
+  const Triangle_mesh& halfedge_graph() const { return triangle_mesh(); }
+#endif
+
+  /// sets the weight of the differences of rotations, for the tag `SRE_ARAP`; 0.02 if none was set.
+  /// Only 0 can be run.
+  void set_sre_arap_alpha(double alpha) { m_deformation.set_alpha(alpha); }
+  /// @}
+
+private:
+  template <typename InputIterator, typename Function>
+  Outcome for_each(InputIterator begin, InputIterator end, const Function& f)
+  {
+    m_deformation.update_region(); // also where the range is empty
+    Outcome first(Status::success, "all targets are set");
+    for(; begin != end; ++begin)
+      if(Outcome outcome = f(*begin); first && !outcome)
+        first = std::move(outcome);
+    return first;
+  }
+
+  internal::Halfedge_deformation<
+    TAG, Triangle_mesh, Vertex_index_map, Hedge_index_map, Vertex_point_map, Weight_calculator,
+    typename internal::Select_sparse_solver<ST>::type,
+    typename internal::Select_closest_rotation<CR>::type> m_deformation;
+  unsigned int m_iterations = 5;
+  double m_tolerance = 1e-4;
+};
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_SURFACE_MESH_DEFORMATION_H

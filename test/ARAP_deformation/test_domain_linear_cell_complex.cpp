@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps, and
+// complexes of tetrahedra over both.
+
+#include "include/domains.h"
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>
+#include <CGAL/Linear_cell_complex_for_bgl_combinatorial_map_helper.h>
+#include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
+#include <CGAL/Linear_cell_complex_for_generalized_map.h>
+#include <CGAL/boost/graph/graph_traits_Linear_cell_complex_for_combinatorial_map.h>
+
+#include <map>
+
+using CGAL::ARAP::Linear_cell_complex_domain_3;
+
+using Traits = CGAL::Linear_cell_complex_traits<3, Kernel>;
+using Graph = CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper<2, 3, Traits>::type;
+using Generalized_surface = CGAL::Linear_cell_complex_for_generalized_map<2, 3, Traits>;
+using Volumes = CGAL::Linear_cell_complex_for_combinatorial_map<3, 3, Traits>;
+using Generalized_volumes = CGAL::Linear_cell_complex_for_generalized_map<3, 3, Traits>;
+
+void test_graph()
+{
+  test_case() = "a surface as FaceGraph";
+  for(const Shape& shape : shapes())
+  {
+    const Scenario s = scenario(shape);
+    for(Cell_scheme cells : all_cell_schemes)
+    {
+      Graph mesh = make_mesh<Graph>(shape);
+      const CGAL::ARAP::Face_graph_domain<Graph> domain(mesh);
+      if(cells == all_cell_schemes[0])
+        check_conforms(domain);
+      compare(reference<2>(shape.points, shape.triangles, s, cells),
+              deform(domain, all_vertices(mesh), s, cells), shape.diameter());
+    }
+  }
+  static_assert(std::is_same_v<CGAL::ARAP_deformation<Graph>::Deformation_domain,
+                               CGAL::ARAP::Face_graph_domain<Graph>>);
+}
+
+// Sews simplices that have the same points in common, seen from darts that meet: those whose points
+// on their facet come in ascending order.
+template <typename Complex>
+void sew(Complex& complex)
+{
+  constexpr int dimension = static_cast<int>(Complex::dimension);
+  using Dart = decltype(complex.create_dart());
+  std::map<std::vector<Point>, Dart> open;
+  std::vector<std::pair<Dart, Dart>> pairs;
+  for(auto dart = complex.darts().begin(); dart != complex.darts().end(); ++dart)
+  {
+    std::vector<Point> key = {complex.point(dart), complex.point(complex.other_extremity(dart))};
+    if(dimension == 3)
+      key.push_back(complex.point(complex.other_extremity(complex.next(dart))));
+    if(!std::is_sorted(key.begin(), key.end()))
+      continue;
+    const auto [found, is_new] = open.insert({key, dart});
+    if(!is_new)
+      pairs.emplace_back(found->second, dart);
+  }
+  for(const auto& [a, b] : pairs)
+    complex.template sew<dimension>(a, b);
+}
+
+inline void sew(Volumes& complex) { complex.sew3_same_facets(); }
+
+// the vertices of a domain in the order of the points of a shape
+template <typename Domain>
+auto vertices_at(const Domain& domain, const std::vector<Eigen::Vector3d>& points)
+{
+  std::map<CGAL::ARAP::Coordinates, typename Domain::vertex_descriptor> places;
+  for(auto v : domain.vertices())
+    CHECK(places.emplace(Domain::coordinates(domain.point(v)), v).second);
+  CHECK(places.size() == points.size());
+  std::vector<typename Domain::vertex_descriptor> vertices;
+  for(const auto& p : points)
+    vertices.push_back(places.at({p.x(), p.y(), p.z()}));
+  return vertices;
+}
+
+template <int Dimension, typename Complex, typename Simplices>
+void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Simplices& simplices,
+                            const Scenario& s, double diameter)
+{
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    Complex complex;
+    for(const auto& simplex : simplices)
+    {
+      std::vector<Point> corners;
+      for(std::size_t v : simplex)
+        corners.push_back(point(points[v]));
+      if constexpr(Dimension == 2)
+        complex.make_triangle(corners[0], corners[1], corners[2]);
+      else
+        complex.make_tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+    }
+    sew(complex);
+    CHECK(complex.is_valid());
+    static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Complex>::Deformation_domain,
+                                 Linear_cell_complex_domain_3<Complex>>);
+    const Linear_cell_complex_domain_3<Complex> domain(complex);
+    if(cells == all_cell_schemes[0])
+      check_conforms(domain);
+    compare(reference<Dimension>(points, simplices, s, cells),
+            deform(domain, vertices_at(domain, points), s, cells), diameter);
+  }
+}
+
+// what is not a tetrahedron is refused, and a generalized map or a complex of volumes is never taken
+// for a FaceGraph
+void test_cube()
+{
+  test_case() = "a cube";
+  Volumes complex;
+  complex.make_hexahedron(Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0),
+                          Point(0, 1, 1), Point(0, 0, 1), Point(1, 0, 1), Point(1, 1, 1));
+  CGAL::ARAP_deformation<Volumes> deformation(complex);
+  for(auto v : deformation.domain().vertices())
+    deformation.insert_roi_vertex(v);
+  deformation.insert_control_vertex(*deformation.domain().vertices().begin());
+  const CGAL::ARAP::Report report = deformation.deform();
+  CHECK(report.status == CGAL::ARAP::Status::not_a_simplex);
+  CHECK(report.message.find("vertex ") == 0);
+}
+
+int main()
+{
+  test_graph();
+  for(const Shape& shape : shapes())
+  {
+    test_case() = "a generalized map of dimension 2: " + shape.name;
+    compare_with_reference<2, Generalized_surface>(shape.points, shape.triangles, scenario(shape),
+                                                   shape.diameter());
+  }
+  const Block shape = block(5, 2, 2);
+  test_case() = "a combinatorial map of dimension 3";
+  compare_with_reference<3, Volumes>(shape.points, shape.tetrahedra, scenario(shape),
+                                     shape.diameter());
+  test_case() = "a generalized map of dimension 3";
+  compare_with_reference<3, Generalized_volumes>(shape.points, shape.tetrahedra, scenario(shape),
+                                                 shape.diameter());
+  test_cube();
+  return checks_result();
+}

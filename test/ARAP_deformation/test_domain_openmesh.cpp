@@ -1,0 +1,83 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// OpenMesh's meshes of triangles and of polygons, with coordinates of both precisions.
+
+#include "include/domains.h"
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
+#include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
+
+struct Double_traits : OpenMesh::DefaultTraits
+{
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+
+// The points of a mesh as they are: the map that CGAL provides rounds what it writes to float.
+template <typename OpenMesh_mesh>
+struct Point_map
+{
+  using key_type = typename OpenMesh_mesh::VertexHandle;
+  using value_type = typename OpenMesh_mesh::Point;
+  using reference = value_type;
+  using category = boost::read_write_property_map_tag;
+
+  OpenMesh_mesh* mesh;
+
+  friend value_type get(Point_map map, key_type v) { return map.mesh->point(v); }
+  friend void put(Point_map map, key_type v, const value_type& p) { map.mesh->set_point(v, p); }
+};
+
+template <typename OpenMesh_mesh>
+void test_mesh_type(const std::string& name, double tolerance)
+{
+  for(const Shape& shape : shapes())
+  {
+    test_case() = name + ", " + shape.name;
+    const Scenario s = scenario(shape);
+    for(Cell_scheme cells : all_cell_schemes)
+    {
+      OpenMesh_mesh mesh;
+      std::vector<typename OpenMesh_mesh::VertexHandle> vertices;
+      for(const auto& p : shape.points)
+        vertices.push_back(mesh.add_vertex(typename OpenMesh_mesh::Point(p.x(), p.y(), p.z())));
+      for(const auto& [a, b, c] : shape.triangles)
+        mesh.add_face(vertices[a], vertices[b], vertices[c]);
+      const OpenMesh_mesh rest = mesh;
+      const Result expected = reference<2>(shape.points, shape.triangles, s, cells);
+      const CGAL::ARAP::Face_graph_domain<OpenMesh_mesh> domain(mesh);
+      check_conforms(domain);
+      mesh = rest; // CGAL's map has rounded the points that were put back
+      compare(expected, deform(domain, vertices, s, cells), shape.diameter(), 2e-5);
+
+      mesh = rest;
+      const CGAL::ARAP::Face_graph_domain<OpenMesh_mesh, Point_map<OpenMesh_mesh>> own_map(
+        mesh, Point_map<OpenMesh_mesh>{&mesh});
+      check_conforms(own_map);
+      compare(expected, deform(own_map, vertices, s, cells), shape.diameter(), tolerance);
+    }
+  }
+}
+
+int main()
+{
+  test_mesh_type<OpenMesh::TriMesh_ArrayKernelT<Double_traits>>("TriMesh, double", 1e-10);
+  test_mesh_type<OpenMesh::PolyMesh_ArrayKernelT<Double_traits>>("PolyMesh, double", 1e-10);
+  test_mesh_type<OpenMesh::TriMesh_ArrayKernelT<>>("TriMesh, float", 2e-5);
+  test_mesh_type<OpenMesh::PolyMesh_ArrayKernelT<>>("PolyMesh, float", 2e-5);
+  return checks_result();
+}

@@ -1,0 +1,198 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Surface_mesh: kernels, a class derived from it, removed elements, a const mesh with an output map, a
+// part of it as a Face_filtered_graph. Polyhedron_3, and point maps of one's own, are in
+// test_mesh_types.cpp.
+
+#include "include/domains.h"
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/arap_deform.h>
+#include <CGAL/boost/graph/Face_filtered_graph.h>
+
+#include <map>
+
+// what newer versions of CGAL ship as CGAL/Testsuite/DerivedSurfaceMesh.h
+struct Derived_mesh : Mesh
+{
+  std::string name;
+};
+
+#define CGAL_GRAPH_TRAITS_INHERITANCE_CLASS_NAME Derived_mesh
+#define CGAL_GRAPH_TRAITS_INHERITANCE_BASE_CLASS_NAME CGAL::Surface_mesh<Point>
+#include <CGAL/boost/graph/graph_traits_inheritance_macros.h>
+
+using CGAL::ARAP::Face_graph_domain;
+
+template <typename Mesh_>
+void test_mesh_type(const std::string& name, double tolerance = 1e-10)
+{
+  test_case() = name;
+  for(const Shape& shape : shapes())
+  {
+    const Scenario s = scenario(shape);
+    for(Cell_scheme cells : all_cell_schemes)
+    {
+      Mesh_ mesh = make_mesh<Mesh_>(shape);
+      const Face_graph_domain<Mesh_> domain(mesh);
+      if(cells == all_cell_schemes[0])
+        check_conforms(domain);
+      compare(reference<2>(shape.points, shape.triangles, s, cells),
+              deform(domain, all_vertices(mesh), s, cells), shape.diameter(), tolerance);
+    }
+  }
+}
+
+void test_removed_elements()
+{
+  test_case() = "removed elements";
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> vertices, removed;
+  for(const auto& p : shape.points)
+  {
+    removed.push_back(mesh.add_vertex(Point(7, 7, 7)));
+    vertices.push_back(mesh.add_vertex(point(p)));
+  }
+  for(const auto& [a, b, c] : shape.triangles)
+    mesh.add_face(vertices[a], vertices[b], vertices[c]);
+  for(auto v : removed)
+    mesh.remove_vertex(v);
+  CHECK(mesh.has_garbage());
+  const Face_graph_domain<Mesh> domain(mesh);
+  check_conforms(domain);
+  compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()),
+          deform(domain, vertices, s, Cell_scheme::spokes()), shape.diameter());
+}
+
+void test_const_mesh()
+{
+  test_case() = "a const mesh with an output map";
+  const Shape shape = shapes()[8];
+  const Scenario s = scenario(shape);
+  const Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh before = mesh;
+  std::map<Mesh::Vertex_index, Point> output;
+  const auto output_map = boost::make_assoc_property_map(output);
+  const Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default, decltype(output_map)> domain(
+    mesh, mesh.points(), get(boost::vertex_index, mesh), output_map);
+  check_conforms(domain);
+  output.clear();
+  Result result = deform(domain, all_vertices(mesh), s, Cell_scheme::spokes(), [&](auto v) {
+    return s.selection[v] == 0 ? mesh.point(v) : output.at(v);
+  });
+  for(auto v : mesh.vertices()) // what is not in the region of interest is not written
+    CHECK(output.count(v) == (s.selection[v] == 0 ? 0 : 1));
+  CHECK(same_points(mesh, before));
+  compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()), result,
+          shape.diameter());
+
+  // the function writes all points, those of vertices without a face too
+  Mesh with_isolated = mesh;
+  const auto isolated = with_isolated.add_vertex(Point(5, 5, 5));
+  const Mesh& input = with_isolated;
+  output.clear();
+  const Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default, decltype(output_map)> all(
+    input, input.points(), get(boost::vertex_index, input), output_map);
+  std::map<Mesh::Vertex_index, bool> constrained;
+  std::map<Mesh::Vertex_index, Point> targets;
+  for(auto v : mesh.vertices())
+    if(s.selection[v] != 1)
+    {
+      constrained[v] = true;
+      targets[v] = point(s.targets[v]);
+    }
+  const CGAL::ARAP::Report report = CGAL::arap_deform(
+    all, boost::make_assoc_property_map(constrained), boost::make_assoc_property_map(targets));
+  CHECK(report);
+  CHECK(output.size() == input.number_of_vertices());
+  CHECK(output[isolated] == Point(5, 5, 5));
+}
+
+// the faces of one half of a shape, without the other half
+void test_filtered_graph()
+{
+  test_case() = "Face_filtered_graph";
+  const Shape shape = shapes()[8];
+  Mesh mesh = make_mesh<Mesh>(shape);
+  auto patch = mesh.add_property_map<Mesh::Face_index, int>("f:patch", 0).first;
+  std::vector<std::array<std::size_t, 3>> selected;
+  for(auto f : mesh.faces())
+  {
+    std::array<std::size_t, 3> corners;
+    std::size_t k = 0;
+    for(auto v : vertices_around_face(halfedge(f, mesh), mesh))
+      corners[k++] = v;
+    if(shape.points[corners[0]].y() < 0.3)
+    {
+      patch[f] = 1;
+      selected.push_back(corners);
+    }
+  }
+  CHECK(selected.size() > 20 && selected.size() + 20 < mesh.number_of_faces());
+  using Graph = CGAL::Face_filtered_graph<Mesh>;
+  Graph graph(mesh, 1, patch);
+  CHECK(graph.is_selection_valid());
+
+  Scenario s = scenario(shape);
+  std::vector<bool> is_in(shape.points.size(), false);
+  for(const auto& corners : selected)
+    for(std::size_t v : corners)
+      is_in[v] = true;
+  std::vector<Mesh::Vertex_index> vertices; // of the selection, and their numbers in the shape
+  Scenario part{{}, {}};
+  for(std::size_t v = 0; v < is_in.size(); ++v)
+  {
+    if(!is_in[v])
+      s.selection[v] = 0;
+    else
+    {
+      vertices.emplace_back(static_cast<Mesh::size_type>(v));
+      part.selection.push_back(s.selection[v]);
+      part.targets.push_back(s.targets[v]);
+    }
+  }
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    Mesh copy = mesh;
+    Graph copy_graph(copy, 1, copy.property_map<Mesh::Face_index, int>("f:patch").first);
+    const Face_graph_domain<Graph> domain(copy_graph);
+    if(cells == all_cell_schemes[0])
+      check_conforms(domain);
+    Result expected = reference<2>(shape.points, selected, s, cells);
+    Result found = deform(domain, vertices, part, cells);
+    std::vector<Eigen::Vector3d> points;
+    for(auto v : vertices)
+      points.push_back(expected.points[v]);
+    expected.points = points;
+    compare(expected, found, shape.diameter());
+  }
+}
+
+int main()
+{
+  test_mesh_type<Mesh>("Simple_cartesian<double>");
+  test_mesh_type<Derived_mesh>("a derived class");
+  test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
+    "Simple_cartesian<float>", 2e-5);
+  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>>(
+    "EPICK");
+  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>>(
+    "EPECK");
+  test_removed_elements();
+  test_const_mesh();
+  test_filtered_graph();
+  return checks_result();
+}

@@ -1,0 +1,325 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+// Each solver that ships conforms to the concept, and broken ones are caught.
+
+#include "include/check.h"
+#include "include/conformance.h"
+
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
+#include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
+#include <CGAL/ARAP_deformation/check_sparse_solver.h>
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+#include <CGAL/Eigen_solver_traits.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseLU>
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+using namespace CGAL::ARAP;
+
+using General_matrix = CGAL::Eigen_sparse_matrix<double>::EigenType;
+using LU = CGAL::Eigen_solver_traits<Eigen::SparseLU<General_matrix, Eigen::COLAMDOrdering<int>>>;
+using CGAL_cholesky = CGAL::Eigen_solver_traits<Eigen::SimplicialCholesky<General_matrix>>;
+
+// A model of nothing but SparseLinearAlgebraWithFactorTraits_d: neither copied nor moved, with
+// solutions that are multiples of 1 / D, and a matrix that it only refers to.
+class Bare_linear_algebra
+{
+public:
+  using NT = double;
+
+  class Vector
+  {
+  public:
+    explicit Vector(int n) : m_entries(n) {}
+    int dimension() const { return static_cast<int>(m_entries.size()); }
+    double& operator[](int k) { return m_entries[k]; }
+    double operator[](int k) const { return m_entries[k]; }
+
+  private:
+    std::vector<double> m_entries;
+  };
+
+  class Matrix
+  {
+  public:
+    explicit Matrix(int n) : dense(Eigen::MatrixXd::Zero(n, n)) {}
+    void set_coef(int i, int j, double value, bool = false) { dense(i, j) = value; }
+
+    Eigen::MatrixXd dense;
+  };
+
+  Bare_linear_algebra() = default;
+  Bare_linear_algebra(const Bare_linear_algebra&) = delete;
+  Bare_linear_algebra& operator=(const Bare_linear_algebra&) = delete;
+
+  bool factor(const Matrix& a, double& d)
+  {
+    m_matrix = &a;
+    d = 2;
+    return Eigen::FullPivLU<Eigen::MatrixXd>(a.dense).isInvertible();
+  }
+
+  bool linear_solver(const Vector& b, Vector& x)
+  {
+    Eigen::VectorXd column(b.dimension());
+    for(int k = 0; k < b.dimension(); ++k)
+      column[k] = 2 * b[k];
+    column = m_matrix->dense.fullPivLu().solve(column).eval();
+    for(int k = 0; k < b.dimension(); ++k)
+      x[k] = column[k];
+    return true;
+  }
+
+private:
+  const Matrix* m_matrix = nullptr;
+};
+
+// What the broken solvers are made of.
+class Whole_solver
+{
+public:
+  bool analyze(const Sparse_matrix& a) { return m_solver.analyze(a); }
+  bool factorize(const Sparse_matrix& a) { return m_solver.factorize(a); }
+  bool solve(std::size_t n, Coordinates* x) { return m_solver.solve(n, x); }
+
+protected:
+  Eigen_cholesky_solver m_solver;
+};
+
+struct Wrong_sign : Whole_solver
+{
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    const bool is_solved = Whole_solver::solve(n, x);
+    for(std::size_t k = 0; k < n; ++k)
+      for(double& c : x[k])
+        c = -c;
+    return is_solved;
+  }
+};
+
+struct Forgets_third_column : Whole_solver
+{
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    std::vector<double> third;
+    for(std::size_t k = 0; k < n; ++k)
+      third.push_back(x[k][2]);
+    const bool is_solved = Whole_solver::solve(n, x);
+    for(std::size_t k = 0; k < n; ++k)
+      x[k][2] = third[k];
+    return is_solved;
+  }
+};
+
+struct Mixes_columns : Whole_solver
+{
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    const bool is_solved = Whole_solver::solve(n, x);
+    for(std::size_t k = 0; k < n; ++k)
+      x[k][1] += 1e-6 * x[k][0];
+    return is_solved;
+  }
+};
+
+struct Writes_too_far : Whole_solver
+{
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    const bool is_solved = Whole_solver::solve(n, x);
+    x[n] = {0, 0, 0};
+    return is_solved;
+  }
+};
+
+struct Solves_once : Whole_solver
+{
+  bool factorize(const Sparse_matrix& a)
+  {
+    m_is_fresh = true;
+    return Whole_solver::factorize(a);
+  }
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    return std::exchange(m_is_fresh, false) && Whole_solver::solve(n, x);
+  }
+  bool m_is_fresh = false;
+};
+
+struct Keeps_first_matrix : Whole_solver
+{
+  bool analyze(const Sparse_matrix& a)
+  {
+    m_is_factorized = false;
+    return Whole_solver::analyze(a);
+  }
+  bool factorize(const Sparse_matrix& a)
+  {
+    return m_is_factorized || (m_is_factorized = Whole_solver::factorize(a));
+  }
+  bool m_is_factorized = false;
+};
+
+// copies refer to one and the same factor
+struct Not_a_copy
+{
+  bool analyze(const Sparse_matrix& a) { return m_solver->analyze(a); }
+  bool factorize(const Sparse_matrix& a) { return m_solver->factorize(a); }
+  bool solve(std::size_t n, Coordinates* x) { return m_solver->solve(n, x); }
+  std::shared_ptr<Whole_solver> m_solver = std::make_shared<Whole_solver>();
+};
+
+struct Moves_without_factor : Whole_solver
+{
+  Moves_without_factor() = default;
+  Moves_without_factor(const Moves_without_factor&) = default;
+  Moves_without_factor(Moves_without_factor&& other)
+    : Whole_solver(static_cast<const Whole_solver&>(other)) {}
+  Moves_without_factor& operator=(Moves_without_factor&&) { return *this; }
+  bool analyze(const Sparse_matrix& a) { return m_is_analyzed = Whole_solver::analyze(a); }
+  bool solve(std::size_t n, Coordinates* x) { return m_is_analyzed && Whole_solver::solve(n, x); }
+  bool m_is_analyzed = false;
+};
+
+// takes the triangle that is stored for the whole matrix
+struct Forgets_upper_triangle
+{
+  bool analyze(const Sparse_matrix&) { return true; }
+  bool factorize(const Sparse_matrix& a)
+  {
+    m_lower = a;
+    return true;
+  }
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> rows(
+      x->data(), static_cast<Eigen::Index>(n), 3);
+    Eigen::MatrixXd b = rows;
+    m_lower.triangularView<Eigen::Lower>().solveInPlace(b);
+    rows = b;
+    return b.allFinite();
+  }
+  Sparse_matrix m_lower;
+};
+
+// says that all went well
+struct Hides_failures : Whole_solver
+{
+  bool factorize(const Sparse_matrix& a)
+  {
+    m_is_factorized = Whole_solver::factorize(a);
+    return true;
+  }
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    if(m_is_factorized)
+      Whole_solver::solve(n, x);
+    return true;
+  }
+  bool m_is_factorized = false;
+};
+
+// takes some entries for zero
+struct Loses_entries
+{
+  bool analyze(const Sparse_matrix& a) { return m_solver.analyze(pruned(a)); }
+  bool factorize(const Sparse_matrix& a) { return m_solver.factorize(pruned(a)); }
+  bool solve(std::size_t n, Coordinates* x) { return m_solver.solve(n, x); }
+  static Sparse_matrix pruned(Sparse_matrix a)
+  {
+    for(int column = 0; column < a.cols(); ++column)
+      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+        if(entry.row() > column && entry.row() % 3 == 0)
+          entry.valueRef() = 0;
+    return a;
+  }
+  Eigen_cholesky_solver m_solver;
+};
+
+struct Throws : Whole_solver
+{
+  bool factorize(const Sparse_matrix&) { throw std::runtime_error("no licence"); }
+};
+
+int main()
+{
+  CHECK_CONFORMS(check_sparse_solver(Eigen_cholesky_solver()));
+  CHECK_CONFORMS(check_sparse_solver(Whole_solver()));
+  using LLT = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
+  CHECK_CONFORMS(check_sparse_solver(Eigen_sparse_solver<LLT>()));
+  CHECK_CONFORMS(check_sparse_solver(Eigen_LDLT_solver()));
+  CHECK_CONFORMS(check_sparse_solver(Eigen_conjugate_gradient_solver()));
+  const Eigen_conjugate_gradient_solver loose([](auto& solver) { solver.setTolerance(1e-4); });
+  CHECK_CONFORMS(check_sparse_solver(loose, 1e-2));
+  CHECK_CAUGHT(check_sparse_solver(loose), "relative residual");
+  const Eigen_conjugate_gradient_solver few([](auto& solver) { solver.setMaxIterations(2); });
+  CHECK_CAUGHT(check_sparse_solver(few), "solve() returns false");
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  CHECK_CONFORMS(check_sparse_solver(Cholmod_solver()));
+#endif
+  CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<LU>()));
+  CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<CGAL_cholesky>()));
+  CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<Bare_linear_algebra>()));
+  using Gradients = CGAL::Eigen_solver_traits<Eigen::ConjugateGradient<General_matrix>>;
+  const Sparse_linear_algebra_adaptor<Gradients> gradients(
+    [](Gradients& traits) { traits.solver().setTolerance(1e-13); });
+  CHECK_CONFORMS(check_sparse_solver(gradients));
+
+  CHECK_CAUGHT(check_sparse_solver(Wrong_sign()), "relative residual");
+  CHECK_CAUGHT(check_sparse_solver(Forgets_third_column()), "in column 2");
+  CHECK_CAUGHT(check_sparse_solver(Mixes_columns()), "in column 1");
+  CHECK_CAUGHT(check_sparse_solver(Writes_too_far()), "outside the n rows");
+  CHECK_CAUGHT(check_sparse_solver(Solves_once()), "called again");
+  CHECK_CAUGHT(check_sparse_solver(Keeps_first_matrix()), "another matrix of the same pattern");
+  CHECK_CAUGHT(check_sparse_solver(Not_a_copy()), "copy");
+  CHECK_CAUGHT(check_sparse_solver(Moves_without_factor()), "moved with its factor");
+  CHECK_CAUGHT(check_sparse_solver(Forgets_upper_triangle()), "relative residual");
+  CHECK_CAUGHT(check_sparse_solver(Hides_failures()), "nothing is refused");
+  CHECK_CAUGHT(check_sparse_solver(Loses_entries()), "relative residual");
+  CHECK_CAUGHT(check_sparse_solver(Throws()), "no licence");
+
+  // what is not positive definite, or no number, is noticed by factorize() or solve() at the latest
+  const auto refuses = [](auto solver, double off_diagonal) {
+    Sparse_matrix a(2, 2);
+    a.insert(0, 0) = 1;
+    a.insert(1, 0) = off_diagonal;
+    a.insert(1, 1) = 1;
+    a.makeCompressed();
+    Coordinates x[2] = {{1, 2, 3}, {4, 5, 6}};
+    return solver.analyze(a) && !(solver.factorize(a) && solver.solve(2, x));
+  };
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  for(double off_diagonal : {2.0, not_a_number})
+  {
+    CHECK(refuses(Eigen_cholesky_solver(), off_diagonal));
+    CHECK(refuses(Eigen_LDLT_solver(), off_diagonal));
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+    CHECK(refuses(Cholmod_solver(), off_diagonal));
+#endif
+  }
+  CHECK(refuses(Eigen_conjugate_gradient_solver(), not_a_number));
+  CHECK(refuses(Sparse_linear_algebra_adaptor<LU>(), not_a_number));
+  return checks_result();
+}

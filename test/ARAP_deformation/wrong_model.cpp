@@ -1,0 +1,142 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+// Wrong models do not compile. WRONG_MODEL is the number of the one that is tried; that of none, 0,
+// compiles. The sentences that must come first are in CMakeLists.txt.
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/arap_deform.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <cstddef>
+
+using namespace CGAL::ARAP;
+
+using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+
+struct Solver
+{
+  bool analyze(const Sparse_matrix&) { return false; }
+  bool factorize(const Sparse_matrix&) { return false; }
+  bool solve(std::size_t, Coordinates*) { return false; }
+};
+
+struct Solver_without_solve
+{
+  bool analyze(const Sparse_matrix&) { return false; }
+  bool factorize(const Sparse_matrix&) { return false; }
+  bool solve(std::size_t, double*) { return false; }
+};
+
+struct Solver_without_copies : Solver
+{
+  Solver_without_copies() = default;
+  Solver_without_copies(Solver_without_copies&&) = default;
+  Solver_without_copies& operator=(Solver_without_copies&&) = default;
+};
+
+struct Rotation_that_changes
+{
+  void operator()(std::size_t, const Matrix_3x3*, Matrix_3x3*) {}
+};
+
+// as the concept was before it had the indices of the vertices
+struct Weight_without_indices
+{
+  std::array<double, 3> simplex_weights(const std::array<Coordinates, 3>&) const { return {}; }
+  double edge_weight(Edge_set, double sum) const { return sum; }
+};
+
+struct Weight_without_triangles
+{
+  double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return sum; }
+};
+
+struct Traits_without_rotation
+{
+  using Sparse_solver = Eigen_cholesky_solver;
+  using Edge_weight = Uniform_weight;
+  Sparse_solver sparse_solver_object() const { return {}; }
+  Edge_weight edge_weight_object() const { return {}; }
+};
+
+struct Traits_with_a_wrong_solver
+{
+  using Sparse_solver = Solver_without_solve;
+  using Edge_weight = Uniform_weight;
+  using Closest_rotation = SVD_closest_rotation;
+  Sparse_solver sparse_solver_object() const { return {}; }
+  Edge_weight edge_weight_object() const { return {}; }
+  Closest_rotation closest_rotation_object() const { return {}; }
+};
+
+struct Domain_without_points : Face_graph_domain<Mesh>
+{
+  using Face_graph_domain<Mesh>::Face_graph_domain;
+  void set_point(vertex_descriptor) const {}
+};
+
+// not a domain that works, but one with the interface of one for tetrahedra
+struct Domain_of_tetrahedra : Face_graph_domain<Mesh>
+{
+  using Face_graph_domain<Mesh>::Face_graph_domain;
+  static constexpr int dimension = 3;
+};
+
+struct Weight_of_triangles : Weight_without_triangles
+{
+  std::array<double, 3> simplex_weights(const std::array<Coordinates, 3>&) const { return {}; }
+};
+
+template <typename Traits, typename Domain = CGAL::Default>
+void deform()
+{
+  Mesh mesh;
+  CGAL::ARAP_deformation<Mesh, Traits, Domain> deformation(mesh);
+  deformation.deform();
+}
+
+int main()
+{
+  using CGAL::ARAP_deformation_traits_3;
+  using CGAL::Default;
+#if WRONG_MODEL == 0
+  deform<ARAP_deformation_traits_3<Solver, Weight_of_triangles>>();
+#elif WRONG_MODEL == 1
+  deform<ARAP_deformation_traits_3<Solver_without_solve>>();
+#elif WRONG_MODEL == 2
+  deform<ARAP_deformation_traits_3<Solver_without_copies>>();
+#elif WRONG_MODEL == 3
+  deform<ARAP_deformation_traits_3<Default, Default, Rotation_that_changes>>();
+#elif WRONG_MODEL == 4
+  deform<ARAP_deformation_traits_3<Default, Weight_without_indices>>();
+#elif WRONG_MODEL == 5
+  deform<ARAP_deformation_traits_3<Default, Weight_without_triangles>>();
+#elif WRONG_MODEL == 6
+  deform<Traits_without_rotation>();
+#elif WRONG_MODEL == 7
+  deform<Traits_with_a_wrong_solver>();
+#elif WRONG_MODEL == 8
+  Mesh mesh;
+  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
+                    mesh.points(),
+                    CGAL::parameters::weight_calculator(Weight_without_indices()));
+#elif WRONG_MODEL == 9
+  deform<Default, Domain_without_points>();
+#elif WRONG_MODEL == 10
+  deform<ARAP_deformation_traits_3<Default, Weight_of_triangles>, Domain_of_tetrahedra>();
+#else
+#error "there is no wrong model of that number"
+#endif
+}
