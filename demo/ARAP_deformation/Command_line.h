@@ -71,12 +71,12 @@ inline boost::program_options::options_description described_options()
     ("transform", value<std::string>()->value_name("T.def")->required(),
      "4 x 4 affine matrix, row by row, applied to the handle vertices")
     ("output,o", value<std::string>()->value_name("OUT")->required(),
-     "the deformed mesh: .off, .obj, .ply or .stl")
+     "the deformed mesh: .mesh if MESH is, else .off, .obj, .ply or .stl")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write what was done as JSON")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
-     "write a picture of the shape before and after, held vertices red, handles yellow; needs the "
-     "program povray");
+     "write a picture of the shape (of a volume, its boundary) before and after, fixed vertices "
+     "red, handles yellow; needs the program povray");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
      "which edges share a rotation: spokes, spokes_and_rims, elements")
@@ -100,18 +100,23 @@ inline boost::program_options::options_description described_options()
 inline void print_help(std::ostream& out)
 {
   out << "usage: arap_deform MESH --selection S.sel --transform T.def -o OUT [options]\n\n"
-         "Deforms a triangulated surface as rigidly as possible: the handle vertices are\n"
+         "Deforms a surface or a volume as rigidly as possible: the handle vertices are\n"
          "transformed, the fixed ones stay, and the free ones follow so that every small\n"
-         "part of the surface only rotates (Sorkine and Alexa 2007).\n\n"
-         "MESH is an .off, .obj, .ply or .stl file. Its vertices are numbered as in the\n"
-         "file (.stl: in the order in which they first appear).\n\n"
+         "part of the shape only rotates (Sorkine and Alexa 2007).\n\n"
+         "MESH is a surface of triangles or polygons, an .off, .obj, .ply or .stl file, or\n"
+         "a volume of tetrahedra, a .mesh file (Medit, text). OUT is of the same kind. Of a\n"
+         ".mesh file only coordinates are changed: references, comments and all sections\n"
+         "are kept as they are.\n\n"
+         "S.sel has the vertices in the order of MESH (.stl: in which they first appear).\n"
+         "Messages count them from 0. Free vertices without any face or tetrahedron stay\n"
+         "where they are.\n\n"
       << described_options()
-      << "\nThe report has the fields status, message, vertices, simplices (triangles),\n"
-         "free_vertices, iterations, energy (one number for the initial guess and one after\n"
-         "each iteration), estimated_relative_gap (to the minimum, null if not known),\n"
-         "edge_length_error (relative root mean square), inverted_simplices (tetrahedra that\n"
-         "are inside out; a surface has none), seconds (load, preprocess, deform) and\n"
-         "peak_memory_bytes.\n\n"
+      << "\nThe report has the fields status, message, vertices, simplices (faces or\n"
+         "tetrahedra), free_vertices, iterations, energy (one number for the initial guess\n"
+         "and one after each iteration), estimated_relative_gap (to the minimum, null if not\n"
+         "known), edge_length_error (relative root mean square), inverted_simplices\n"
+         "(tetrahedra that were turned inside out; 0 for a surface), seconds (load,\n"
+         "preprocess, deform) and peak_memory_bytes.\n\n"
          "Exit status: 0 done, 1 could not be done, 2 wrong usage. Where it is not 0 no\n"
          "output file is written, and existing ones are left as they were.\n";
 }

@@ -25,10 +25,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <random>
-#include <set>
 #include <ostream>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -237,6 +237,14 @@ struct Temporary_folder
   }
 };
 
+// Runs POV-Ray in the folder, for its files and its messages, and returns its exit code. No name
+// that a user chose reaches the shell, and that of the folder is quoted for it.
+inline int run_povray(const Temporary_folder& folder, const std::string& options)
+{
+  const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
+  return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
+}
+
 // The messages of POV-Ray since its last headline, which say why it stopped.
 inline std::string last_messages(const std::filesystem::path& file)
 {
@@ -312,48 +320,35 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
   }
 }
 
-// Draws the panels in a row and writes them to a PNG file; returns a sentence on what went wrong,
-// if something did. POV-Ray works in a folder of its own, for its files and its messages, and the
-// picture takes the place of an older one only when it is complete.
-inline std::optional<std::string> render(const std::vector<Panel>& panels,
-                                         const View& view,
-                                         const std::filesystem::path& picture)
+// Throws a std::runtime_error if pictures cannot be drawn here, whatever they show.
+inline void check_renderer()
 {
-  namespace fs = std::filesystem;
+  const internal::Temporary_folder folder;
+  if(internal::run_povray(folder, "--version") != 0)
+    throw std::runtime_error("pictures are drawn by POV-Ray, but its program povray was not found");
+}
+
+// Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
+// fails.
+inline void render(const std::vector<Panel>& panels, const View& view, std::ostream& out)
+{
   for(const Panel& panel : panels)
     for(const auto& [x, y, z] : panel.points)
       if(!std::isfinite(x + y + z))
-        return "There is no picture of a shape whose coordinates are not finite.";
-  fs::path complete = picture;
-  try {
-    const internal::Temporary_folder folder;
-    std::ofstream scene(folder.path / "scene.pov");
-    write_scene(scene, panels, view);
-    scene.close();
-    if(!scene)
-      return "The scene of the picture could not be written to " + folder.path.string() + ".";
-    // No name that a user chose reaches the shell, and the folder of the files is quoted for it.
-    const auto povray = [&](const std::string& options) {
-      const std::string path = internal::escaped(folder.path.generic_string(), "\\\"$`");
-      return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
-    };
-    if(povray("--version") != 0)
-      return "Pictures are drawn by POV-Ray, but its program povray was not found.";
-    const std::string width = std::to_string(view.width * panels.size());
-    if(povray("+Iscene.pov +Opicture.png +FN +W" + width + " +H" + std::to_string(view.height) +
-              " +A0.15 +AM2 +R2 -D -V -P") != 0)
-      return "POV-Ray could not draw the picture:" +
-             internal::last_messages(folder.path / "messages");
-    complete += "." + folder.path.filename().string(); // a name that nobody else uses
-    fs::copy_file(folder.path / "picture.png", complete);
-    fs::rename(complete, picture);
-    return std::nullopt;
-  } catch(const fs::filesystem_error& error) {
-    std::error_code ignored;
-    if(complete != picture)
-      fs::remove(complete, ignored);
-    return std::string("The picture could not be written: ") + error.what();
-  }
+        throw std::runtime_error("there is no picture of a shape whose coordinates are not finite");
+  const internal::Temporary_folder folder;
+  std::ofstream scene(folder.path / "scene.pov");
+  write_scene(scene, panels, view);
+  scene.close();
+  if(!scene)
+    throw std::runtime_error("the scene of the picture could not be written to " +
+                             folder.path.string());
+  const std::string width = std::to_string(view.width * panels.size());
+  if(internal::run_povray(folder, "+Iscene.pov +Opicture.png +FN +W" + width + " +H" +
+                                    std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
+    throw std::runtime_error("POV-Ray could not draw the picture:" +
+                             internal::last_messages(folder.path / "messages"));
+  out << std::ifstream(folder.path / "picture.png", std::ios::binary).rdbuf();
 }
 
 } // namespace CGAL::ARAP::demo

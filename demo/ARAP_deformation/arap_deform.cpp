@@ -12,6 +12,8 @@
 // The command arap_deform: deforms a mesh file as rigidly as possible. See arap_deform --help.
 
 #include "Command_line.h"
+#include "Scene.h"
+#include "Shape_file.h"
 #include "mesh_panel.h"
 #include "shape_files.h"
 
@@ -29,6 +31,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -77,12 +80,12 @@ private:
 };
 
 using Traits = CGAL::ARAP_deformation_traits_3<CGAL::ARAP::Eigen_cholesky_solver, Chosen_weight>;
-using Deformation = CGAL::ARAP_deformation<Mesh, Traits>;
 
 // what the command did, beyond what the deformation reports
 struct Result
 {
   Report report;
+  std::size_t vertices = 0, simplices = 0; // of the whole shape
   double edge_length_error = 0;
   double load_seconds = 0;
 };
@@ -113,14 +116,14 @@ std::optional<long long> peak_memory_bytes()
   return std::nullopt;
 }
 
-void write_report(const Output_file& file, const Result& result, const Mesh& mesh)
+void write_report(const Output_file& file, const Result& result)
 {
   const Report& report = result.report;
   nlohmann::ordered_json json;
   json["status"] = to_string(report.status);
   json["message"] = report.message;
-  json["vertices"] = mesh.number_of_vertices();
-  json["simplices"] = mesh.number_of_faces();
+  json["vertices"] = result.vertices;
+  json["simplices"] = result.simplices;
   json["free_vertices"] = report.free_vertices;
   json["iterations"] = report.iterations;
   json["energy"] = report.energy;
@@ -128,7 +131,7 @@ void write_report(const Output_file& file, const Result& result, const Mesh& mes
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
   json["edge_length_error"] = result.edge_length_error;
-  json["inverted_simplices"] = 0; // a triangle in space has no inside: only tetrahedra are counted
+  json["inverted_simplices"] = report.inverted_simplices;
   json["seconds"] = {{"load", result.load_seconds},
                      {"preprocess", report.seconds.preprocess},
                      {"deform", report.seconds.total - report.seconds.preprocess}};
@@ -138,17 +141,18 @@ void write_report(const Output_file& file, const Result& result, const Mesh& mes
   file.write([&json](std::ofstream& out) { out << std::setw(2) << json << '\n'; });
 }
 
-// Deforms `mesh`, of which `rest` is a copy.
-Result deform(const Command_line& line, const Mesh& rest, Mesh& mesh,
-              const std::vector<int>& selection, const Transform& transform)
+// Deforms the shape of a domain.
+template <typename Domain>
+Report deform(const Command_line& line, const Domain& domain, const std::vector<int>& selection,
+              const Transform& transform)
 {
-  Deformation deformation(mesh, Traits({}, Chosen_weight(line.weights)));
+  using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
+  Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
   deformation.set_options(line.options);
-  insert_selection(deformation, rest, selection, transform);
+  insert_selection(deformation, selection, transform);
 
   const bool is_shown = !line.is_quiet && is_terminal();
-  Result result;
-  result.report = deformation.deform([&](const Deformation::Iterate& iterate) {
+  Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
     if(is_shown)
       std::cerr << "\riteration " << iterate.iteration() << " of at most "
                 << line.options.iterations << ", energy " << iterate.energy() << "\033[K"
@@ -160,22 +164,23 @@ Result deform(const Command_line& line, const Mesh& rest, Mesh& mesh,
     std::cerr << "\r\033[K" << std::flush;
   if(is_interrupted)
     throw std::runtime_error("interrupted");
-  if(!result.report)
-    throw std::runtime_error(line.mesh + ": " + result.report.message);
-  result.edge_length_error =
-    CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points());
-  return result;
+  if(!report)
+    throw std::runtime_error(line.mesh + ": " + report.message);
+  return report;
 }
 
-void print_summary(const Command_line& line, const Result& result, const Mesh& mesh)
+void print_summary(const Command_line& line, const Result& result)
 {
   const Report& report = result.report;
-  std::cout << line.mesh << ": " << mesh.number_of_vertices() << " vertices, "
+  std::cout << line.mesh << ": " << result.vertices << " vertices, "
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.energy.back()
-            << ", edge length error " << result.edge_length_error << '\n'
-            << "seconds: load " << result.load_seconds << ", preprocess "
+            << ", edge length error " << result.edge_length_error << '\n';
+  if(report.inverted_simplices > 0)
+    std::cout << report.inverted_simplices << " of " << result.simplices
+              << " tetrahedra are inside out\n";
+  std::cout << "seconds: load " << result.load_seconds << ", preprocess "
             << report.seconds.preprocess << ", deform "
             << report.seconds.total - report.seconds.preprocess << '\n'
             << "written: " << line.output;
@@ -185,17 +190,34 @@ void print_summary(const Command_line& line, const Result& result, const Mesh& m
   std::cout << '\n';
 }
 
+// Throws if the mesh or the output is no mesh file, or they are not of one kind.
+void check_mesh_files(const Command_line& line)
+{
+  for(const std::string& file : {line.mesh, line.output})
+    if(!is_surface_file(file) && !is_tetrahedra_file(file))
+      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl or "
+                                      ".mesh");
+  if(is_tetrahedra_file(line.mesh) && !is_tetrahedra_file(line.output))
+    throw std::runtime_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
+                             " can only be written to a .mesh file");
+  if(is_surface_file(line.mesh) && !is_surface_file(line.output))
+    throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
+                             " can only be written to an .off, .obj, .ply or .stl file");
+}
+
+// Shape is the class of what is in the mesh file.
+template <typename Shape>
 void run(const Command_line& line)
 {
   CGAL::Real_timer load_timer;
   load_timer.start();
-  Mesh mesh = read_mesh(line.mesh);
-  const std::vector<int> selection = read_selection(line.selection, mesh.number_of_vertices());
+  Shape shape(line.mesh);
+  const std::vector<int> selection = read_selection(line.selection, shape.number_of_vertices());
   const Transform transform = read_transform(line.transform);
   load_timer.stop();
 
   // opened before the work, so that nothing is computed in vain
-  check_mesh_extension(line.output);
+  shape.check_output(line.output);
   Output_file output(line.output);
   std::optional<Output_file> report, image;
   if(!line.report.empty())
@@ -203,19 +225,27 @@ void run(const Command_line& line)
   if(!line.image.empty())
     image.emplace(line.image);
 
-  const Mesh rest = mesh;
-  Result result = deform(line, rest, mesh, selection, transform);
+  const std::vector<Kernel::Point_3> rest_points = points_of(shape.mesh());
+  const Skin drawn = image ? skin(shape.mesh()) : Skin();
+  const typename Shape::Domain domain = shape.domain();
+  Result result;
+  result.vertices = shape.number_of_vertices();
+  result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
+  result.report = deform(line, domain, selection, transform);
+  result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
 
-  write_mesh(output, mesh, lower_case_extension(line.output));
+  shape.write(output, line.output);
   if(report)
-    write_report(*report, result, mesh);
+    write_report(*report, result);
   if(image)
   {
-    const std::vector<Panel> panels = {panel(rest, selection, "before"),
-                                       panel(mesh, selection, "after")};
-    if(const auto error = render(panels, default_view(panels[0].points), image->temporary()))
-      throw std::runtime_error(line.image + ": " + *error);
+    const std::vector<Panel> panels = {
+      panel(drawn, rest_points, selection, "before"),
+      panel(drawn, points_of(shape.mesh()), selection, "after")};
+    image->write([&](std::ostream& out) {
+      render(panels, default_view(panels[0].points), out);
+    });
   }
   output.commit();
   if(report)
@@ -223,7 +253,18 @@ void run(const Command_line& line)
   if(image)
     image->commit();
   if(!line.is_quiet)
-    print_summary(line, result, mesh);
+    print_summary(line, result);
+}
+
+void run(const Command_line& line)
+{
+  check_mesh_files(line);
+  if(!line.image.empty())
+    check_renderer();
+  if(is_tetrahedra_file(line.mesh))
+    run<Tetrahedra_file>(line);
+  else
+    run<Surface_file>(line);
 }
 
 } // namespace

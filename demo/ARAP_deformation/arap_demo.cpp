@@ -12,10 +12,12 @@
 // The demo around the command arap_deform: writes the models to deform, and draws what became of
 // them. script/demo runs it before and after the command.
 //
-//   arap_demo models FOLDER [MESHES]   writes NAME.off, NAME.sel, NAME.def; of the meshes of CGAL's
-//                                      data folder MESHES too, if it is given
-//   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off, and the figures of
-//                                      the paper that take more than one run; prints a table
+//   arap_demo models FOLDER [MESHES]   writes NAME.off or NAME.mesh, NAME.sel, NAME.def, and prints
+//                                      the former; of the meshes of CGAL's data folder MESHES too,
+//                                      if it is given
+//   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
+//                                      figures of the paper that take more than one run; prints a
+//                                      table
 
 #include "demo_shapes.h"
 #include "embedded_shape.h"
@@ -60,31 +62,59 @@ std::vector<Demo_shape> models(const fs::path& meshes)
   return all;
 }
 
+std::string file_name(const Demo_shape& model) { return model.name + ".off"; }
+std::string file_name(const Demo_volume& model) { return model.name + ".mesh"; }
+
+template <typename Shape>
+void write_model(const fs::path& folder, const Demo_model<Shape>& model)
+{
+  Output_file mesh((folder / file_name(model)).string());
+  write_mesh(mesh, model.mesh);
+  mesh.commit();
+  std::ofstream selection(folder / (model.name + ".sel"));
+  std::ofstream transform(folder / (model.name + ".def"));
+  for(int status : model.selection)
+    selection << status << '\n';
+  transform.precision(17);
+  for(int k = 0; k < 16; ++k)
+    transform << model.transform[k] << (k % 4 == 3 ? '\n' : ' ');
+  if(!selection.flush() || !transform.flush())
+    throw std::runtime_error(folder.string() + ": cannot be written to");
+  std::cout << file_name(model) << '\n';
+}
+
 void write_models(const fs::path& folder, const fs::path& meshes)
 {
   for(const Demo_shape& model : models(meshes))
-  {
-    Output_file mesh((folder / (model.name + ".off")).string());
-    write_mesh(mesh, model.mesh, ".off");
-    mesh.commit();
-    std::ofstream selection(folder / (model.name + ".sel"));
-    std::ofstream transform(folder / (model.name + ".def"));
-    for(int status : model.selection)
-      selection << status << '\n';
-    transform.precision(17);
-    for(int k = 0; k < 16; ++k)
-      transform << model.transform[k] << (k % 4 == 3 ? '\n' : ' ');
-    if(!selection.flush() || !transform.flush())
-      throw std::runtime_error(folder.string() + ": cannot be written to");
-    std::cout << model.name << '\n';
-  }
+    write_model(folder, model);
+  write_model(folder, make_filled_bar());
 }
 
 void draw(const std::vector<Panel>& panels, const View& view, const fs::path& picture)
 {
-  if(const auto error = render(panels, view, picture))
-    throw std::runtime_error(picture.string() + ": " + *error);
+  Output_file output(picture.string());
+  output.write([&](std::ostream& out) { render(panels, view, out); });
+  output.commit();
   std::cout << picture.string() << std::endl;
+}
+
+Panel deformed_panel(const fs::path& folder, const Demo_shape& model)
+{
+  const std::string file = (folder / (model.name + "_deformed.off")).string();
+  return panel(read_mesh(file), model.selection, "deformed");
+}
+
+Panel deformed_panel(const fs::path& folder, const Demo_volume& model)
+{
+  const std::string file = (folder / (model.name + "_deformed.mesh")).string();
+  return panel(Medit_file(file).mesh(), model.selection, "deformed");
+}
+
+template <typename Shape>
+void draw_model(const fs::path& folder, const Demo_model<Shape>& model)
+{
+  draw({panel(model.mesh, model.selection, "original"), deformed_panel(folder, model)},
+       model.view, folder / (model.name + ".png"));
 }
 
 using Traits = CGAL::ARAP_deformation_traits_3<>;
@@ -103,7 +133,7 @@ void draw_iterations(const fs::path& folder)
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
   deformation.set_options(options);
-  insert_selection(deformation, bar.mesh, bar.selection, bar.transform);
+  insert_selection(deformation, bar.selection, bar.transform);
 
   const std::set<unsigned int> shown = {0, 1, 2, 5, 10, 100};
   std::vector<Panel> panels;
@@ -146,7 +176,7 @@ Panel deformed_sheet(const Demo_shape& sheet, const std::string& caption)
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   deformation.set_options(options);
-  insert_selection(deformation, sheet.mesh, sheet.selection, sheet.transform);
+  insert_selection(deformation, sheet.selection, sheet.transform);
   const auto report = deformation.deform(2000, 1e-4);
   if(!report)
     throw std::runtime_error(report.message);
@@ -166,6 +196,20 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
+// a row of the table: what the report of the command says
+void print_row(const fs::path& folder, const std::string& name)
+{
+  std::ifstream in(folder / (name + ".json"));
+  const auto report = nlohmann::json::parse(in);
+  std::cout << std::left << std::setw(13) << name << std::right << std::setw(9)
+            << report["vertices"].get<int>() << std::setw(7)
+            << report["free_vertices"].get<int>() << std::setw(12)
+            << report["iterations"].get<int>() << std::setprecision(4) << std::setw(10)
+            << report["energy"].back().get<double>() << std::setprecision(3) << std::setw(12)
+            << report["edge_length_error"].get<double>() << std::setw(10)
+            << report["seconds"]["deform"].get<double>() << '\n';
+}
+
 // Section 5 of the paper: a surface of many pieces follows a coarse volume around it.
 void draw_embedding(const fs::path& folder)
 {
@@ -181,19 +225,12 @@ void draw_embedding(const fs::path& folder)
   const Transform transform = motion(1, 50, Point(0, 0, 3.7), Vector(1.4, 0, -0.6));
   CGAL::ARAP_deformation<Domain> deformation(domain);
   std::vector<int> selection;
-  for(std::size_t v = 0; v < volume.points.size(); ++v)
+  for(const Point& p : volume.points)
   {
-    const Point& p = volume.points[v];
     const bool is_crown = p.z() > 3.5 && std::hypot(p.x(), p.y()) < 0.4;
     selection.push_back(p.z() < 0.3 ? FIXED : is_crown ? HANDLE : FREE);
-    if(selection[v] != FIXED)
-      deformation.insert_roi_vertex(v);
-    if(selection[v] == HANDLE)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(transform, p));
-    }
   }
+  insert_selection(deformation, selection, transform);
   const Panel before = panel(palm, volume, selection, "a surface in a coarse volume");
   const auto report = deformation.deform();
   if(!report)
@@ -208,29 +245,20 @@ void draw_embedding(const fs::path& folder)
 void draw_pictures(const fs::path& folder, const fs::path& meshes)
 {
   std::cout << "Pictures:\n";
+  check_renderer();
   const std::vector<Demo_shape> all = models(meshes);
+  const Demo_volume volume = make_filled_bar();
   for(const Demo_shape& model : all)
-    draw({panel(model.mesh, model.selection, "original"),
-          panel(read_mesh((folder / (model.name + "_deformed.off")).string()), model.selection,
-                "deformed")},
-         model.view, folder / (model.name + ".png"));
+    draw_model(folder, model);
+  draw_model(folder, volume);
   draw_iterations(folder);
   draw_weights(folder);
   draw_embedding(folder);
 
   std::cout << "\nmodel         vertices   free  iterations    energy  edge error   seconds\n";
   for(const Demo_shape& model : all)
-  {
-    std::ifstream in(folder / (model.name + ".json"));
-    const auto report = nlohmann::json::parse(in);
-    std::cout << std::left << std::setw(13) << model.name << std::right << std::setw(9)
-              << report["vertices"].get<int>() << std::setw(7)
-              << report["free_vertices"].get<int>() << std::setw(12)
-              << report["iterations"].get<int>() << std::setprecision(4) << std::setw(10)
-              << report["energy"].back().get<double>() << std::setprecision(3) << std::setw(12)
-              << report["edge_length_error"].get<double>() << std::setw(10)
-              << report["seconds"]["deform"].get<double>() << '\n';
-  }
+    print_row(folder, model.name);
+  print_row(folder, volume.name);
 }
 
 } // namespace

@@ -15,10 +15,11 @@
 // Shapes to deform in the manner of the figures of Sorkine and Alexa 2007: some are made here, the
 // others are meshes of CGAL's data folder. Each comes with what is held and how the handle moves.
 
+#include "Medit_file.h"
 #include "Scene.h"
 #include "shape_files.h"
 
-#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -35,14 +36,18 @@ namespace CGAL::ARAP::demo {
 
 using Point = Kernel::Point_3;
 
-struct Demo_shape
+template <typename Shape>
+struct Demo_model
 {
   std::string name;
-  Mesh mesh;
+  Shape mesh;
   std::vector<int> selection;
   Transform transform; // of the handle
   View view;           // one that shows the shape well, before and after
 };
+
+using Demo_shape = Demo_model<Mesh>;
+using Demo_volume = Demo_model<Tetrahedral_mesh>;
 
 // The rotation by some degrees about the axis through `centre`, 0 for x, 1 for y, 2 for z, followed
 // by a translation.
@@ -63,15 +68,16 @@ inline Transform motion(int axis, double degrees, const Point& centre, const Vec
 inline Transform translation(const Vector& t) { return motion(0, 0, CGAL::ORIGIN, t); }
 
 // The selection by rules on the coordinates relative to the bounding box, each from 0 to 1.
-template <typename Is_fixed, typename Is_handle>
-std::vector<int> select(const Mesh& mesh, Is_fixed is_fixed, Is_handle is_handle)
+template <typename Shape, typename Is_fixed, typename Is_handle>
+std::vector<int> select(const Shape& shape, Is_fixed is_fixed, Is_handle is_handle)
 {
-  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
+  const std::vector<Point>& points = points_of(shape);
+  const CGAL::Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
   std::vector<int> selection;
-  for(auto v : mesh.vertices()) {
+  for(const Point& p : points) {
     std::array<double, 3> q;
     for(int i = 0; i < 3; ++i) // a flat mesh has no height to divide by
-      q[i] = (mesh.point(v)[i] - box.min(i)) / (std::max)(box.max(i) - box.min(i), 1e-100);
+      q[i] = (p[i] - box.min(i)) / (std::max)(box.max(i) - box.min(i), 1e-100);
     const Point relative(q[0], q[1], q[2]);
     selection.push_back(is_fixed(relative) ? FIXED : is_handle(relative) ? HANDLE : FREE);
   }
@@ -161,6 +167,39 @@ inline Demo_shape make_bar(double size = 0.8)
   return {"bar", mesh, select(mesh, is_low, is_high),
           motion(2, 135, CGAL::ORIGIN, CGAL::NULL_VECTOR),
           View{Vector(1, -0.6, 0.35), Vector(0, 0, 1), 320, 640}};
+}
+
+// The same bar, filled with tetrahedra: six a cube, one for each way along its edges from its first
+// corner to its last.
+inline Demo_volume make_filled_bar(double size = 1.5)
+{
+  const int width = int(std::lround(12 / size)), height = int(std::lround(75 / size));
+  Tetrahedral_mesh mesh;
+  for(int x = 0; x <= width; ++x)
+    for(int y = 0; y <= width; ++y)
+      for(int z = 0; z <= height; ++z)
+        mesh.points.emplace_back(size * x - 6, size * y - 6, size * z);
+  const auto vertex = [&](const std::array<int, 3>& n) {
+    return (n[0] * (width + 1) + n[1]) * (height + 1) + n[2];
+  };
+  for(int x = 0; x < width; ++x)
+    for(int y = 0; y < width; ++y)
+      for(int z = 0; z < height; ++z) {
+        std::array<int, 3> way{0, 1, 2};
+        do {
+          std::array<int, 3> node{x, y, z};
+          std::array<int, 4> tetrahedron{vertex(node)};
+          for(int k = 0; k < 3; ++k) {
+            ++node[way[k]];
+            tetrahedron[k + 1] = vertex(node);
+          }
+          mesh.tetrahedra.push_back(tetrahedron);
+        } while(std::next_permutation(way.begin(), way.end()));
+      }
+  const Demo_shape bar = make_bar();
+  const auto is_low = [](const Point& p) { return p.z() < 0.06; };
+  const auto is_high = [](const Point& p) { return p.z() > 0.945; };
+  return {"filled_bar", mesh, select(mesh, is_low, is_high), bar.transform, bar.view};
 }
 
 // The signed distance, roughly, to the surface of a cactus: round limbs in the plane of y and z,

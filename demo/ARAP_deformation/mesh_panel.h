@@ -12,29 +12,109 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_MESH_PANEL_H
 #define CGAL_ARAP_DEFORMATION_DEMO_MESH_PANEL_H
 
+#include "Medit_file.h"
 #include "Scene.h"
 #include "shape_files.h"
 
+#include <CGAL/enum.h>
+#include <CGAL/Kernel/global_functions_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
 
-// The panel of a picture that shows a triangle mesh. Its vertices are numbered without gaps.
-inline Panel panel(const Mesh& mesh, const std::vector<int>& selection, const std::string& caption)
+// What is drawn of a shape: triangles whose corners are places in the list of the vertices.
+struct Skin
 {
-  Panel result;
-  for(Mesh::Vertex_index v : mesh.vertices())
-    result.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
+  std::vector<std::size_t> vertices;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles from
+// its first corner, so that a strongly concave one is drawn larger than it is.
+inline Skin skin(const Mesh& mesh)
+{
+  Skin result;
+  result.vertices.assign(mesh.vertices_begin(), mesh.vertices_end());
   for(Mesh::Face_index f : mesh.faces())
   {
-    const auto h = mesh.halfedge(f);
-    const Mesh::Vertex_index a = mesh.source(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
-    result.triangles.push_back({static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)});
+    const auto first = mesh.halfedge(f);
+    for(auto h = mesh.next(first); mesh.next(h) != first; h = mesh.next(h))
+      result.triangles.push_back({static_cast<int>(mesh.source(first)),
+                                  static_cast<int>(mesh.source(h)),
+                                  static_cast<int>(mesh.target(h))});
   }
-  result.selection = selection;
+  return result;
+}
+
+// The boundary of tetrahedra, seen from outside: the faces that only one of them has.
+inline Skin skin(const Tetrahedral_mesh& mesh)
+{
+  using Triangle = std::array<int, 3>;
+  std::vector<std::pair<Triangle, Triangle>> faces; // with sorted corners, and as seen from outside
+  faces.reserve(4 * mesh.tetrahedra.size());
+  for(std::array<int, 4> t : mesh.tetrahedra)
+  {
+    const auto& p = mesh.points;
+    if(CGAL::orientation(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) == CGAL::NEGATIVE)
+      std::swap(t[2], t[3]);
+    for(const Triangle& face : {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[3], t[2]},
+                                Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[2], t[1]}})
+    {
+      faces.emplace_back(face, face);
+      std::sort(faces.back().first.begin(), faces.back().first.end());
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+
+  Skin result;
+  std::vector<int> places(mesh.points.size(), -1); // in the list of the vertices
+  for(auto face = faces.begin(); face != faces.end();)
+  {
+    const auto end = std::find_if(face, faces.end(),
+                                  [&](const auto& other) { return other.first != face->first; });
+    if(end - face == 1)
+    {
+      for(int& v : face->second)
+      {
+        if(places[v] < 0)
+        {
+          places[v] = static_cast<int>(result.vertices.size());
+          result.vertices.push_back(v);
+        }
+        v = places[v];
+      }
+      result.triangles.push_back(face->second);
+    }
+    face = end;
+  }
+  return result;
+}
+
+// The panel of a picture with a shape whose vertex v is at points[v].
+inline Panel panel(const Skin& skin, const std::vector<Kernel::Point_3>& points,
+                   const std::vector<int>& selection, const std::string& caption)
+{
+  Panel result;
+  for(std::size_t v : skin.vertices)
+  {
+    result.points.push_back({points[v].x(), points[v].y(), points[v].z()});
+    result.selection.push_back(selection[v]);
+  }
+  result.triangles = skin.triangles;
   result.caption = caption;
   return result;
+}
+
+template <typename Shape>
+Panel panel(const Shape& shape, const std::vector<int>& selection, const std::string& caption)
+{
+  return panel(skin(shape), points_of(shape), selection, caption);
 }
 
 } // namespace CGAL::ARAP::demo

@@ -39,6 +39,12 @@ namespace CGAL::ARAP::demo {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
+// the points of a mesh whose vertices are numbered without gaps
+inline std::vector<Kernel::Point_3> points_of(const Mesh& mesh)
+{
+  return {mesh.points().begin(), mesh.points().end()};
+}
+
 // the 4 x 4 matrix of an affine map, row by row
 using Transform = std::array<double, 16>;
 
@@ -51,19 +57,21 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
-// Tells a deformation what is free, and where the handles go. `rest` is a copy of its mesh.
+// Tells a deformation what is free, and where the handles go.
 template <typename Deformation>
-void insert_selection(Deformation& deformation, const Mesh& rest,
-                      const std::vector<int>& selection, const Transform& transform)
+void insert_selection(Deformation& deformation, const std::vector<int>& selection,
+                      const Transform& transform)
 {
-  for(Mesh::Vertex_index v : rest.vertices())
+  const auto& domain = deformation.domain();
+  for(auto v : domain.vertices())
   {
-    if(selection[v] != FIXED)
+    const int status = selection[domain.index(v)];
+    if(status != FIXED)
       deformation.insert_roi_vertex(v);
-    if(selection[v] == HANDLE)
+    if(status == HANDLE)
     {
       deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(transform, rest.point(v)));
+      deformation.set_target_position(v, transformed(transform, domain.point(v)));
     }
   }
 }
@@ -91,17 +99,20 @@ inline std::string lower_case_extension(const std::string& file)
   return extension;
 }
 
-inline void check_mesh_extension(const std::string& file)
+inline bool is_surface_file(const std::string& file)
 {
   const std::string extension = lower_case_extension(file);
-  if(extension != ".off" && extension != ".obj" && extension != ".ply" && extension != ".stl")
-    throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply or .stl");
+  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
 }
 
-// A surface all of whose faces are triangles and all of whose coordinates are finite.
+inline bool is_tetrahedra_file(const std::string& file)
+{
+  return lower_case_extension(file) == ".mesh";
+}
+
+// A surface of triangles and polygons all of whose coordinates are finite.
 inline Mesh read_mesh(const std::string& file)
 {
-  check_mesh_extension(file);
   open_for_reading(file);
   Mesh mesh;
   if(!CGAL::IO::read_polygon_mesh(file, mesh))
@@ -116,10 +127,10 @@ inline Mesh read_mesh(const std::string& file)
         throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
                                  " has a coordinate that is infinite or not a number");
   for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) != 3)
+    if(mesh.degree(f) < 3)
       throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; only triangles can be "
-                               "deformed");
+                               std::to_string(mesh.degree(f)) + " vertices; a polygon has at least "
+                               "three");
   return mesh;
 }
 
@@ -261,7 +272,21 @@ private:
   std::filesystem::path m_file, m_temporary;
 };
 
-inline void write_mesh(const Output_file& file, const Mesh& mesh, const std::string& extension)
+// Throws if the format of the file cannot hold the mesh.
+inline void check_format(const std::string& file, const Mesh& mesh)
+{
+  if(lower_case_extension(file) != ".stl")
+    return;
+  for(Mesh::Face_index f : mesh.faces())
+    if(mesh.degree(f) > 3)
+      throw std::runtime_error(file + ": an .stl file holds triangles only, but face " +
+                               std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + " vertices; .off, .obj and .ply "
+                               "files hold polygons");
+}
+
+inline void write_mesh(const Output_file& file, const Mesh& mesh,
+                       const std::string& extension = ".off")
 {
   file.write([&](std::ofstream& out) {
     const auto precise = CGAL::parameters::stream_precision(17);

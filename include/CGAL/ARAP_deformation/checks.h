@@ -24,8 +24,12 @@
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -56,6 +60,38 @@ inline std::size_t first_rise_of_energy(const Report& report)
   return 0;
 }
 
+namespace internal {
+
+// sums over edges, of which two points each are given in the rest shape and in the deformed one
+class Edge_length_error
+{
+public:
+  template <typename Rest_point, typename Point>
+  void add_edge(const Rest_point& rest_p, const Rest_point& rest_q, const Point& p, const Point& q)
+  {
+    const double rest = length(rest_p, rest_q), error = length(p, q) - rest;
+    m_sum_of_errors += error * error;
+    m_sum_of_lengths += rest * rest;
+  }
+
+  double relative() const
+  {
+    return m_sum_of_lengths == 0 ? 0 : std::sqrt(m_sum_of_errors / m_sum_of_lengths);
+  }
+
+private:
+  template <typename Point>
+  static double length(const Point& p, const Point& q)
+  {
+    return std::hypot(CGAL::to_double(p[0] - q[0]), CGAL::to_double(p[1] - q[1]),
+                      CGAL::to_double(p[2] - q[2]));
+  }
+
+  double m_sum_of_errors = 0, m_sum_of_lengths = 0; // of squares
+};
+
+} // namespace internal
+
 /// \ingroup PkgARAPDeformationChecks
 /// \brief returns the relative root mean square error of the edge lengths,
 /// \f$\sqrt{\sum (l' - l)^2 / \sum l^2}\f$ over all edges (Table 1 of
@@ -67,20 +103,60 @@ inline std::size_t first_rise_of_energy(const Report& report)
 template <typename Mesh, typename RestPointMap, typename VertexPointMap>
 double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, VertexPointMap points)
 {
-  const auto length = [&mesh](auto map, auto edge) {
-    const auto& p = get(map, source(edge, mesh));
-    const auto& q = get(map, target(edge, mesh));
-    return std::hypot(CGAL::to_double(p[0] - q[0]), CGAL::to_double(p[1] - q[1]),
-                      CGAL::to_double(p[2] - q[2]));
-  };
-  double sum_of_errors = 0, sum_of_lengths = 0;
+  internal::Edge_length_error error;
   for(auto edge : edges(mesh))
   {
-    const double rest = length(rest_points, edge), error = length(points, edge) - rest;
-    sum_of_errors += error * error;
-    sum_of_lengths += rest * rest;
+    const auto v = source(edge, mesh), w = target(edge, mesh);
+    error.add_edge(get(rest_points, v), get(rest_points, w), get(points, v), get(points, w));
   }
-  return sum_of_lengths == 0 ? 0 : std::sqrt(sum_of_errors / sum_of_lengths);
+  return error.relative();
+}
+
+/// \ingroup PkgARAPDeformationChecks
+/// \brief returns the relative root mean square error of the edge lengths as above, over the edges
+/// of all simplices of a domain, each once. The edges of a polygon are its sides.
+///
+/// \param domain a model of `ARAPDomain_3` from which the points of the deformed shape are read
+/// \param rest_points a range with `operator[]`: the point of `v` in the rest shape is
+///        `rest_points[domain.index(v)]`
+template <typename Domain, typename PointRange>
+double relative_edge_length_error(const Domain& domain, const PointRange& rest_points)
+{
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  internal::Edge_length_error error;
+  std::vector<std::pair<std::size_t, vertex_descriptor>> neighbors; // of v, with a larger index
+  for(vertex_descriptor v : domain.vertices())
+  {
+    const std::size_t i = domain.index(v);
+    neighbors.clear();
+    const auto insert = [&](vertex_descriptor w) {
+      if(const std::size_t j = domain.index(w); j > i)
+        neighbors.emplace_back(j, w);
+    };
+    domain.for_each_incident_simplex(v, [&](const auto&, const auto& corners) {
+      const auto begin = std::begin(corners), end = std::end(corners);
+      for(auto corner = begin; corner != end; ++corner)
+      {
+        const auto next = std::next(corner) == end ? begin : std::next(corner);
+        if(Domain::dimension == 3)
+          insert(*corner);
+        else if(domain.index(*corner) == i)
+          insert(*next);
+        else if(domain.index(*next) == i)
+          insert(*corner);
+      }
+    });
+    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto equal = [](const auto& a, const auto& b) { return a.first == b.first; };
+    std::sort(neighbors.begin(), neighbors.end(), less);
+    const auto end = std::unique(neighbors.begin(), neighbors.end(), equal);
+    for(auto neighbor = neighbors.begin(); neighbor != end; ++neighbor)
+      error.add_edge(Domain::coordinates(rest_points[i]),
+                     Domain::coordinates(rest_points[neighbor->first]),
+                     Domain::coordinates(domain.point(v)),
+                     Domain::coordinates(domain.point(neighbor->second)));
+  }
+  return error.relative();
 }
 
 } // namespace ARAP

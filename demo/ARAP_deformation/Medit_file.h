@@ -1,0 +1,311 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_MEDIT_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_MEDIT_FILE_H
+
+// Tetrahedra in .mesh files, the ASCII format of Medit.
+
+#include "shape_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+struct Tetrahedral_mesh
+{
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<int, 4>> tetrahedra; // places in `points`, from 0
+};
+
+inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mesh)
+{
+  return mesh.points;
+}
+
+namespace internal {
+
+// The words of a text, one after the other. White space separates them; # starts a comment.
+class Words
+{
+public:
+  explicit Words(std::string_view text, std::size_t position = 0)
+    : m_text(text), m_begin(position), m_end(position)
+  {}
+
+  // the next word; empty at the end of the text
+  std::string_view next()
+  {
+    const auto or_end = [this](std::size_t place) { return (std::min)(place, m_text.size()); };
+    m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v", m_end));
+    while(m_begin < m_text.size() && m_text[m_begin] == '#')
+      m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v",
+                                                or_end(m_text.find('\n', m_begin))));
+    m_end = or_end(m_text.find_first_of(" \t\r\n\f\v#", m_begin));
+    return m_text.substr(m_begin, m_end - m_begin);
+  }
+
+  // the place of the last word, and of its end
+  std::size_t begin() const { return m_begin; }
+  std::size_t end() const { return m_end; }
+
+private:
+  std::string_view m_text;
+  std::size_t m_begin, m_end;
+};
+
+} // namespace internal
+
+// The tetrahedra of a .mesh file, and its text: it is written with other coordinates and is else
+// the same to the byte, with its references, comments and sections, whatever they are.
+class Medit_file
+{
+public:
+  // Throws a std::runtime_error whose sentence names the file, the line and what is wrong.
+  explicit Medit_file(const std::string& file) : m_name(file)
+  {
+    std::ifstream in = open_for_reading(file);
+    m_text.assign(std::istreambuf_iterator<char>(in), {});
+    const std::map<std::string_view, std::size_t> sections = find_sections();
+    const auto find = [&](const char* keyword, const std::string& sentence) {
+      const auto section = sections.find(keyword);
+      if(section == sections.end())
+        throw std::runtime_error(m_name + ": " + sentence);
+      return Words(m_text, section->second);
+    };
+    const std::string no_tetrahedra = "has no tetrahedra; surfaces are read from .off, .obj, .ply "
+                                      "and .stl files";
+    Words words = find("Dimension", "has no Dimension");
+    if(words.next() != "3")
+      refuse(words, "the Dimension of a mesh of tetrahedra is 3, but this is");
+    words = find("Vertices", "has no Vertices");
+    read_vertices(words);
+    words = find("Tetrahedra", no_tetrahedra);
+    read_tetrahedra(words);
+    if(m_mesh.tetrahedra.empty())
+      throw std::runtime_error(m_name + ": " + no_tetrahedra);
+  }
+
+  const Tetrahedral_mesh& mesh() const { return m_mesh; }
+
+  // Writes the file with these points. A coordinate that has not changed keeps its text.
+  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) const
+  {
+    out.precision(std::numeric_limits<double>::max_digits10);
+    Words words(m_text, m_first_vertex);
+    std::size_t written = 0;
+    for(std::size_t v = 0; v < points.size(); ++v)
+    {
+      for(int k = 0; k < 3; ++k)
+      {
+        words.next();
+        if(points[v][k] == m_mesh.points[v][k])
+          continue;
+        out << std::string_view(m_text).substr(written, words.begin() - written) << points[v][k];
+        written = words.end();
+      }
+      words.next(); // the reference
+    }
+    out << std::string_view(m_text).substr(written);
+  }
+
+private:
+  using Words = internal::Words;
+
+  // Throws the sentence `expected`, to be continued by what is there instead.
+  [[noreturn]] void refuse(const Words& words, const std::string& expected) const
+  {
+    const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
+    std::string found = m_text.substr(words.begin(), (std::min)(words.end() - words.begin(),
+                                                                std::size_t(40)));
+    for(char& c : found) // it may be anything
+      c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+    throw bad_line(m_name, static_cast<int>(line),
+                   expected + (found.empty() ? " the end of the file" : " '" + found + "'"));
+  }
+
+  static bool is_keyword(std::string_view word)
+  {
+    return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0]));
+  }
+
+  // whether these elements would be torn apart, as only tetrahedra are deformed
+  static bool is_unknown_element(std::string_view keyword)
+  {
+    const std::size_t n = keyword.size();
+    const bool is_curved = n > 2 && (keyword[n - 2] == 'P' || keyword[n - 2] == 'Q') &&
+                           std::isdigit(static_cast<unsigned char>(keyword[n - 1]));
+    const std::string_view name = keyword.substr(0, is_curved ? n - 2 : n);
+    const bool is_of_another_shape = name == "Hexahedra" || name == "Prisms" || name == "Pyramids";
+    return is_of_another_shape || (is_curved && (name == "Edges" || name == "Triangles" ||
+                                                 name == "Quadrilaterals" || name == "Tetrahedra"));
+  }
+
+  // The places where the contents start of the sections that are read. Others may hold anything:
+  // they end where the next keyword is.
+  std::map<std::string_view, std::size_t> find_sections() const
+  {
+    Words words(m_text);
+    const std::string_view first = words.next();
+    if(m_text.find('\0') != std::string::npos)
+      throw std::runtime_error(m_name + ": is binary; of Medit's formats only .mesh is read, which "
+                                        "is text, and not .meshb");
+    if(first != "MeshVersionFormatted")
+      refuse(words, "a .mesh file starts with 'MeshVersionFormatted', but this with");
+    std::map<std::string_view, std::size_t> sections;
+    for(std::string_view word = words.next(); !word.empty() && word != "End"; word = words.next())
+      if(word == "Dimension" || word == "Vertices" || word == "Tetrahedra")
+      {
+        if(!sections.emplace(word, words.end()).second)
+          refuse(words, "the file has a second section");
+      }
+      else if(is_unknown_element(word))
+      {
+        Words contents(m_text, words.end());
+        if(contents.next() != "0")
+          refuse(words, "only tetrahedra with four vertices can be deformed, but there are");
+      }
+    return sections;
+  }
+
+  // a row of a section, for the sentences about it
+  struct Row
+  {
+    const char* section;
+    long long number, total;
+
+    std::string name() const
+    {
+      return "row " + std::to_string(number) + " of the " + std::to_string(total) + ' ' + section;
+    }
+  };
+
+  // Reads an integer from `smallest` to `largest`; description() says what it should be.
+  template <typename Description>
+  long long read_integer(Words& words, long long smallest, long long largest,
+                         const Description& description) const
+  {
+    char* end = nullptr;
+    const bool is_end = words.next().empty();
+    const long long value = std::strtoll(m_text.c_str() + words.begin(), &end, 10); // saturates
+    if(is_end || end != m_text.c_str() + words.end() || value < smallest || value > largest)
+      refuse(words, "expected " + description() + ", but found");
+    return value;
+  }
+
+  double read_coordinate(Words& words, const Row& row) const
+  {
+    char* end = nullptr;
+    const bool is_end = words.next().empty();
+    const double value = std::strtod(m_text.c_str() + words.begin(), &end);
+    if(is_end || end != m_text.c_str() + words.end() || !std::isfinite(value))
+      refuse(words, "expected a finite number, a coordinate in " + row.name() + ", but found");
+    return value;
+  }
+
+  void read_reference(Words& words, const Row& row) const
+  {
+    read_integer(words, (std::numeric_limits<long long>::min)(),
+                 (std::numeric_limits<long long>::max)(),
+                 [&] { return "an integer, the reference in " + row.name(); });
+  }
+
+  // Reads how many rows a section has.
+  long long read_number(Words& words, const char* section) const
+  {
+    return read_integer(words, 0, (std::numeric_limits<int>::max)(), [section] {
+      return std::string("how many ") + section + " there are";
+    });
+  }
+
+  // Calls read_row(row) for each row of a section, which returns an item. Nothing is allocated that
+  // the file has no room for, whatever it announces.
+  template <typename Items, typename Read_row>
+  void read_rows(Words& words, Row row, Items& items, const Read_row& read_row) const
+  {
+    const std::size_t shortest = 8; // in characters
+    items.reserve((std::min)(static_cast<std::size_t>(row.total),
+                             (m_text.size() - words.end()) / shortest));
+    for(row.number = 1; row.number <= row.total; ++row.number)
+      items.push_back(read_row(row));
+    if(const std::string_view word = words.next(); !word.empty() && !is_keyword(word))
+      refuse(words, "expected the next section after " + std::to_string(row.total) + ' ' +
+                      row.section + ", but found");
+  }
+
+  void read_vertices(Words& words)
+  {
+    const long long n = read_number(words, "Vertices");
+    m_first_vertex = words.end();
+    read_rows(words, {"Vertices", 0, n}, m_mesh.points, [&](const Row& row) {
+      std::array<double, 3> p;
+      for(double& coordinate : p)
+        coordinate = read_coordinate(words, row);
+      read_reference(words, row);
+      return Kernel::Point_3(p[0], p[1], p[2]);
+    });
+  }
+
+  void read_tetrahedra(Words& words)
+  {
+    const auto largest = static_cast<long long>(m_mesh.points.size());
+    const long long n = read_number(words, "Tetrahedra");
+    read_rows(words, {"Tetrahedra", 0, n}, m_mesh.tetrahedra, [&](const Row& row) {
+      std::array<int, 4> corners;
+      for(auto corner = corners.begin(); corner != corners.end(); ++corner)
+      {
+        *corner = static_cast<int>(read_integer(words, 1, largest, [&] {
+          return "a vertex from 1 to " + std::to_string(largest) + ", a corner in " + row.name();
+        }) - 1);
+        if(std::find(corners.begin(), corner, *corner) != corner)
+          refuse(words, row.name() + " has twice the vertex");
+      }
+      read_reference(words, row);
+      return corners;
+    });
+  }
+
+  std::string m_name, m_text;
+  Tetrahedral_mesh m_mesh;
+  std::size_t m_first_vertex = 0; // the place in the text behind the number of vertices
+};
+
+// Writes a new .mesh file, all references 0.
+inline void write_mesh(const Output_file& file, const Tetrahedral_mesh& mesh)
+{
+  file.write([&](std::ostream& out) {
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << "MeshVersionFormatted 2\nDimension 3\nVertices " << mesh.points.size() << '\n';
+    for(const auto& p : mesh.points)
+      out << p.x() << ' ' << p.y() << ' ' << p.z() << " 0\n";
+    out << "Tetrahedra " << mesh.tetrahedra.size() << '\n';
+    for(const auto& [a, b, c, d] : mesh.tetrahedra)
+      out << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << d + 1 << " 0\n";
+    out << "End\n";
+  });
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_MEDIT_FILE_H

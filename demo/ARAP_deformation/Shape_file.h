@@ -1,0 +1,85 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
+
+// The two kinds of shapes that the command deforms, with one interface: each is read at
+// construction, deformed by its domain, and written.
+
+#include "Medit_file.h"
+#include "shape_files.h"
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+
+#include <array>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// A surface of triangles and polygons, in an .off, .obj, .ply or .stl file
+class Surface_file
+{
+public:
+  using Domain = Face_graph_domain<Mesh>;
+
+  explicit Surface_file(const std::string& file) : m_mesh(read_mesh(file)) {}
+
+  const Mesh& mesh() const { return m_mesh; }
+  std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
+  std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
+  Domain domain() { return Domain(m_mesh); }
+
+  // Throws if a file of this name cannot hold the surface.
+  void check_output(const std::string& file) const { check_format(file, m_mesh); }
+
+  void write(const Output_file& output, const std::string& file) const
+  {
+    write_mesh(output, m_mesh, lower_case_extension(file));
+  }
+
+private:
+  Mesh m_mesh;
+};
+
+// Tetrahedra, in a .mesh file of which all else is kept
+class Tetrahedra_file
+{
+public:
+  using Domain = Tetrahedron_soup_domain<std::vector<Kernel::Point_3>,
+                                         std::vector<std::array<int, 4>>>;
+
+  explicit Tetrahedra_file(const std::string& file) : m_file(file), m_mesh(m_file.mesh()) {}
+
+  const Tetrahedral_mesh& mesh() const { return m_mesh; }
+  std::size_t number_of_vertices() const { return m_mesh.points.size(); }
+  std::size_t number_of_simplices() const { return m_mesh.tetrahedra.size(); }
+  Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
+
+  void check_output(const std::string&) const {}
+
+  void write(const Output_file& output, const std::string&) const
+  {
+    output.write([this](std::ostream& out) { m_file.write(out, m_mesh.points); });
+  }
+
+private:
+  Medit_file m_file;
+  Tetrahedral_mesh m_mesh; // the one that is deformed
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
