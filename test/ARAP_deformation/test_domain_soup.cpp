@@ -21,17 +21,6 @@ using CGAL::ARAP::Polygon_soup_domain;
 using CGAL::ARAP::Status;
 using CGAL::ARAP::Tetrahedron_soup_domain;
 
-// what ARAPDomain_3 asks of a point, and nothing else
-class Bare_point
-{
-public:
-  Bare_point(double x, double y, double z) : m_coordinates{x, y, z} {}
-  double operator[](int k) const { return m_coordinates[k]; }
-
-private:
-  std::array<double, 3> m_coordinates;
-};
-
 void test_surfaces()
 {
   for(const Shape& shape : shapes())

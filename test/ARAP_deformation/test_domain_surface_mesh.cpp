@@ -121,6 +121,25 @@ void test_const_mesh()
   CHECK(output[isolated] == Point(5, 5, 5));
 }
 
+// points of a type that has nothing but what is asked for
+void test_bare_points()
+{
+  test_case() = "bare points";
+  const Shape shape = shapes()[8];
+  const Scenario s = scenario(shape);
+  Mesh mesh = make_mesh<Mesh>(shape);
+  std::vector<Bare_point> points;
+  for(const auto& p : shape.points)
+    points.emplace_back(p.x(), p.y(), p.z());
+  const auto map = boost::make_iterator_property_map(points.begin(),
+                                                     get(boost::vertex_index, mesh));
+  const auto domain =
+    CGAL::ARAP::make_face_graph_domain(mesh, CGAL::parameters::vertex_point_map(map));
+  check_conforms(domain);
+  compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()),
+          deform(domain, all_vertices(mesh), s, Cell_scheme::spokes()), shape.diameter());
+}
+
 // the faces of one half of a shape, without the other half
 void test_filtered_graph()
 {
@@ -193,6 +212,7 @@ int main()
     "EPECK");
   test_removed_elements();
   test_const_mesh();
+  test_bare_points();
   test_filtered_graph();
   return checks_result();
 }

@@ -41,10 +41,11 @@ auto vertices_of_graph(const Graph& graph)
   return vertices(graph);
 }
 
-// a const mesh has a map to its points that cannot be written
+// A const mesh has a map to its points that cannot be written. (The type of a map is often written as
+// decltype of a const variable; a domain can be assigned to.)
 template <typename PolygonMesh, typename VertexPointMap>
 using Vertex_point_map_or_default = typename Default::Get<
-  VertexPointMap,
+  std::remove_const_t<VertexPointMap>,
   std::conditional_t<
     std::is_const_v<PolygonMesh>,
     typename boost::property_map<std::remove_const_t<PolygonMesh>, vertex_point_t>::const_type,
@@ -88,11 +89,13 @@ public:
   using Vertex_point_map = internal::Vertex_point_map_or_default<PolygonMesh, VertexPointMap>;
 
   /// the type of the map to which points are written.
-  using Output_point_map = typename Default::Get<OutputPointMap, Vertex_point_map>::type;
+  using Output_point_map =
+    typename Default::Get<std::remove_const_t<OutputPointMap>, Vertex_point_map>::type;
 
   /// the type of the map to the indices.
   using Vertex_index_map = typename Default::Get<
-    VertexIndexMap, typename GetInitializedVertexIndexMap<Graph>::const_type>::type;
+    std::remove_const_t<VertexIndexMap>,
+    typename GetInitializedVertexIndexMap<Graph>::const_type>::type;
 
   /// the type of a point.
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;

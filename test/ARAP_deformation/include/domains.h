@@ -37,6 +37,17 @@ using CGAL::ARAP::Cell_scheme;
 inline const std::array<Cell_scheme, 3> all_cell_schemes = {
   Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()};
 
+// what a domain asks of a point, and nothing else
+class Bare_point
+{
+public:
+  Bare_point(double x, double y, double z) : m_coordinates{x, y, z} {}
+  double operator[](int k) const { return m_coordinates[k]; }
+
+private:
+  std::array<double, 3> m_coordinates;
+};
+
 struct Result
 {
   std::vector<double> energy;
