@@ -16,9 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_weights.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
-
-#include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -30,12 +29,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-template <typename Point>
-Coordinates point_coordinates(const Point& p)
-{
-  return {CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2])};
-}
 
 // The vertices that a deformation looks at: the region of interest in its order, then all
 // neighbours of it, then all neighbours of these. Those of the first two kinds are the centres of
@@ -54,6 +47,8 @@ struct Deformed_region
   std::vector<Matrix_3x3> rotations; // of the cells
 
   int size() const { return static_cast<int>(vertices.size()); }
+
+  Coordinates rest_coordinates(int k) const { return Point_conversion<Point>::coordinates(rest[k]); }
 
   void reset_rotations() { std::fill(rotations.begin(), rotations.end(), identity_matrix()); }
 };

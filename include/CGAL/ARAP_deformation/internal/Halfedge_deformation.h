@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/Halfedge_energy.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_weights.h>
 #include <CGAL/ARAP_deformation/internal/Ordered_roi.h>
+#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/laplacian.h>
@@ -274,7 +275,7 @@ private:
     };
     number_vertices(region, system);
     for(int k = 0; k < region.size(); ++k)
-      if(!is_finite(point_coordinates(region.rest[k])))
+      if(!is_finite(region.rest_coordinates(k)))
         return internal::outcome(Status::non_finite_point, name(region.vertices[k]));
 
     const Halfedge_energy_builder builder(m_mesh, region, m_index_map, m_weights, system.numbers);
@@ -334,7 +335,7 @@ private:
     std::vector<Coordinates> x(region.size());
     for(int k = 0; k < region.size(); ++k)
     {
-      const Coordinates c = point_coordinates(region.points[k]);
+      const Coordinates c = Point_conversion<Point>::coordinates(region.points[k]);
       if(!is_finite(c))
         return internal::outcome(Status::non_finite_point, name(region.vertices[k]));
       x[system.numbers[k]] = c;
@@ -353,7 +354,7 @@ private:
     {
       const int number = system.numbers[k];
       points.push_back(number < system.number_of_free_vertices
-                         ? Point(x[number][0], x[number][1], x[number][2])
+                         ? Point_conversion<Point>::make_point(x[number])
                          : region.points[k]);
     }
     take(std::move(update));

@@ -111,8 +111,8 @@ private:
   {
     const int i = place(target(h, m_mesh)), j = place(source(h, m_mesh));
     sets.edges.push_back({m_numbers[i], m_numbers[j], m_weights[h],
-                          difference(point_coordinates(m_region.rest[i]),
-                                     point_coordinates(m_region.rest[j]))});
+                          difference(m_region.rest_coordinates(i),
+                                     m_region.rest_coordinates(j))});
   }
 
   static void close_set(Edge_sets& sets)
