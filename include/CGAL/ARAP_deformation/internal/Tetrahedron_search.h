@@ -35,6 +35,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -90,53 +91,56 @@ public:
     : m_tetrahedra(std::move(tetrahedra))
   {
     fit_to(m_tetrahedra);
-    m_scaled.reserve(m_tetrahedra.size()); // the tree refers to its elements
     for(std::size_t t = 0; t < m_tetrahedra.size(); ++t)
     {
       const Tetrahedron_corners& c = m_tetrahedra[t];
-      m_scaled.push_back({scaled(c[0]), scaled(c[1]), scaled(c[2]), scaled(c[3])});
       if(barycentric_coordinates(c, c[0]))
-        for(int corner = 0; corner < 4; ++corner)
-          m_tree.insert(Face(m_scaled[t], 4 * t + corner));
+        for(int k = 0; k < 4; ++k)
+        {
+          std::array<Coordinates, 3> corners = {scaled(c[(k + 1) % 4]), scaled(c[(k + 2) % 4]),
+                                                scaled(c[(k + 3) % 4])};
+          std::sort(corners.begin(), corners.end());
+          m_faces.push_back({corners, t});
+        }
     }
+    std::sort(m_faces.begin(), m_faces.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.corners, a.tetrahedron) < std::tie(b.corners, b.tetrahedron);
+    });
+    for(std::size_t k = 0; k < m_faces.size(); ++k)
+      if(k == 0 || m_faces[k].corners != m_faces[k - 1].corners)
+        m_tree.insert(Primitive(m_faces[k]));
     m_tree.build();
   }
 
-  // the tree refers to the tetrahedra
+  // the tree refers to the faces
   Tetrahedron_search(const Tetrahedron_search&) = delete;
   Tetrahedron_search& operator=(const Tetrahedron_search&) = delete;
 
   bool is_empty() const { return m_tree.empty(); }
 
-  // returns nothing if the point is so far away that squares overflow
+  // returns nothing if the point is so far away that the numbers overflow
   std::optional<Location> locate(const Coordinates& point) const
   {
-    const Point query = scaled(point);
-    if(!(std::abs(query.x()) + std::abs(query.y()) + std::abs(query.z()) < 1e100))
+    const Coordinates c = scaled(point);
+    if(!(std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) < 1e100))
       return std::nullopt;
+    const Point query(c[0], c[1], c[2]);
     const auto [nearest_point, nearest_face] = m_tree.closest_point_and_primitive(query);
     const double distance = std::sqrt(CGAL::squared_distance(query, nearest_point));
-    const double upper_bound = distance + 1e-12 * (1 + distance);
-    std::vector<std::size_t> candidates = {nearest_face};
-    m_tree.all_intersected_primitives(Kernel::Sphere_3(query, upper_bound * upper_bound),
-                                      std::back_inserter(candidates));
-    for(std::size_t& face : candidates)
-      face /= 4; // now the tetrahedron
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 
-    std::optional<Location> best;
-    double best_smallest = -std::numeric_limits<double>::infinity();
-    for(std::size_t t : candidates)
+    constexpr double tolerance = 1e-12;
+    std::vector<const Face*> faces = {nearest_face};
+    Location best = best_at(faces, point);
+    if(smallest_coordinate(best) <= tolerance) // else no other one contains the point
     {
-      const auto coordinates = barycentric_coordinates(m_tetrahedra[t], point);
-      const double smallest = *std::min_element(coordinates->begin(), coordinates->end());
-      if(smallest > best_smallest)
-      {
-        best_smallest = smallest;
-        best = Location{t, *coordinates, smallest >= 0 ? 0 : distance * m_extent};
-      }
+      const double upper_bound = distance + tolerance * (1 + distance);
+      m_tree.all_intersected_primitives(Kernel::Sphere_3(query, upper_bound * upper_bound),
+                                        std::back_inserter(faces));
+      best = best_at(faces, point);
     }
+    best.distance = smallest_coordinate(best) >= 0 ? 0 : distance * m_extent;
+    if(!std::isfinite(smallest_coordinate(best)))
+      return std::nullopt;
     return best;
   }
 
@@ -144,33 +148,41 @@ private:
   using Kernel = CGAL::Simple_cartesian<double>;
   using Point = Kernel::Point_3;
 
-  using Scaled_corners = std::array<Point, 4>;
+  // a face of a tetrahedron
+  struct Face
+  {
+    std::array<Coordinates, 3> corners; // scaled and sorted
+    std::size_t tetrahedron;
+  };
 
-  // the face of a tetrahedron opposite to one of its corners: a model of AABBPrimitive
-  class Face
+  // The faces with the same corners, given by the first of them: a model of AABBPrimitive.
+  class Primitive
   {
   public:
-    using Id = std::size_t;
+    using Id = const Face*;
     using Point = Kernel::Point_3;
     using Datum = Kernel::Triangle_3;
 
-    Face(const Scaled_corners& corners, Id id) : m_corners(&corners), m_id(id) {}
+    explicit Primitive(const Face& face) : m_face(&face) {}
 
-    Id id() const { return m_id; }
-    Datum datum() const { return Datum(corner(1), corner(2), corner(3)); }
-    Point reference_point() const { return corner(1); }
+    Id id() const { return m_face; }
+    Datum datum() const { return Datum(corner(0), corner(1), corner(2)); }
+    Point reference_point() const { return corner(0); }
 
   private:
-    const Point& corner(int k) const { return (*m_corners)[(m_id + k) % 4]; }
+    Point corner(int k) const
+    {
+      const Coordinates& c = m_face->corners[k];
+      return Point(c[0], c[1], c[2]);
+    }
 
-    const Scaled_corners* m_corners;
-    Id m_id;
+    Id m_face;
   };
 
 #if __has_include(<CGAL/AABB_traits_3.h>)
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Face>>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
 #else
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Face>>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 #endif
 
   // The tree sees the complex at the origin and with the extent 1, so that squares neither overflow
@@ -194,14 +206,40 @@ private:
     }
   }
 
-  Point scaled(const Coordinates& c) const
+  Coordinates scaled(const Coordinates& c) const
   {
-    return Point((c[0] - m_centre[0]) / m_extent, (c[1] - m_centre[1]) / m_extent,
-                 (c[2] - m_centre[2]) / m_extent);
+    return {(c[0] - m_centre[0]) / m_extent, (c[1] - m_centre[1]) / m_extent,
+            (c[2] - m_centre[2]) / m_extent};
+  }
+
+  static double smallest_coordinate(const Location& location)
+  {
+    return *std::min_element(location.coordinates.begin(), location.coordinates.end());
+  }
+
+  // the best tetrahedron at one of these faces, but for the distance
+  Location best_at(const std::vector<const Face*>& faces, const Coordinates& point) const
+  {
+    std::vector<std::size_t> candidates;
+    for(const Face* first : faces)
+      for(const Face* face = first;
+          face != m_faces.data() + m_faces.size() && face->corners == first->corners; ++face)
+        candidates.push_back(face->tetrahedron);
+    std::sort(candidates.begin(), candidates.end());
+
+    Location best = {0, {}, 0};
+    best.coordinates.fill(-std::numeric_limits<double>::infinity());
+    for(std::size_t t : candidates)
+    {
+      const Location location = {t, *barycentric_coordinates(m_tetrahedra[t], point), 0};
+      if(smallest_coordinate(location) > smallest_coordinate(best))
+        best = location;
+    }
+    return best;
   }
 
   std::vector<Tetrahedron_corners> m_tetrahedra;
-  std::vector<Scaled_corners> m_scaled;
+  std::vector<Face> m_faces; // those with the same corners follow each other
   Coordinates m_centre = {0, 0, 0};
   double m_extent = 0;
   Tree m_tree;
