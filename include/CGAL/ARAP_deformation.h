@@ -40,7 +40,8 @@ namespace CGAL {
 ///
 /// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
 /// move: the *control vertices* among them go to their targets, the others are *free* and are
-/// solved for. All other vertices are *held* where they are; so are free vertices without any simplex.
+/// solved for. All other vertices are *held* where they are; so are free vertices without
+/// any simplex.
 ///
 /// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an
 /// index map. The mesh must outlive the object. Meanwhile its connectivity must not change, and its
@@ -271,6 +272,9 @@ public:
   template <typename Visitor>
   ARAP::Report deform(Visitor&& visitor)
   {
+    static_assert(std::is_invocable_r_v<ARAP::Visitor_action, Visitor&, const Iterate&>,
+                  "the visitor does not take an iterate and return an ARAP::Visitor_action; a number "
+                  "of iterations is given together with a tolerance: deform(iterations, tolerance)");
     return deform(options().iterations, options().tolerance, std::forward<Visitor>(visitor));
   }
 

@@ -36,7 +36,12 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 {
   using Domain = typename Default_domain<std::remove_const_t<Shape>>::type;
   if constexpr(std::is_same_v<Domain, Face_graph_domain<std::remove_const_t<Shape>>>)
+  {
+    static_assert(!std::is_const_v<Shape>,
+                  "arap_deform: a const mesh cannot be deformed; give its domain, with a map to "
+                  "write to");
     return make_face_graph_domain(shape, np);
+  }
   else if constexpr(Is_domain<std::remove_const_t<Shape>>::value)
     return std::remove_const_t<Shape>(shape);
   else
@@ -66,12 +71,14 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written}
+///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; not used
+///                          for other shapes, whose domain knows the points}
 ///     \cgalParamType{a model of `ReadWritePropertyMap`}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, from 0 on}
+///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, from 0 on; not used
+///                          for other shapes}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd

@@ -35,9 +35,7 @@ std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
     region.rest.push_back({p.x(), p.y(), p.z()});
   }
   region.first_corner.push_back(region.number_of_vertices());
-  std::vector<double> weights;
-  CGAL::ARAP::internal::compute_simplex_weights(Cotangent_weight(), region, 0, weights);
-  return weights;
+  return CGAL::ARAP::internal::simplex_weights(Cotangent_weight(), region);
 }
 
 std::size_t pair_number(std::size_t n, std::size_t a, std::size_t b)

@@ -132,7 +132,8 @@ public:
     }
   }
 
-  /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside.
+  /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside, or
+  /// outside by no more than 1e-12 of the extent of the complex.
   /// \pre `k < size()`
   double distance(std::size_t k) const { return binding(k).distance; }
 

@@ -41,8 +41,7 @@ auto vertices_of_graph(const Graph& graph)
   return vertices(graph);
 }
 
-// A const mesh has a map to its points that cannot be written. (The type of a map is often written as
-// decltype of a const variable; a domain can be assigned to.)
+// The type of a map is often written as decltype of a const variable; a domain can be assigned to.
 template <typename PolygonMesh, typename VertexPointMap>
 using Vertex_point_map_or_default = typename Default::Get<
   std::remove_const_t<VertexPointMap>,
@@ -57,7 +56,8 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \brief a surface of triangles or polygons, given as any model of `FaceGraph`.
 ///
 /// Only the free functions of the BGL and the property maps are used. The faces are the simplices; a
-/// polygon has the average weights of all its triangulations.
+/// polygon has the average weights of all its triangulations, which takes \f$O(k^3)\f$ time in
+/// preprocessing and \f$O(k^2)\f$ in each iteration for \f$k\f$ corners.
 /// The mesh must outlive the domain; its connectivity must not change meanwhile.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; it may be `const` if the
@@ -112,7 +112,11 @@ public:
   /// constructs the domain with the default maps.
   explicit Face_graph_domain(Mesh& mesh)
     : Face_graph_domain(mesh, get(vertex_point, mesh))
-  {}
+  {
+    static_assert(!std::is_const_v<Mesh>,
+                  "Face_graph_domain: the points of a const mesh cannot be written; construct the "
+                  "domain with a map to write to");
+  }
 
   /// constructs the domain with a map to the points and the default map to the indices.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map)

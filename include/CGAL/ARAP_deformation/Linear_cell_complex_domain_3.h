@@ -32,10 +32,11 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief the volumes of a linear cell complex of dimension 3, or the faces of one of dimension 2, over
-/// a combinatorial or a generalized map.
+/// \brief the volumes of a linear cell complex of dimension 3, or the faces of one of dimension 2,
+/// over a combinatorial or a generalized map.
 ///
-/// Volumes must be tetrahedra: one that is not is refused where the region of interest meets it.
+/// Volumes must be tetrahedra, and faces closed: one that is not is refused where the region of
+/// interest meets it.
 ///
 /// Construction takes linear time and memory, for tables of vertices and simplices. The complex must
 /// outlive the domain; its cells must not change meanwhile.
@@ -45,7 +46,8 @@ namespace ARAP {
 ///
 /// \cgalModels{ARAPDomain_3}
 template <typename LinearCellComplex>
-class Linear_cell_complex_domain_3 : public internal::Point_conversion<typename LinearCellComplex::Point>
+class Linear_cell_complex_domain_3
+  : public internal::Point_conversion<typename LinearCellComplex::Point>
 {
   static_assert(LinearCellComplex::dimension == 2 || LinearCellComplex::dimension == 3,
                 "Linear_cell_complex_domain_3: the dimension of the complex is 2 or 3");
@@ -102,7 +104,8 @@ public:
     return m_tables->incidences->is_isolated(index(v));
   }
 
-  /// returns the vertices of `s`, those of a face in their order around it.
+  /// returns the vertices of `s`, those of a face in their order around it; nothing if `s` is not
+  /// closed or not a tetrahedron.
   auto simplex_vertices(simplex_descriptor s) const
   {
     return boost::make_iterator_range(m_tables->corners[s]);
@@ -138,21 +141,31 @@ private:
       {
         corners.push_back(corners_of_cell(complex, it));
         numbers.emplace_back();
-        for(vertex_descriptor v : corners.back())
-          numbers.back().push_back(indices.at(v));
+        // a cell is incident to its vertices whatever it is
+        auto darts = complex.template one_dart_per_incident_cell<0, dimension>(it);
+        for(auto dart = darts.begin(); dart != darts.end(); ++dart)
+          numbers.back().push_back(indices.at(complex.vertex_attribute(dart)));
       }
       incidences = std::make_unique<const internal::Incidence_table>(vertices.size(), numbers);
     }
 
+    // nothing if the cell is not closed, or not a tetrahedron
     static std::vector<vertex_descriptor> corners_of_cell(LinearCellComplex& complex, Dart cell)
     {
       std::vector<vertex_descriptor> corners;
       if constexpr(dimension == 2)
       {
-        for(Dart dart = cell; corners.empty() || dart != cell; dart = complex.next(dart))
+        Dart dart = cell;
+        do
+        {
+          if(!complex.is_next_exist(dart))
+            return {};
           corners.push_back(complex.vertex_attribute(dart));
+          dart = complex.next(dart);
+        }
+        while(dart != cell);
       }
-      else
+      else if(complex.is_volume_combinatorial_tetrahedron(cell))
       {
         auto darts = complex.template one_dart_per_incident_cell<0, dimension>(cell);
         for(auto it = darts.begin(); it != darts.end(); ++it)

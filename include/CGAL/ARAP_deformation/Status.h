@@ -35,6 +35,7 @@ enum class Status
   not_a_control_vertex, ///< a target was given to a vertex that is not a control vertex
   not_a_simplex,        ///< a face or cell of the region is no polygon or tetrahedron
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
+  no_simplex,           ///< no vertex of the region of interest has a simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< a face is so degenerate that its weights are not finite
   no_held_vertex,       ///< a connected part of the region is not tied to any held vertex
@@ -69,6 +70,7 @@ inline const char* to_string(Status status)
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::not_a_simplex: return "not_a_simplex";
   case Status::no_tetrahedron: return "no_tetrahedron";
+  case Status::no_simplex: return "no_simplex";
   case Status::non_finite_point: return "non_finite_point";
   case Status::non_finite_weight: return "non_finite_weight";
   case Status::no_held_vertex: return "no_held_vertex";

@@ -43,8 +43,7 @@ namespace ARAP {
 /// Construction takes linear time, to number the vertices. The triangulation must outlive the domain;
 /// its vertices and cells, and which cells are selected, must not change meanwhile.
 ///
-/// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not, other
-///         than a periodic one
+/// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not
 ///
 /// \cgalModels{ARAPDomain_3}
 ///
@@ -80,7 +79,7 @@ public:
   }
 
   /// constructs the domain of all finite cells. If cells have a subdomain index, those where it has
-  /// its default value, which stands for the outside, are left out.
+  /// its default value, which stands for the outside, are left out: set the indices first.
   explicit Triangulation_domain_3(Triangulation& triangulation)
     : Triangulation_domain_3(triangulation, [](simplex_descriptor cell) {
         return internal::is_in_a_subdomain(*cell);
@@ -167,6 +166,8 @@ Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& t
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of the cells of a complex in a 3D triangulation, of all subdomains.
+/// Vertices are numbered as in the domain that `ARAP_deformation` makes of the complex. The complex must
+/// outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>
@@ -181,7 +182,8 @@ make_complex_domain(MeshComplex& complex)
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices that it shares
-/// with others belong to it: hold them if the others are to keep their shape.
+/// with others belong to it: hold them if the others are to keep their shape. The complex must outlive
+/// the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>

@@ -15,6 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
+
+#include <CGAL/tags.h>
+
+#include <boost/graph/graph_traits.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -59,6 +64,12 @@ template <typename T>
 struct Is_linear_cell_complex<T, std::void_t<typename T::Vertex_attribute,
                                              decltype(T::ambient_dimension)>> : std::true_type {};
 
+template <typename T>
+using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangulation
+
+template <typename T>
+using Halfedge_of = typename boost::graph_traits<T>::halfedge_descriptor;
+
 // only a linear cell complex over a combinatorial map has this member
 template <typename T, typename = void>
 struct Is_generalized_map : std::true_type {};
@@ -67,12 +78,14 @@ struct Is_generalized_map<T, std::void_t<
   decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1))>> : std::false_type {};
 
 // Whether a mesh is a linear cell complex that is no FaceGraph: it is of dimension 3, or its map is a
-// generalized one. CGAL 5.5 has graph_traits for the former that do not work.
+// generalized one, or its faces have no attributes. CGAL has graph_traits for the first and the
+// last that do not work.
 template <typename Mesh>
 constexpr bool is_complex_without_graph()
 {
   if constexpr(Is_linear_cell_complex<Mesh>::value)
-    return Mesh::dimension == 3 || Is_generalized_map<Mesh>::value;
+    return Mesh::dimension == 3 || Is_generalized_map<Mesh>::value ||
+           std::is_same_v<typename Mesh::template Attribute_type<2>::type, CGAL::Void>;
   else
     return false;
 }
@@ -87,6 +100,10 @@ struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
 template <typename Mesh, typename = void>
 struct Default_domain
 {
+  static_assert(is_valid<Halfedge_of, std::remove_const_t<Mesh>>,
+                "the mesh is no FaceGraph that is known: #include its header in CGAL/boost/graph "
+                "(graph_traits_...), or give its domain; for ranges of points and simplices, "
+                "CGAL::ARAP::Simplex_soup_domain");
   using type = Face_graph_domain<Mesh>;
 };
 
@@ -99,6 +116,8 @@ struct Default_domain<Domain, std::enable_if_t<Is_domain<Domain>::value>>
 template <typename Mesh>
 struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
 {
+  static_assert(!is_valid<Covering_sheets_of, Mesh>,
+                "periodic triangulations cannot be deformed");
   using type = Triangulation_domain_3<Mesh>;
   static_assert(Is_complete<type>::value,
                 "to deform a triangulation, #include <CGAL/ARAP_deformation/Triangulation_domain_3.h>");

@@ -22,7 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
-#include <CGAL/ARAP_deformation/internal/laplacian.h>
+#include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
@@ -35,14 +35,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// a status with the vertex or simplex of the region that it is about, where there is one
-struct Diagnosis
-{
-  Status status = Status::success;
-  int vertex = -1;
-  int simplex = -1;
-};
 
 // The deformation of a region: all of it that is numbers, and nothing that is a mesh.
 template <typename Traits>
@@ -77,7 +69,6 @@ public:
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
   // rotations. The core's own state does not change.
-  template <typename Observer>
   Diagnosis run(const Options& options, const Observer& observe, std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report)
   {
@@ -86,7 +77,8 @@ public:
       Scoped_seconds seconds(report.seconds.initial_guess);
       if(!m_laplacian_guess)
       {
-        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, m_region),
+        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, simplex_weights(m_weight, m_region),
+                                                     m_region),
                                       m_region.number_of_free_vertices, m_prototype_solver);
         if(!guess.is_factorized())
           return {Status::singular_matrix};
@@ -122,23 +114,16 @@ private:
 
   Diagnosis prepare(Cell_scheme scheme)
   {
-    const int n = m_region.number_of_free_vertices;
     if(const int v = find_non_finite(m_region.rest); v >= 0)
       return {Status::non_finite_point, v};
-    if(const int s = find_bad_simplex(m_weight, m_region); s >= 0)
+    const Simplex_weights weights = simplex_weights(m_weight, m_region);
+    if(const int s = find_non_finite_simplex(weights, m_region); s >= 0)
       return {Status::non_finite_weight, -1, s};
-
-    m_energy = make_rigidity_energy(m_weight, scheme, m_region);
-    if(const int v = find_unattached_vertex(m_energy, n); v >= 0)
-      return {Status::no_held_vertex, v};
-    const Sparse_matrix laplacian = free_laplacian(m_energy, n);
-    for(int v = 0; v < n; ++v)
-      if(const double diagonal = laplacian.coeff(v, v); !(diagonal > 0) || !std::isfinite(diagonal))
-        return {Status::singular_matrix, v};
-    if(n > 0 && !(m_solver.analyze(laplacian) && m_solver.factorize(laplacian)))
-      return {Status::singular_matrix};
+    m_energy = make_rigidity_energy(m_weight, weights, scheme, m_region);
+    const Diagnosis diagnosis =
+      factorize_laplacian(m_energy, m_region.number_of_free_vertices, m_solver);
     reset_rotations();
-    return {};
+    return diagnosis;
   }
 
   Region m_region;

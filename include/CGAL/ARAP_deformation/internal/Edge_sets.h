@@ -48,15 +48,13 @@ struct Edge_sets
 };
 
 // calls f(s, i, j, w) for each edge (i, j) of each simplex s of the region with its weight w there
-template <typename EdgeWeight, typename Function>
-void for_each_simplex_edge(const EdgeWeight& weight, const Region& region, const Function& f)
+template <typename Function>
+void for_each_simplex_edge(const Simplex_weights& weights, const Region& region, const Function& f)
 {
-  std::vector<double> weights;
+  auto w = weights.begin();
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    compute_simplex_weights(weight, region, s, weights);
     const int* corners = region.corners_of(s);
-    auto w = weights.begin();
     for(int a = 0; a < region.number_of_corners(s); ++a)
       for(int b = a + 1; b < region.number_of_corners(s); ++b, ++w)
         f(s, corners[a], corners[b], *w);
@@ -64,11 +62,10 @@ void for_each_simplex_edge(const EdgeWeight& weight, const Region& region, const
 }
 
 // the index of a simplex whose weights are not finite, or -1
-template <typename EdgeWeight>
-int find_bad_simplex(const EdgeWeight& weight, const Region& region)
+inline int find_non_finite_simplex(const Simplex_weights& weights, const Region& region)
 {
   int bad = -1;
-  for_each_simplex_edge(weight, region, [&bad](int s, int, int, double w) {
+  for_each_simplex_edge(weights, region, [&bad](int s, int, int, double w) {
     if(bad < 0 && !std::isfinite(w))
       bad = s;
   });
@@ -77,18 +74,18 @@ int find_bad_simplex(const EdgeWeight& weight, const Region& region)
 
 // one edge set for each simplex
 template <typename EdgeWeight>
-Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Region& region)
+Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Simplex_weights& weights,
+                            const Region& region)
 {
   Edge_sets sets;
   sets.begin.reserve(region.number_of_simplices() + 1);
-  sets.edges.reserve(region.dimension == 3 ? 6 * region.number_of_simplices()
-                                           : region.corners.size());
+  sets.edges.reserve(weights.size());
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const int n = region.number_of_corners(s);
     sets.begin.push_back(sets.begin.back() + n * (n - 1) / 2);
   }
-  for_each_simplex_edge(weight, region, [&](int, int i, int j, double w) {
+  for_each_simplex_edge(weights, region, [&](int, int i, int j, double w) {
     sets.edges.push_back({i, j, weight.edge_weight(Edge_set::simplex, region.indices[i],
                                                    region.indices[j], w),
                           difference(region.rest[i], region.rest[j])});
@@ -98,7 +95,8 @@ Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Region& region)
 
 // one edge set for each centre: its edges to its neighbours, in the order of their numbers
 template <typename EdgeWeight>
-Edge_sets star_edge_sets(const EdgeWeight& weight, const Region& region)
+Edge_sets star_edge_sets(const EdgeWeight& weight, const Simplex_weights& weights,
+                         const Region& region)
 {
   // the neighbours of centre i, each with one weight for each simplex at the edge, will be
   // neighbours[first[i]] to neighbours[first[i + 1] - 1]
@@ -111,7 +109,7 @@ Edge_sets star_edge_sets(const EdgeWeight& weight, const Region& region)
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Neighbour> neighbours(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
-  for_each_simplex_edge(weight, region, [&](int, int i, int j, double w) {
+  for_each_simplex_edge(weights, region, [&](int, int i, int j, double w) {
     if(i < region.number_of_centres) neighbours[next[i]++] = {j, w};
     if(j < region.number_of_centres) neighbours[next[j]++] = {i, w};
   });

@@ -24,7 +24,7 @@
 #include <CGAL/ARAP_deformation/internal/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
-#include <CGAL/ARAP_deformation/internal/laplacian.h>
+#include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_global_local.h>
 #include <CGAL/ARAP_deformation/internal/sentences.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
@@ -177,9 +177,10 @@ public:
     if(m_roi.vertices().empty())
       return;
     update_region();
+    // the weights first: what is the user's may throw
+    m_weights.recompute_at(m_roi.vertices(), [this](Vertex v) { return m_roi.contains(v); });
     for(int k = 0; k < m_region.roi_size; ++k)
       m_region.rest[k] = get(m_point_map, m_region.vertices[k]);
-    m_weights.recompute_at(m_roi.vertices(), [this](Vertex v) { return m_roi.contains(v); });
     m_region.reset_rotations();
     region_changed(); // what is around the region of interest is read again too
   }
@@ -270,9 +271,6 @@ private:
 
   Outcome make_system(const Region& region, System& system) const
   {
-    const auto about = [&](Status status, int number) {
-      return internal::outcome(status, name(vertex(region, system, number)));
-    };
     number_vertices(region, system);
     for(int k = 0; k < region.size(); ++k)
       if(!is_finite(region.rest_coordinates(k)))
@@ -303,21 +301,18 @@ private:
     if(!bad_weight)
       return bad_weight;
 
-    const int n = system.number_of_free_vertices;
-    if(const int v = find_unattached_vertex(system.energy, n); v >= 0)
-      return about(Status::no_held_vertex, v);
-    const Sparse_matrix laplacian = free_laplacian(system.energy, n);
-    for(int v = 0; v < n; ++v)
-      if(const double diagonal = laplacian.coeff(v, v); !(diagonal > 0) || !std::isfinite(diagonal))
-        return about(Status::singular_matrix, v);
-    if(n > 0 && !(system.solver.analyze(laplacian) && system.solver.factorize(laplacian)))
-      return internal::outcome(Status::singular_matrix);
-    return internal::outcome(Status::success);
+    const Diagnosis diagnosis =
+      factorize_laplacian(system.energy, system.number_of_free_vertices, system.solver);
+    return internal::outcome(diagnosis.status,
+                             diagnosis.vertex < 0 ? std::string()
+                                                  : name(vertex(region, system, diagnosis.vertex)));
   }
 
   Outcome run(unsigned int iterations, double tolerance, Report& report)
   {
     const Scoped_seconds total(report.seconds.total);
+    if(std::isnan(tolerance))
+      return Outcome(Status::invalid_option, "the tolerance is not a number");
     if(Tag == SRE_ARAP && m_alpha != 0)
       return Outcome(Status::invalid_option,
                      "SRE_ARAP can be run with alpha = 0 only: rotations are not smoothed yet");

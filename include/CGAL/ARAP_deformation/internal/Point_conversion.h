@@ -19,6 +19,7 @@
 #include <CGAL/number_utils.h>
 
 #include <type_traits>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -30,8 +31,12 @@ Point construct_point(const FT& x, const FT& y, const FT& z)
 {
   if constexpr(std::is_constructible_v<Point, FT, FT, FT>)
     return Point(x, y, z);
-  else
-    return Point{x, y, z}; // std::array
+  else // std::array, which takes no other type than its own
+  {
+    using Coordinate = std::decay_t<decltype(std::declval<const Point&>()[0])>;
+    return Point{static_cast<Coordinate>(x), static_cast<Coordinate>(y),
+                 static_cast<Coordinate>(z)};
+  }
 }
 
 // What ARAPDomain_3 asks about points, for each type that has operator[] and is made of three

@@ -199,13 +199,13 @@ private:
 };
 
 template <typename EdgeWeight>
-Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, Cell_scheme scheme,
-                                     const Region& region)
+Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, const Simplex_weights& weights,
+                                     Cell_scheme scheme, const Region& region)
 {
   if(scheme.edge_set() == Edge_set::star)
-    return Rigidity_energy(star_edge_sets(weight, region),
+    return Rigidity_energy(star_edge_sets(weight, weights, region),
                            separate_cells(region.number_of_centres));
-  return Rigidity_energy(simplex_edge_sets(weight, region),
+  return Rigidity_energy(simplex_edge_sets(weight, weights, region),
                          scheme.grouped_at_vertices()
                            ? vertex_cells(region)
                            : separate_cells(region.number_of_free_simplices));

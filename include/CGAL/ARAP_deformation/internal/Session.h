@@ -28,6 +28,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -105,6 +106,12 @@ public:
     const std::vector<vertex_descriptor> free_vertices = m_vertices.select([this](const auto& e) {
       return e.is_roi && !e.is_control && !domain().is_isolated(e.vertex);
     });
+    const auto is_tied = [this](const auto& e) {
+      return e.is_roi && !domain().is_isolated(e.vertex);
+    };
+    const auto is_roi = [](const auto& e) { return e.is_roi; };
+    if(any_of_entries(is_roi) && !any_of_entries(is_tied))
+      return outcome(Status::no_simplex);
     Region_ region;
     if(!region.collect(domain(), free_vertices))
       return outcome(Status::not_a_simplex, name(region.refused_vertex()));
@@ -214,6 +221,12 @@ private:
       m_energy = not_a_number;
     }
     return is_change;
+  }
+
+  template <typename Predicate>
+  bool any_of_entries(const Predicate& predicate) const
+  {
+    return std::any_of(m_vertices.entries().begin(), m_vertices.entries().end(), predicate);
   }
 
   Outcome explain(const Diagnosis& diagnosis, const Region_& region, const Core& core) const

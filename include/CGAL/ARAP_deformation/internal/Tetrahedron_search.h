@@ -83,7 +83,7 @@ public:
   {
     std::size_t tetrahedron;             // its number in the order of the constructor
     Barycentric_coordinates coordinates;
-    double distance;                     // from the tetrahedron, 0 if it contains the point
+    double distance; // from the tetrahedron, 0 if it contains the point up to rounding
   };
 
   // Tetrahedra without volume are left out.
@@ -138,7 +138,8 @@ public:
                                         std::back_inserter(faces));
       best = best_at(faces, point);
     }
-    best.distance = smallest_coordinate(best) >= 0 ? 0 : distance * m_extent;
+    const bool is_inside = smallest_coordinate(best) >= 0 || distance <= tolerance;
+    best.distance = is_inside ? 0 : distance * m_extent;
     if(!std::isfinite(smallest_coordinate(best)))
       return std::nullopt;
     return best;

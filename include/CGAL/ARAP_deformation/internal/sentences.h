@@ -63,10 +63,14 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
                  "corners that exist");
   case Status::no_tetrahedron:
     return about("there is no tetrahedron with a volume to embed points in");
+  case Status::no_simplex:
+    return about("no vertex of the region of interest has a simplex in the domain: nothing ties "
+                 "them together");
   case Status::non_finite_point:
     return about(" has a coordinate that is infinite or not a number");
   case Status::non_finite_weight:
-    return about(" is degenerate: the weights of its edges are not finite");
+    return about(" is degenerate, as it has no area or volume, or three corners on one line: the "
+                 "weights of its edges are not finite");
   case Status::no_held_vertex:
     return about(" is free, but no chain of edges with a non-zero weight ties it to a held vertex; "
                  "hold a vertex of its component");
