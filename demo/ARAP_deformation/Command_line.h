@@ -82,7 +82,8 @@ inline boost::program_options::options_description described_options()
      "which edges share a rotation: spokes, spokes_and_rims, elements")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
      "cotangent, clamped_cotangent, uniform, or safe_cotangent: clamped for spokes, as they are "
-     "for the other cells")
+     "for the other cells. With cotangent and spokes the energy can be negative and the shape "
+     "distorted, on tetrahedra above all")
     ("minimizer", value<std::string>()->default_value("local_global")->value_name("NAME"),
      "local_global, the iteration of the paper")
     ("initial_guess", value<std::string>()->default_value("previous")->value_name("NAME"),

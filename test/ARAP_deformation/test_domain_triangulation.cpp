@@ -107,8 +107,10 @@ void test_plain()
   flat.insert(Epick::Point_3(1, 0, 0));
   CGAL::ARAP_deformation<Triangulation> nothing(flat);
   for(auto v : flat.finite_vertex_handles())
-    nothing.insert_roi_vertex(v);
-  CHECK(nothing.deform());
+    nothing.insert_control_vertex(v);
+  nothing.translate(*flat.finite_vertex_handles().begin(), Epick::Vector_3(3, 0, 0));
+  CHECK(nothing.deform().status == CGAL::ARAP::Status::no_simplex);
+  CHECK((*flat.finite_vertex_handles().begin())->point() != Epick::Point_3(3, 0, 0));
 }
 
 void test_some_cells()
