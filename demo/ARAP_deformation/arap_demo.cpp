@@ -121,8 +121,8 @@ using Traits = CGAL::ARAP_deformation_traits_3<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight>;
 
-// Figure 3 of the paper: a bar is bent, and the iterations recover from the distorted guess of naive
-// Laplacian editing.
+// Figure 3 of the paper: a bar is bent, and the iterations recover from the distorted guess of
+// naive Laplacian editing.
 void draw_iterations(const fs::path& folder)
 {
   Demo_shape bar = make_bar(2);

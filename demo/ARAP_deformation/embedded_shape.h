@@ -52,8 +52,8 @@ void add_sheet(Soup<3>& soup, int nu, int nv, Place f)
     }
 }
 
-// A palm: its trunk is made of open cones, which reach into the next one or do not reach it, and its
-// leaves cross each other.
+// A palm: its trunk is made of open cones, which reach into the next one or do not reach it, and
+// its leaves cross each other.
 inline Soup<3> make_palm()
 {
   Soup<3> palm;

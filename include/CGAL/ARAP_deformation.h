@@ -273,8 +273,8 @@ public:
   ARAP::Report deform(Visitor&& visitor)
   {
     static_assert(std::is_invocable_r_v<ARAP::Visitor_action, Visitor&, const Iterate&>,
-                  "the visitor does not take an iterate and return an ARAP::Visitor_action; a number "
-                  "of iterations is given together with a tolerance: deform(iterations, tolerance)");
+                  "the visitor does not take an iterate and return an ARAP::Visitor_action; a "
+                  "number of iterations goes with a tolerance: deform(iterations, tolerance)");
     return deform(options().iterations, options().tolerance, std::forward<Visitor>(visitor));
   }
 

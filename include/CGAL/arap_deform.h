@@ -71,8 +71,8 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; not used
-///                          for other shapes, whose domain knows the points}
+///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; not
+///                          used for other shapes, whose domain knows the points}
 ///     \cgalParamType{a model of `ReadWritePropertyMap`}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd

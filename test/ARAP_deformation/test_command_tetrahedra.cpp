@@ -394,8 +394,8 @@ void test_refusals()
   for(const std::string number : {"nan", "NaN", "inf", "-inf", "1e999", "x", "1,5", "1.5.2", "--1"})
     refuse_with("0 1 0 1", "0 " + number + " 0 1", ", line 7: expected a finite number, a "
                 "coordinate in row 3 of the 4 Vertices, but found '" + number + "'");
-  refuse_with("0 1 0 1", "0 1 0 one", ", line 7: expected an integer, the reference in row 3 of the "
-                                      "4 Vertices, but found 'one'");
+  refuse_with("0 1 0 1", "0 1 0 one", ", line 7: expected an integer, the reference in row 3 of "
+                                      "the 4 Vertices, but found 'one'");
   for(const std::string corner : {"0", "5", "-1", "4294967297", "2.5", "x"})
     refuse_with("1 2 3 4 1", "1 " + corner + " 3 4 1", ", line 11: expected a vertex from 1 to 4, "
                 "a corner in row 1 of the 1 Tetrahedra, but found '" + corner + "'");
@@ -408,7 +408,8 @@ void test_refusals()
   const std::string good_call = "good.mesh --selection four.sel --transform in.def ";
   check_refused("missing.mesh" + rest, 1, "missing.mesh: there is no such file");
   check_refused(good_call + "-o out.off", 1,
-                "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh file");
+                "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
+                "file");
   check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl or .mesh");
   write("five.sel", "0\n1\n1\n2\n1\n");
   check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,

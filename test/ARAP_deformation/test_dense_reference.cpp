@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Iterates and energies against the dense reference: triangles, polygons and tetrahedra, whole shapes
-// and regions of interest, each cell scheme with each weight.
+// Iterates and energies against the dense reference: triangles, polygons and tetrahedra, whole
+// shapes and regions of interest, each cell scheme with each weight.
 
 #include "include/dense_reference.h"
 #include "include/domains.h"
@@ -54,8 +54,8 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
 
   const CGAL::ARAP::Report report = deformation.deform(iterations, 0, [&](const auto& iterate) {
     std::vector<Point> copy = points;
-    iterate.put_points(boost::make_iterator_property_map(copy.begin(),
-                                                         boost::typed_identity_property_map<std::size_t>()));
+    iterate.put_points(boost::make_iterator_property_map(
+      copy.begin(), boost::typed_identity_property_map<std::size_t>()));
     double error = 0;
     for(std::size_t v = 0; v < copy.size(); ++v)
       error = (std::max)(error, (vector(copy[v]) - iterates[iterate.iteration()][v]).norm());
@@ -106,13 +106,15 @@ void test_polygons()
   const int n = 9, m = 8;
   for(int i = 0; i <= n; ++i)
     for(int j = 0; j <= m; ++j)
-      points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j, 0.1 * std::sin(i) * std::cos(0.7 * j));
+      points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j,
+                          0.1 * std::sin(i) * std::cos(0.7 * j));
   const auto vertex = [=](int i, int j) { return std::size_t(i * (m + 1) + j); };
   Simplices polygons;
   for(int i = 0; i < n; ++i)
     for(int j = 0; j < m; ++j)
       if(j % 3 == 2)
-        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                            vertex(i, j + 1)});
       else if(j % 3 == 0 && j + 2 <= m)
         polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
                             vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps, and
-// complexes of tetrahedra over both.
+// Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps,
+// and complexes of tetrahedra over both.
 
 #include "include/domains.h"
 
@@ -28,6 +28,7 @@ using CGAL::ARAP::Linear_cell_complex_domain_3;
 using Traits = CGAL::Linear_cell_complex_traits<3, Kernel>;
 using Graph = CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper<2, 3, Traits>::type;
 using Generalized_surface = CGAL::Linear_cell_complex_for_generalized_map<2, 3, Traits>;
+using Plain_surface = CGAL::Linear_cell_complex_for_combinatorial_map<2, 3, Traits>; // no FaceGraph
 using Volumes = CGAL::Linear_cell_complex_for_combinatorial_map<3, 3, Traits>;
 using Generalized_volumes = CGAL::Linear_cell_complex_for_generalized_map<3, 3, Traits>;
 
@@ -65,6 +66,8 @@ void sew(Complex& complex)
     std::vector<Point> key = {complex.point(dart), complex.point(complex.other_extremity(dart))};
     if(dimension == 3)
       key.push_back(complex.point(complex.other_extremity(complex.next(dart))));
+    if(std::is_same_v<Complex, Plain_surface>) // its darts meet in opposite directions
+      std::sort(key.begin(), key.end());
     if(!std::is_sorted(key.begin(), key.end()))
       continue;
     const auto [found, is_new] = open.insert({key, dart});
@@ -76,6 +79,19 @@ void sew(Complex& complex)
 }
 
 inline void sew(Volumes& complex) { complex.sew3_same_facets(); }
+
+// a face with these corners
+template <typename Complex>
+void make_polygon(Complex& complex, const std::vector<Point>& corners)
+{
+  const auto face = complex.make_combinatorial_polygon(static_cast<unsigned int>(corners.size()));
+  auto dart = face;
+  for(const Point& p : corners)
+  {
+    complex.set_vertex_attribute(dart, complex.create_vertex_attribute(p));
+    dart = complex.next(dart);
+  }
+}
 
 // the vertices of a domain in the order of the points of a shape
 template <typename Domain>
@@ -104,7 +120,7 @@ void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Si
       for(std::size_t v : simplex)
         corners.push_back(point(points[v]));
       if constexpr(Dimension == 2)
-        complex.make_triangle(corners[0], corners[1], corners[2]);
+        make_polygon(complex, corners);
       else
         complex.make_tetrahedron(corners[0], corners[1], corners[2], corners[3]);
     }
@@ -120,15 +136,14 @@ void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Si
   }
 }
 
-// what is not a tetrahedron is refused, and a generalized map or a complex of volumes is never taken
-// for a FaceGraph
-void test_cube()
+// What is not a tetrahedron, or not closed, is refused.
+template <typename Complex, typename Make>
+void check_refused(const std::string& name, const Make& make)
 {
-  test_case() = "a cube";
-  Volumes complex;
-  complex.make_hexahedron(Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0),
-                          Point(0, 1, 1), Point(0, 0, 1), Point(1, 0, 1), Point(1, 1, 1));
-  CGAL::ARAP_deformation<Volumes> deformation(complex);
+  test_case() = name;
+  Complex complex;
+  make(complex);
+  CGAL::ARAP_deformation<Complex> deformation(complex);
   for(auto v : deformation.domain().vertices())
     deformation.insert_roi_vertex(v);
   deformation.insert_control_vertex(*deformation.domain().vertices().begin());
@@ -139,7 +154,34 @@ void test_cube()
 
 int main()
 {
+  const Point a(0, 0, 0), b(1, 0, 0), c(1, 1, 0.5), d(0, 1, 0);
+  check_refused<Volumes>("a cube", [](Volumes& complex) {
+    complex.make_hexahedron(Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(0, 1, 0),
+                            Point(0, 1, 1), Point(0, 0, 1), Point(1, 0, 1), Point(1, 1, 1));
+  });
+  check_refused<Volumes>("a face in a complex of volumes", [&](Volumes& complex) {
+    complex.make_quadrangle(a, b, c, d);
+  });
+  check_refused<Generalized_volumes>("the same", [&](Generalized_volumes& complex) {
+    complex.make_quadrangle(a, b, c, d);
+  });
+  check_refused<Plain_surface>("an open path", [&](Plain_surface& complex) {
+    complex.make_segment(a, b, true);
+  });
+  check_refused<Generalized_surface>("the same", [&](Generalized_surface& complex) {
+    complex.make_segment(a, b);
+  });
+
   test_graph();
+  {
+    test_case() = "polygons";
+    Polygons polygons;
+    const Shape shape = tube(polygons);
+    compare_with_reference<2, Generalized_surface>(shape.points, polygons, scenario(shape),
+                                                   shape.diameter());
+    compare_with_reference<2, Plain_surface>(shape.points, polygons, scenario(shape),
+                                             shape.diameter());
+  }
   for(const Shape& shape : shapes())
   {
     test_case() = "a generalized map of dimension 2: " + shape.name;
@@ -153,6 +195,5 @@ int main()
   test_case() = "a generalized map of dimension 3";
   compare_with_reference<3, Generalized_volumes>(shape.points, shape.tetrahedra, scenario(shape),
                                                  shape.diameter());
-  test_cube();
   return checks_result();
 }

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The domain of a complex that 3D mesh generation made: its cells only, one subdomain of several, and
-// weights of points and caches of cells.
+// The domain of a complex that 3D mesh generation made: its cells only, one subdomain of several,
+// and weights of points and caches of cells.
 
 #include "include/domains.h"
 
@@ -103,7 +103,8 @@ int main()
   std::map<Vertex, double> weights;
   for(Vertex v : triangulation.finite_vertex_handles())
   {
-    v->set_point(Triangulation::Weighted_point(v->point().point(), 1e-4 * (1 + weights.size() % 3)));
+    v->set_point(Triangulation::Weighted_point(v->point().point(),
+                                               1e-4 * (1 + weights.size() % 3)));
     weights[v] = v->point().weight();
   }
   for(auto cell : triangulation.finite_cell_handles())

@@ -73,8 +73,46 @@ void test_mesh_type(const std::string& name, double tolerance)
   }
 }
 
+// quads and larger faces, in a mesh from which faces and vertices were removed
+void test_polygons()
+{
+  test_case() = "PolyMesh with polygons";
+  using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<Double_traits>;
+  Polygons polygons;
+  const Shape shape = tube(polygons);
+  const Scenario s = scenario(shape);
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    PolyMesh mesh;
+    mesh.request_vertex_status();
+    mesh.request_edge_status();
+    mesh.request_face_status();
+    const auto extra = mesh.add_vertex(PolyMesh::Point(9, 9, 9));
+    std::vector<PolyMesh::VertexHandle> vertices;
+    for(const auto& p : shape.points)
+      vertices.push_back(mesh.add_vertex(PolyMesh::Point(p.x(), p.y(), p.z())));
+    for(const auto& polygon : polygons)
+    {
+      std::vector<PolyMesh::VertexHandle> corners;
+      for(std::size_t v : polygon)
+        corners.push_back(vertices[v]);
+      mesh.add_face(corners);
+    }
+    mesh.delete_face(PolyMesh::FaceHandle(20), false);
+    mesh.delete_vertex(extra, false);
+    Polygons kept = polygons;
+    kept.erase(kept.begin() + 20);
+    const CGAL::ARAP::Face_graph_domain<PolyMesh, Point_map<PolyMesh>> domain(
+      mesh, Point_map<PolyMesh>{&mesh});
+    check_conforms(domain);
+    compare(reference<2>(shape.points, kept, s, cells), deform(domain, vertices, s, cells),
+            shape.diameter());
+  }
+}
+
 int main()
 {
+  test_polygons();
   test_mesh_type<OpenMesh::TriMesh_ArrayKernelT<Double_traits>>("TriMesh, double", 1e-10);
   test_mesh_type<OpenMesh::PolyMesh_ArrayKernelT<Double_traits>>("PolyMesh, double", 1e-10);
   test_mesh_type<OpenMesh::TriMesh_ArrayKernelT<>>("TriMesh, float", 2e-5);

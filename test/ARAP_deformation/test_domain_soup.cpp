@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The domain of ranges: triangles against a mesh, edges with three faces, faces of either orientation,
-// output to another range, points of several types, and simplices that are none.
+// The domain of ranges: triangles against a mesh, edges with three faces, faces of either
+// orientation, output to another range, points of several types, and simplices that are none.
 
 #include "include/domains.h"
 

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The domain of 3D triangulations: all finite cells or some of them, weights that are kept, caches that
-// are renewed, and the triangulation of tetrahedral remeshing.
+// The domain of 3D triangulations: all finite cells or some of them, weights that are kept, caches
+// that are renewed, and the triangulation of tetrahedral remeshing.
 
 #include "include/domains.h"
 

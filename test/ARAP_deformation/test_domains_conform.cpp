@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The conformance test of domains tells what is wrong with domains that are, each in one way. That all
-// domains that ship conform is in the test of each.
+// The conformance test of domains tells what is wrong with domains that are, each in one way. That
+// all domains that ship conform is in the test of each.
 
 #include "include/domains.h"
 
@@ -118,7 +118,8 @@ int main()
   CHECK(points == before);
 
   check_caught<Same_index>("index() is the same for two vertices of vertices(), for vertex 2");
-  check_caught<Never_isolated>("is_isolated() and for_each_incident_simplex() disagree, for vertex 6");
+  check_caught<Never_isolated>(
+    "is_isolated() and for_each_incident_simplex() disagree, for vertex 6");
   check_caught<Not_in_place>("point() is not what set_point() and is_in_place() make it");
   check_caught<Own_points>("a copy of the domain does not stand for the same mesh");
   check_caught<Forgets_a_simplex>("a simplex is not given exactly once at each of its corners");

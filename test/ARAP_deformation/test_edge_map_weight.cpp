@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Weights that the user gives for each edge: those of cotangents give what cotangents give, on meshes
-// with and without indices and on tetrahedra, and an edge without a weight does not hold.
+// Weights that the user gives for each edge: those of cotangents give what cotangents give, on
+// meshes with and without indices and on tetrahedra, and an edge without a weight does not hold.
 
 #include "include/domains.h"
 
@@ -77,7 +77,7 @@ void test_mesh(const Shape& shape)
   const std::vector<double> expected =
     reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()).energy;
   Mesh_ mesh = make_mesh<Mesh_>(shape);
-  const std::vector<typename boost::graph_traits<Mesh_>::vertex_descriptor> all = all_vertices(mesh);
+  const auto all = all_vertices(mesh);
   std::map<typename boost::graph_traits<Mesh_>::vertex_descriptor, std::size_t> numbers;
   for(std::size_t k = 0; k < all.size(); ++k)
     numbers[all[k]] = k;

@@ -40,7 +40,8 @@ bool same_or_bad_points(const Mesh& a, const Mesh& b)
 {
   for(Vertex v : a.vertices())
     for(int k = 0; k < 3; ++k)
-      if(a.point(v)[k] != b.point(v)[k] && !(std::isnan(a.point(v)[k]) && std::isnan(b.point(v)[k])))
+      if(a.point(v)[k] != b.point(v)[k] &&
+         !(std::isnan(a.point(v)[k]) && std::isnan(b.point(v)[k])))
         return false;
   return true;
 }

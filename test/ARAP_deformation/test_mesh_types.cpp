@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The same deformation whatever the mesh type, the order of the vertices, the order of the faces and
-// the point map.
+// The same deformation whatever the mesh type, the order of the vertices, the order of the faces
+// and the point map.
 
 #include "include/check.h"
 #include "include/shapes.h"
@@ -84,29 +84,6 @@ Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme ce
   return result;
 }
 
-// a mesh from which vertices and faces were removed, so that its indices have gaps
-Result deform_with_gaps(const Shape& shape, const Scenario& s, Cell_scheme cells)
-{
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> vertices, removed;
-  for(const auto& p : shape.points)
-  {
-    removed.push_back(mesh.add_vertex(Point(7, 7, 7)));
-    vertices.push_back(mesh.add_vertex(point(p)));
-  }
-  for(const auto& [a, b, c] : shape.triangles)
-    mesh.add_face(vertices[a], vertices[b], vertices[c]);
-  for(auto v : removed)
-    mesh.remove_vertex(v);
-  CHECK(mesh.has_garbage());
-  CGAL::ARAP_deformation<Mesh> deformation(mesh);
-  prepare(deformation, s, vertices);
-  Result result{run(deformation, cells), {}};
-  for(auto v : vertices)
-    result.points.push_back(vector(mesh.point(v)));
-  return result;
-}
-
 // vertices, faces and the corners of each face in another order
 Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
 {
@@ -159,7 +136,6 @@ int main()
       compare(reference, deform<Polyhedron>(shape, s, cells), shape);
       compare(reference, deform<Polyhedron_with_id>(shape, s, cells), shape);
       compare(reference, deform_with_own_map(shape, s, cells), shape);
-      compare(reference, deform_with_gaps(shape, s, cells), shape);
       compare(reference, deform_shuffled(shape, s, cells), shape);
     }
   return checks_result();

@@ -35,7 +35,8 @@ int main()
   Mesh mesh = make_mesh<Mesh>(octahedron());
   CGAL::ARAP_deformation<Mesh> d(mesh);
   CHECK(is_refused([&] { d.target_position(Mesh::Vertex_index(0)); }));
-  CHECK(is_refused([&] { d.simplex_rotation(Mesh::Face_index(0)); })); // there is one for each vertex
+  // there is one for each vertex
+  CHECK(is_refused([&] { d.simplex_rotation(Mesh::Face_index(0)); }));
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::elements();
   d.set_options(options);

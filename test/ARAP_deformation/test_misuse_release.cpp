@@ -9,7 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Misuse of the interface in Release, where preconditions are not checked: refused calls that say so.
+// Misuse of the interface in Release, where preconditions are not checked: refused calls that say
+// so.
 
 #define CGAL_NDEBUG 1
 

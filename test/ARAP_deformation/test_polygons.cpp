@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Polygons: their weights are the same from whichever corner, have the identity with the area, and meshes
-// of quads and of mixed faces give what their ranges give.
+// Polygons: their weights are the same from whichever corner, have the identity with the area, and
+// meshes of quads and of mixed faces give what their ranges give.
 
 #include "include/domains.h"
 
@@ -23,7 +23,6 @@
 
 using CGAL::ARAP::Cotangent_weight;
 using CGAL::ARAP::internal::Region;
-using Polygons = std::vector<std::vector<std::size_t>>;
 
 // the weights of all pairs of corners of one polygon
 std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
@@ -90,30 +89,6 @@ void test_one_polygon()
   const std::vector<double> rectangle = weights_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 0, 2)]), 1e-15);
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 1, 3)]), 1e-15);
-}
-
-// a tube of quads, closed by two polygons with many corners
-Shape tube(Polygons& polygons)
-{
-  const std::size_t around = 14, along = 12;
-  Shape shape{"tube", {}, {}};
-  for(std::size_t j = 0; j <= along; ++j)
-    for(std::size_t i = 0; i < around; ++i)
-      shape.points.emplace_back(std::cos(2 * 3.14159265 * i / around),
-                                std::sin(2 * 3.14159265 * i / around), 0.45 * j);
-  for(std::size_t j = 0; j < along; ++j)
-    for(std::size_t i = 0; i < around; ++i)
-      polygons.push_back({j * around + i, j * around + (i + 1) % around,
-                          (j + 1) * around + (i + 1) % around, (j + 1) * around + i});
-  std::vector<std::size_t> bottom, top;
-  for(std::size_t i = 0; i < around; ++i)
-  {
-    bottom.push_back(around - 1 - i);
-    top.push_back(along * around + i);
-  }
-  polygons.push_back(bottom);
-  polygons.push_back(top);
-  return shape;
 }
 
 template <typename Mesh_>

@@ -57,7 +57,8 @@ Sparse_matrix grid_laplacian(int side, double shift)
 void check_solution(CGAL::ARAP::Eigen_cholesky_solver& solver, const Sparse_matrix& a)
 {
   const auto n = std::size_t(a.rows());
-  Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [] { return entry(random_engine); });
+  Eigen::MatrixXd b =
+    Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [] { return entry(random_engine); });
   std::vector<Coordinates> x(n);
   for(std::size_t k = 0; k < n; ++k)
     x[k] = {b(k, 0), b(k, 1), b(k, 2)};
@@ -84,7 +85,8 @@ int main()
     CHECK(solver.factorize(same_pattern));
     check_solution(solver, same_pattern);
 
-    const CGAL::ARAP::Eigen_cholesky_solver copy(solver); // has no factor, and leaves this one alone
+    // has no factor, and leaves this one alone
+    const CGAL::ARAP::Eigen_cholesky_solver copy(solver);
     CGAL::ARAP::Eigen_cholesky_solver moved(std::move(solver));
     check_solution(moved, same_pattern);
     solver = CGAL::ARAP::Eigen_cholesky_solver(copy);

@@ -10,8 +10,8 @@
 // Author(s)     : The ARAP_deformation authors
 
 
-// One deformation, solved by all solvers and with all rotation fittings: how far the shapes are from
-// that of the default, relative to the bounding box.
+// One deformation, solved by all solvers and with all rotation fittings: how far the shapes are
+// from that of the default, relative to the bounding box.
 
 #include "include/check.h"
 #include "include/shapes.h"

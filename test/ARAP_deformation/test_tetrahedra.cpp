@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Tetrahedra: the identity that their weights are made for, an independent dense computation of energies
-// and iterates, energies that are never negative, and the count of what is inside out.
+// Tetrahedra: the identity that their weights are made for, an independent dense computation of
+// energies and iterates, energies that are never negative, and the count of what is inside out.
 
 #include "include/domains.h"
 
@@ -73,7 +73,8 @@ void test_weights()
     CHECK_AT_MOST(std::abs(sum - volume(p) * map.squaredNorm()), 1e-12 * sum_of_magnitudes);
   }
 
-  const std::array<CGAL::ARAP::Coordinates, 4> flat = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+  const std::array<CGAL::ARAP::Coordinates, 4> flat = {
+    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   for(double w : CGAL::ARAP::Cotangent_weight().simplex_weights(flat))
     CHECK(!std::isfinite(w));
 }
@@ -177,7 +178,8 @@ void test_sign_of_energy()
   std::mt19937 random(2);
   std::uniform_real_distribution<double> jitter(-0.1, 0.1);
   for(auto& p : shape.points)
-    p = Eigen::Vector3d(2.5 * (p.x() + jitter(random)), p.y() + jitter(random), p.z() + jitter(random));
+    p = Eigen::Vector3d(2.5 * (p.x() + jitter(random)), p.y() + jitter(random),
+                        p.z() + jitter(random));
   const Scenario s = scenario(shape);
   const auto run = [&](auto weight, Cell_scheme cells) {
     using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, decltype(weight)>;

@@ -17,9 +17,11 @@
 #include <CGAL/arap_deform.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Triangulation_3.h>
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 using namespace CGAL::ARAP;
 
@@ -136,6 +138,23 @@ int main()
   deform<Default, Domain_without_points>();
 #elif WRONG_MODEL == 10
   deform<ARAP_deformation_traits_3<Default, Weight_of_triangles>, Domain_of_tetrahedra>();
+#elif WRONG_MODEL == 11
+  std::vector<std::array<double, 3>> points;
+  CGAL::ARAP_deformation<decltype(points)> deformation(points);
+#elif WRONG_MODEL == 12
+  const Mesh mesh;
+  CGAL::ARAP_deformation<const Mesh> deformation(mesh);
+#elif WRONG_MODEL == 13
+  const Mesh mesh;
+  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
+                    mesh.points());
+#elif WRONG_MODEL == 14
+  Mesh mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  deformation.deform(10);
+#elif WRONG_MODEL == 15
+  CGAL::Triangulation_3<CGAL::Simple_cartesian<double>> triangulation;
+  CGAL::ARAP_deformation<decltype(triangulation)> deformation(triangulation);
 #else
 #error "there is no wrong model of that number"
 #endif

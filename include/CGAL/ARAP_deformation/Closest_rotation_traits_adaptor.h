@@ -33,8 +33,8 @@ namespace ARAP {
 /// overflows or underflows. The zero matrix gets the identity, and is not handed over.
 ///
 /// A result that is orthonormal but for a small error is made orthonormal up to rounding: CGAL's
-/// `Deformation_Eigen_polar_closest_rotation_traits_3` leaves errors of up to \f$5 \cdot 10^{-7}\f$.
-/// Any other result is passed on as it is.
+/// `Deformation_Eigen_polar_closest_rotation_traits_3` leaves errors of up to \f$5 \cdot
+/// 10^{-7}\f$. Any other result is passed on as it is.
 ///
 /// \tparam ClosestRotationTraits a model of `DeformationClosestRotationTraits_3`. One object of it
 ///         is made for each batch.

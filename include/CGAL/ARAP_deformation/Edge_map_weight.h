@@ -38,8 +38,8 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationWeights
 /// \brief weights that the user gives, one for each edge, whatever the geometry.
 ///
-/// An edge has its weight in each edge set that it belongs to: in the stars of both its vertices, or in
-/// each simplex at it. An edge that was given none weighs 0, as do the diagonals of polygons.
+/// An edge has its weight in each edge set that it belongs to: in the stars of both its vertices,
+/// or in each simplex at it. An edge that was given none weighs 0, as do the diagonals of polygons.
 /// With weights that are not negative no cell has a negative energy. Copies share the weights.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}

@@ -99,8 +99,8 @@ public:
 
   /// \brief returns where point `k` is for the present points of the domain. Constant time.
   ///
-  /// These are the points that the domain reads. If it writes to other ones, such as those of another
-  /// range, use a domain that reads these.
+  /// These are the points that the domain reads. If it writes to other ones, such as those of
+  /// another range, use a domain that reads these.
   /// \pre `k < size()`
   Coordinates position(std::size_t k) const
   {

@@ -55,16 +55,16 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \ingroup PkgARAPDeformationDomains
 /// \brief a surface of triangles or polygons, given as any model of `FaceGraph`.
 ///
-/// Only the free functions of the BGL and the property maps are used. The faces are the simplices; a
-/// polygon has the average weights of all its triangulations, which takes \f$O(k^3)\f$ time in
+/// Only the free functions of the BGL and the property maps are used. The faces are the simplices;
+/// a polygon has the average weights of all its triangulations, which takes \f$O(k^3)\f$ time in
 /// preprocessing and \f$O(k^2)\f$ in each iteration for \f$k\f$ corners.
 /// The mesh must outlive the domain; its connectivity must not change meanwhile.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; it may be `const` if the
 ///         points are written to an output map
-/// \tparam VertexPointMap a model of `ReadablePropertyMap` from the vertices to their points, and of
-///         `ReadWritePropertyMap` if there is no output map; default the internal map of the mesh.
-///         A point type has `operator[]` and a constructor from three coordinates.
+/// \tparam VertexPointMap a model of `ReadablePropertyMap` from the vertices to their points, and
+///         of `ReadWritePropertyMap` if there is no output map; default the internal map of the
+///         mesh. A point type has `operator[]` and a constructor from three coordinates.
 /// \tparam VertexIndexMap a model of `ReadablePropertyMap` from the vertices to 0, 1, ..., default
 ///         the internal map of the mesh or, if there is none, one that is filled at construction
 /// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
@@ -131,8 +131,8 @@ public:
       m_index_map(vertex_index_map), m_is_in_place(true)
   {}
 
-  /// constructs the domain with a map to the points that are read, and one to those that are written:
-  /// the points of all vertices of the region of interest.
+  /// constructs the domain with a map to the points that are read, and one to those that are
+  /// written: the points of all vertices of the region of interest.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map, Output_point_map output_point_map)
     : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(output_point_map),

@@ -38,11 +38,12 @@ namespace ARAP {
 /// Volumes must be tetrahedra, and faces closed: one that is not is refused where the region of
 /// interest meets it.
 ///
-/// Construction takes linear time and memory, for tables of vertices and simplices. The complex must
-/// outlive the domain; its cells must not change meanwhile.
+/// Construction takes linear time and memory, for tables of vertices and simplices. The complex
+/// must outlive the domain; its cells must not change meanwhile.
 ///
 /// \tparam LinearCellComplex a `CGAL::Linear_cell_complex_for_combinatorial_map` or
-///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with points in space
+///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with points in
+///         space
 ///
 /// \cgalModels{ARAPDomain_3}
 template <typename LinearCellComplex>

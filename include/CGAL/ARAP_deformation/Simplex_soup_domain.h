@@ -35,17 +35,18 @@ namespace ARAP {
 ///
 /// Vertices and simplices are identified by their places in the ranges. Nothing else is asked for:
 /// faces need not be oriented, an edge may have any number of faces, a tetrahedron either sign. A
-/// simplex with a corner that does not exist, or with a corner twice, is refused where the region of
-/// interest meets it.
+/// simplex with a corner that does not exist, or with a corner twice, is refused where the region
+/// of interest meets it.
 ///
-/// Construction takes linear time and memory, for a table of the simplices at each vertex. The ranges
-/// must outlive the domain; their sizes, and the simplices, must not change meanwhile.
+/// Construction takes linear time and memory, for a table of the simplices at each vertex. The
+/// ranges must outlive the domain; their sizes, and the simplices, must not change meanwhile.
 ///
 /// \tparam Dimension 2 if the simplices are triangles or polygons, 3 if they are tetrahedra
-/// \tparam PointRange a model of `RandomAccessContainer` of points. A point type has `operator[]` and
-///         a constructor from three coordinates.
+/// \tparam PointRange a model of `RandomAccessContainer` of points. A point type has `operator[]`
+///         and a constructor from three coordinates.
 /// \tparam SimplexRange a model of `RandomAccessContainer` of ranges of integers, such as
-///         `std::vector<std::array<int, 3>>`. The corners of a polygon are in their order around it.
+///         `std::vector<std::array<int, 3>>`. The corners of a polygon are in their order around
+///         it.
 ///
 /// \cgalModels{ARAPDomain_3}
 template <int Dimension, typename PointRange, typename SimplexRange>

@@ -40,8 +40,8 @@ namespace ARAP {
 ///
 /// A program moves over by including this header and writing
 /// `CGAL::ARAP::Surface_mesh_deformation`. Template parameters, members, their meaning, and the
-/// iterates are those of `CGAL::Surface_mesh_deformation` in the version of \cgal that is installed;
-/// its reference manual applies. For new programs there is `CGAL::ARAP_deformation`.
+/// iterates are those of `CGAL::Surface_mesh_deformation` in the version of \cgal that is
+/// installed; its reference manual applies. For new programs there is `CGAL::ARAP_deformation`.
 ///
 /// As there, the weights of all halfedges are computed at construction, and
 /// `overwrite_initial_geometry()` computes those at vertices of the region of interest again.

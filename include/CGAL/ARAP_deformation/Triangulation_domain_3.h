@@ -33,15 +33,15 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationDomains
 /// \brief the finite cells of a 3D triangulation, or a selection of them.
 ///
-/// Deforming moves vertices and changes nothing else: the combinatorial structure, indices and weights
-/// of the points are kept. **A deformed triangulation is in general no longer %Delaunay or regular**, a
-/// cell may be inside out, and the boundary need no longer be convex. Locating points in it, inserting
-/// and removing vertices, or dual constructions must then not be asked of it; walking over its cells,
-/// and writing it to a file, is fine. What cells keep for later, such as circumcenters and
-/// qualities, is marked out of date at each vertex that is moved.
+/// Deforming moves vertices and changes nothing else: the combinatorial structure, indices and
+/// weights of the points are kept. **A deformed triangulation is in general no longer %Delaunay or
+/// regular**, a cell may be inside out, and the boundary need no longer be convex. Locating points
+/// in it, inserting and removing vertices, or dual constructions must then not be asked of it;
+/// walking over its cells, and writing it to a file, is fine. What cells keep for later, such as
+/// circumcenters and qualities, is marked out of date at each vertex that is moved.
 ///
-/// Construction takes linear time, to number the vertices. The triangulation must outlive the domain;
-/// its vertices and cells, and which cells are selected, must not change meanwhile.
+/// Construction takes linear time, to number the vertices. The triangulation must outlive the
+/// domain; its vertices and cells, and which cells are selected, must not change meanwhile.
 ///
 /// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not
 ///
@@ -156,8 +156,8 @@ private:
 };
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of all finite cells of a 3D triangulation. If cells have a subdomain index,
-/// those where it has its default value, which stands for the outside, are left out.
+/// \brief returns the domain of all finite cells of a 3D triangulation. If cells have a subdomain
+/// index, those where it has its default value, which stands for the outside, are left out.
 template <typename Triangulation>
 Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& triangulation)
 {
@@ -166,8 +166,8 @@ Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& t
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of the cells of a complex in a 3D triangulation, of all subdomains.
-/// Vertices are numbered as in the domain that `ARAP_deformation` makes of the complex. The complex must
-/// outlive the domain.
+/// Vertices are numbered as in the domain that `ARAP_deformation` makes of the complex. The complex
+/// must outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>
@@ -181,9 +181,9 @@ make_complex_domain(MeshComplex& complex)
 }
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices that it shares
-/// with others belong to it: hold them if the others are to keep their shape. The complex must outlive
-/// the domain.
+/// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices that it
+/// shares with others belong to it: hold them if the others are to keep their shape. The complex
+/// must outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>

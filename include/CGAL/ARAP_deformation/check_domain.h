@@ -153,9 +153,9 @@ private:
 /// \brief tests a model of `ARAPDomain_3` on a mesh: not only that it compiles, but that what its
 /// functions say of each vertex and simplex agrees.
 ///
-/// Each point is moved and put back, so that the mesh is afterwards as it was, if the domain conforms
-/// and throws no exception. Takes time in proportion to the sum of the squares of the numbers of
-/// simplices at the vertices.
+/// Each point is moved and put back, so that the mesh is afterwards as it was, if the domain
+/// conforms and throws no exception. Takes time in proportion to the sum of the squares of the
+/// numbers of simplices at the vertices.
 ///
 /// \returns a sentence for each requirement that the domain does not fulfil, with the first vertex
 /// where this is seen; nothing if the domain conforms.

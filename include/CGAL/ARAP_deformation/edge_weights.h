@@ -117,8 +117,8 @@ public:
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief 1 for each edge of each edge set, whatever the shape; the diagonals of a polygon are edges
-/// too.
+/// \brief 1 for each edge of each edge set, whatever the shape; the diagonals of a polygon are
+/// edges too.
 ///
 /// Needs no geometry and never fails, but the result depends on how the shape is meshed (Figure 2
 /// of \cgalCite{Sorkine2007AsRigidAs}).

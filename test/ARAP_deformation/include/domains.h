@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_DOMAINS_H
 #define CGAL_ARAP_DEFORMATION_TEST_DOMAINS_H
 
-// What each domain is tested with: it conforms to its concept, and gives for the same shape the same
-// energies and positions as the domain of ranges.
+// What each domain is tested with: it conforms to its concept, and gives for the same shape the
+// same energies and positions as the domain of ranges.
 
 #include "check.h"
 #include "shapes.h"
@@ -63,8 +63,8 @@ void check_conforms(const Domain& domain)
   CHECK(violations.empty());
 }
 
-// Ten iterations; vertex k of the shape is vertices[k] of the domain. `read` gives the result, which
-// need not be where the domain reads from.
+// Ten iterations; vertex k of the shape is vertices[k] of the domain. `read` gives the result,
+// which need not be where the domain reads from.
 template <typename Domain, typename Vertices, typename Read>
 Result deform(const Domain& domain, const Vertices& vertices, const Scenario& s, Cell_scheme cells,
               const Read& read)
@@ -134,6 +134,32 @@ inline void compare(const Result& a, const Result& b, double diameter, double en
 inline void compare(const Result& a, const Result& b, double diameter, double tolerance = 1e-10)
 {
   compare(a, b, diameter, tolerance, tolerance);
+}
+
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+// a tube of quads, closed by two polygons with many corners
+inline Shape tube(Polygons& polygons)
+{
+  const std::size_t around = 14, along = 12;
+  Shape shape{"tube", {}, {}};
+  for(std::size_t j = 0; j <= along; ++j)
+    for(std::size_t i = 0; i < around; ++i)
+      shape.points.emplace_back(std::cos(2 * 3.14159265 * i / around),
+                                std::sin(2 * 3.14159265 * i / around), 0.45 * j);
+  for(std::size_t j = 0; j < along; ++j)
+    for(std::size_t i = 0; i < around; ++i)
+      polygons.push_back({j * around + i, j * around + (i + 1) % around,
+                          (j + 1) * around + (i + 1) % around, (j + 1) * around + i});
+  std::vector<std::size_t> bottom, top;
+  for(std::size_t i = 0; i < around; ++i)
+  {
+    bottom.push_back(around - 1 - i);
+    top.push_back(along * around + i);
+  }
+  polygons.push_back(bottom);
+  polygons.push_back(top);
+  return shape;
 }
 
 // A block of n x m x k cubes with a rounded side, each cut in five tetrahedra.

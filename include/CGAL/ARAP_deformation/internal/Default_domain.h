@@ -77,8 +77,8 @@ template <typename T>
 struct Is_generalized_map<T, std::void_t<
   decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1))>> : std::false_type {};
 
-// Whether a mesh is a linear cell complex that is no FaceGraph: it is of dimension 3, or its map is a
-// generalized one, or its faces have no attributes. CGAL has graph_traits for the first and the
+// Whether a mesh is a linear cell complex that is no FaceGraph: it is of dimension 3, or its map is
+// a generalized one, or its faces have no attributes. CGAL has graph_traits for the first and the
 // last that do not work.
 template <typename Mesh>
 constexpr bool is_complex_without_graph()
@@ -120,7 +120,8 @@ struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
                 "periodic triangulations cannot be deformed");
   using type = Triangulation_domain_3<Mesh>;
   static_assert(Is_complete<type>::value,
-                "to deform a triangulation, #include <CGAL/ARAP_deformation/Triangulation_domain_3.h>");
+                "to deform a triangulation, "
+                "#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>");
 };
 
 template <typename Mesh>

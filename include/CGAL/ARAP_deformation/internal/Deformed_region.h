@@ -48,7 +48,10 @@ struct Deformed_region
 
   int size() const { return static_cast<int>(vertices.size()); }
 
-  Coordinates rest_coordinates(int k) const { return Point_conversion<Point>::coordinates(rest[k]); }
+  Coordinates rest_coordinates(int k) const
+  {
+    return Point_conversion<Point>::coordinates(rest[k]);
+  }
 
   void reset_rotations() { std::fill(rotations.begin(), rotations.end(), identity_matrix()); }
 };

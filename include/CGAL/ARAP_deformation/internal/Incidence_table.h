@@ -22,8 +22,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// For each of the vertices 0, 1, ... the simplices that have it as a corner, for complexes that cannot
-// tell. Linear time and memory.
+// For each of the vertices 0, 1, ... the simplices that have it as a corner, for complexes that
+// cannot tell. Linear time and memory.
 class Incidence_table
 {
 public:

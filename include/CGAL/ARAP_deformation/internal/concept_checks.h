@@ -37,7 +37,8 @@ template <typename Void, template <typename...> class Expression, typename... Ar
 struct Is_valid : std::false_type {};
 
 template <template <typename...> class Expression, typename... Arguments>
-struct Is_valid<std::void_t<Expression<Arguments...>>, Expression, Arguments...> : std::true_type {};
+struct Is_valid<std::void_t<Expression<Arguments...>>, Expression, Arguments...>
+  : std::true_type {};
 
 // whether the alias template Expression has a meaning for the arguments
 template <template <typename...> class Expression, typename... Arguments>

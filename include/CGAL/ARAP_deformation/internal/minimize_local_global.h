@@ -38,8 +38,9 @@ namespace internal {
 // equation L dx = b - L x is solved, whose right-hand side is minus half the gradient, so that the
 // fixed point does not depend on the accuracy of the factor.
 //
-// `observe(k, E_k)` is called after iteration k, and after the initial evaluation with k = 0. Its type is
-// erased: what a mesh and its visitor are makes no difference here, and costs no compile time.
+// `observe(k, E_k)` is called after iteration k, and after the initial evaluation with k = 0. Its
+// type is erased: what a mesh and its visitor are makes no difference here, and costs no compile
+// time.
 using Observer = std::function<Visitor_action(unsigned int, double)>;
 
 template <typename ClosestRotation, typename Solver>

@@ -26,8 +26,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The weights of the edges of all simplices of a region, one simplex after the other: of all pairs of
-// corners, (0, 1), (0, 2), ..., (1, 2), ...
+// The weights of the edges of all simplices of a region, one simplex after the other: of all pairs
+// of corners, (0, 1), (0, 2), ..., (1, 2), ...
 using Simplex_weights = std::vector<double>;
 
 template <std::size_t N>
