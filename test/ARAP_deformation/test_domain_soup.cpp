@@ -193,19 +193,19 @@ int main()
   test_point_type<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>(1e-12);
 
   using Triangles = std::vector<std::array<int, 3>>;
-  using Polygons = std::vector<std::vector<int>>;
+  using Signed_polygons = std::vector<std::vector<int>>;
   using Tetrahedra = std::vector<std::array<int, 4>>;
   test_case() = "a corner that does not exist";
   check_refused<2>(Triangles{{0, 1, 2}, {0, 1, 5}});
   check_refused<2>(Triangles{{0, 1, 2}, {0, -1, 4}});
-  check_refused<2>(Polygons{{0, 1, 2}, {0, 1, 2, 9}});
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1, 2, 9}});
   check_refused<3>(Tetrahedra{{0, 1, 2, 3}, {0, 1, 2, 1000000}});
   test_case() = "a corner twice";
   check_refused<2>(Triangles{{0, 1, 2}, {0, 1, 1}});
-  check_refused<2>(Polygons{{0, 1, 2}, {0, 1, 2, 3, 1, 4}});
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1, 2, 3, 1, 4}});
   check_refused<3>(Tetrahedra{{0, 1, 2, 3}, {0, 1, 2, 0}});
   test_case() = "too few corners";
-  check_refused<2>(Polygons{{0, 1, 2}, {0, 1}});
-  check_refused<3>(Polygons{{0, 1, 2, 3}, {0, 1, 4}});
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1}});
+  check_refused<3>(Signed_polygons{{0, 1, 2, 3}, {0, 1, 4}});
   return checks_result();
 }
