@@ -19,8 +19,7 @@
 
 #include <CGAL/tags.h>
 
-#include <boost/graph/graph_traits.hpp>
-
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -68,7 +67,7 @@ template <typename T>
 using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangulation
 
 template <typename T>
-using Halfedge_of = typename boost::graph_traits<T>::halfedge_descriptor;
+using Begin_of = decltype(std::begin(std::declval<T&>()));
 
 // only a linear cell complex over a combinatorial map has this member
 template <typename T, typename = void>
@@ -100,10 +99,10 @@ struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
 template <typename Mesh, typename = void>
 struct Default_domain
 {
-  static_assert(is_valid<Halfedge_of, std::remove_const_t<Mesh>>,
-                "the mesh is no FaceGraph that is known: #include its header in CGAL/boost/graph "
-                "(graph_traits_...), or give its domain; for ranges of points and simplices, "
-                "CGAL::ARAP::Simplex_soup_domain");
+  // boost::graph_traits cannot be asked whether a mesh is a FaceGraph: it then does not compile
+  static_assert(!is_valid<Begin_of, Mesh>,
+                "a range is no mesh: ranges of points and simplices are deformed through their "
+                "domain, CGAL::ARAP::Simplex_soup_domain");
   using type = Face_graph_domain<Mesh>;
 };
 
