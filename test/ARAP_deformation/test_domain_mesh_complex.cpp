@@ -85,6 +85,7 @@ int main()
 {
   Complex complex = make_complex();
   Triangulation& triangulation = complex.triangulation();
+  const auto& traits = triangulation.geom_traits();
   std::set<Triangulation::Cell_handle> all, right;
   for(auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell)
   {
@@ -110,7 +111,7 @@ int main()
   for(auto cell : triangulation.finite_cell_handles())
   {
     cell->invalidate_weighted_circumcenter_cache();
-    cell->weighted_circumcenter(Epick());
+    cell->weighted_circumcenter(traits);
     cell->set_sliver_value(0.5);
   }
   CGAL::ARAP_deformation<Complex> deformation(complex); // finds its domain by itself
@@ -135,8 +136,8 @@ int main()
   for(auto cell : all)
   {
     const auto p = [&](int k) { return cell->vertex(k)->point(); };
-    CHECK(cell->weighted_circumcenter(Epick()) ==
-          Epick().construct_weighted_circumcenter_3_object()(p(0), p(1), p(2), p(3)));
+    CHECK(cell->weighted_circumcenter(traits) ==
+          traits.construct_weighted_circumcenter_3_object()(p(0), p(1), p(2), p(3)));
     CHECK(!cell->is_cache_valid());
   }
   return checks_result();

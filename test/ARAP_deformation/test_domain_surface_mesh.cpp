@@ -196,7 +196,7 @@ void test_filtered_graph()
   for(Cell_scheme cells : all_cell_schemes)
   {
     Mesh copy = mesh;
-    Graph copy_graph(copy, 1, copy.property_map<Mesh::Face_index, int>("f:patch").first);
+    Graph copy_graph(copy, 1, copy.add_property_map<Mesh::Face_index, int>("f:patch").first);
     const Face_graph_domain<Graph> domain(copy_graph);
     if(cells == all_cell_schemes[0])
       check_conforms(domain);
