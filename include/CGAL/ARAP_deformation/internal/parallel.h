@@ -1,0 +1,108 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+#endif
+
+// All that knows of threads. With TBB (the target CGAL::TBB_support, which defines
+// CGAL_LINKED_WITH_TBB) work is done at the same time, without it one piece after the other. How
+// work is cut into pieces never depends on the number of threads, and so neither do the results.
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Calls f() with at most `number_of_threads` threads at work on what it runs in parallel; 0 for as
+// many as TBB takes by itself.
+template <typename Function>
+void run_with_threads(unsigned int number_of_threads, const Function& f)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if(number_of_threads > 0)
+  {
+    tbb::task_arena arena(static_cast<int>(number_of_threads));
+    arena.execute(f);
+    return;
+  }
+#endif
+  static_cast<void>(number_of_threads);
+  f();
+}
+
+// Calls f(k) for k in [0, n), in any order.
+template <typename Function>
+void for_each_task(std::size_t n, const Function& f)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if(n > 1)
+  {
+    tbb::parallel_for(std::size_t(0), n, f);
+    return;
+  }
+#endif
+  for(std::size_t k = 0; k < n; ++k)
+    f(k);
+}
+
+// Calls f() and g(), in any order.
+template <typename F, typename G>
+void run_both(const F& f, const G& g)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  tbb::parallel_invoke(f, g);
+#else
+  f();
+  g();
+#endif
+}
+
+// large enough to make the cost of a task negligible where each element costs ten nanoseconds
+constexpr std::size_t default_block_size = 1024;
+
+// Calls f(begin, end) for consecutive blocks of [0, n), in any order.
+template <typename Function>
+void for_each_block(std::size_t n, const Function& f, std::size_t block_size = default_block_size)
+{
+  for_each_task((n + block_size - 1) / block_size, [&](std::size_t k) {
+    f(k * block_size, (std::min)(n, (k + 1) * block_size));
+  });
+}
+
+// The sum of f(begin, end) over consecutive blocks of [0, n), added up in their order.
+template <typename Function>
+double sum_over_blocks(std::size_t n, const Function& f,
+                       std::size_t block_size = default_block_size)
+{
+  std::vector<double> sums((n + block_size - 1) / block_size);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    sums[begin / block_size] = f(begin, end);
+  }, block_size);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_H
