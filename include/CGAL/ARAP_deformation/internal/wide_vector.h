@@ -25,7 +25,8 @@
 #endif
 
 // Whether there is something to choose at run time: x86 that is not compiled for AVX2 anyway.
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__)) && !(defined(__AVX2__) && defined(__FMA__))
+#if defined(__GNUC__) && defined(__x86_64__) && \
+    !(defined(__AVX2__) && defined(__FMA__))
 #define CGAL_ARAP_HAS_DISPATCH
 #endif
 
