@@ -77,9 +77,10 @@ public:
       Scoped_seconds seconds(report.seconds.initial_guess);
       if(!m_laplacian_guess)
       {
-        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, simplex_weights(m_weight, m_region),
+        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, weighted_simplices(m_weight, m_region),
                                                      m_region),
-                                      m_region.number_of_free_vertices, m_prototype_solver);
+                                      m_region.rest, m_region.number_of_free_vertices,
+                                      m_prototype_solver);
         if(!guess.is_factorized())
           return {Status::singular_matrix};
         m_laplacian_guess.emplace(std::move(guess));
@@ -116,12 +117,11 @@ private:
   {
     if(const int v = find_non_finite(m_region.rest); v >= 0)
       return {Status::non_finite_point, v};
-    const Simplex_weights weights = simplex_weights(m_weight, m_region);
-    if(const int s = find_non_finite_simplex(weights, m_region); s >= 0)
+    Simplices simplices = weighted_simplices(m_weight, m_region);
+    if(const int s = find_non_finite_simplex(simplices); s >= 0)
       return {Status::non_finite_weight, -1, s};
-    m_energy = make_rigidity_energy(m_weight, weights, scheme, m_region);
-    const Diagnosis diagnosis =
-      factorize_laplacian(m_energy, m_region.number_of_free_vertices, m_solver);
+    m_energy = make_rigidity_energy(m_weight, std::move(simplices), scheme, m_region);
+    const Diagnosis diagnosis = factorize_laplacian(m_energy, m_solver);
     reset_rotations();
     return diagnosis;
   }

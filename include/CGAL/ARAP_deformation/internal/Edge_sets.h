@@ -15,14 +15,16 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
-#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Groups.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simplex_weights.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -30,110 +32,165 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// an edge (i, j) with its weight and its vector p_i - p_j in the rest shape
-struct Weighted_edge
+// The edge sets that are stars: the neighbours of each centre, and the weights of the edges to them.
+struct Stars
 {
-  int i, j;
-  double weight;
-  Coordinates rest;
+  Groups neighbours;
+  std::vector<double> weights; // for each item of `neighbours`
+
+  int size() const { return neighbours.size(); }
+
+  // the place of the neighbour j of i
+  int find(int i, int j) const
+  {
+    const auto begin = neighbours.items.begin() + neighbours.begin[i];
+    const auto end = neighbours.items.begin() + neighbours.begin[i + 1];
+    const auto found = std::find(begin, end, j);
+    CGAL_assertion(found != end);
+    return static_cast<int>(found - neighbours.items.begin());
+  }
+
+  // calls f(i, j, w) for each edge (i, j) of the star of i with its weight w
+  template <typename Function>
+  void for_each_edge(const Function& f) const
+  {
+    for(int i = 0; i < size(); ++i)
+      for(int e = neighbours.begin[i]; e < neighbours.begin[i + 1]; ++e)
+        f(i, neighbours.items[e], weights[e]);
+  }
 };
 
-// the edges of all edge sets: those of set u are edges[begin[u]] to edges[begin[u + 1] - 1]
-struct Edge_sets
+// The edge sets that are simplices: the corners of each, and the weights of the edges between all
+// pairs of them, in the order (0, 1), (0, 2), ..., (1, 2), ...
+struct Simplices
 {
-  std::vector<int> begin = {0};
-  std::vector<Weighted_edge> edges;
+  Groups corners;
+  std::vector<int> first_weight;
+  std::vector<double> weights;
 
-  int size() const { return static_cast<int>(begin.size()) - 1; }
+  int size() const { return corners.size(); }
+  int number_of_corners(int s) const { return corners.begin[s + 1] - corners.begin[s]; }
+
+  // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may change
+  template <typename Function>
+  void for_each_edge(const Function& f) const { visit_edges(*this, f); }
+  template <typename Function>
+  void for_each_edge(const Function& f) { visit_edges(*this, f); }
+
+private:
+  template <typename Self, typename Function>
+  static void visit_edges(Self& self, const Function& f)
+  {
+    for(int s = 0; s < self.size(); ++s)
+    {
+      auto* w = self.weights.data() + self.first_weight[s];
+      for(int a = self.corners.begin[s]; a < self.corners.begin[s + 1]; ++a)
+        for(int b = a + 1; b < self.corners.begin[s + 1]; ++b, ++w)
+          f(s, self.corners.items[a], self.corners.items[b], *w);
+    }
+  }
 };
 
-// calls f(s, i, j, w) for each edge (i, j) of each simplex s of the region with its weight w there
-template <typename Function>
-void for_each_simplex_edge(const Simplex_weights& weights, const Region& region, const Function& f)
+// the simplices of a region, with the weights that the model gives for their shapes
+template <typename EdgeWeight>
+Simplices weighted_simplices(const EdgeWeight& weight, const Region& region)
 {
-  auto w = weights.begin();
+  Simplices simplices;
+  simplices.corners = {region.first_corner, region.corners};
+  simplices.first_weight.reserve(region.number_of_simplices());
+  int number_of_weights = 0;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    const int* corners = region.corners_of(s);
-    for(int a = 0; a < region.number_of_corners(s); ++a)
-      for(int b = a + 1; b < region.number_of_corners(s); ++b, ++w)
-        f(s, corners[a], corners[b], *w);
+    simplices.first_weight.push_back(number_of_weights);
+    number_of_weights += region.number_of_corners(s) * (region.number_of_corners(s) - 1) / 2;
   }
+  simplices.weights.resize(number_of_weights);
+  for_each_block(simplices.size(), [&](std::size_t begin, std::size_t end) {
+    for(std::size_t s = begin; s < end; ++s)
+      compute_simplex_weights(weight, region, static_cast<int>(s),
+                              simplices.weights.data() + simplices.first_weight[s]);
+  });
+  return simplices;
 }
 
 // the index of a simplex whose weights are not finite, or -1
-inline int find_non_finite_simplex(const Simplex_weights& weights, const Region& region)
+inline int find_non_finite_simplex(const Simplices& simplices)
 {
-  int bad = -1;
-  for_each_simplex_edge(weights, region, [&bad](int s, int, int, double w) {
-    if(bad < 0 && !std::isfinite(w))
-      bad = s;
-  });
-  return bad;
+  for(std::size_t k = 0; k < simplices.weights.size(); ++k)
+    if(!std::isfinite(simplices.weights[k]))
+      return static_cast<int>(std::upper_bound(simplices.first_weight.begin(),
+                                               simplices.first_weight.end(), static_cast<int>(k)) -
+                              simplices.first_weight.begin()) - 1;
+  return -1;
 }
 
-// one edge set for each simplex
+// the same simplices with the weights that the model gives edges in simplices
 template <typename EdgeWeight>
-Edge_sets simplex_edge_sets(const EdgeWeight& weight, const Simplex_weights& weights,
-                            const Region& region)
+Simplices simplex_edge_sets(const EdgeWeight& weight, Simplices simplices, const Region& region)
 {
-  Edge_sets sets;
-  sets.begin.reserve(region.number_of_simplices() + 1);
-  sets.edges.reserve(weights.size());
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-  {
-    const int n = region.number_of_corners(s);
-    sets.begin.push_back(sets.begin.back() + n * (n - 1) / 2);
-  }
-  for_each_simplex_edge(weights, region, [&](int, int i, int j, double w) {
-    sets.edges.push_back({i, j, weight.edge_weight(Edge_set::simplex, region.indices[i],
-                                                   region.indices[j], w),
-                          difference(region.rest[i], region.rest[j])});
+  simplices.for_each_edge([&](int, int i, int j, double& w) {
+    w = weight.edge_weight(Edge_set::simplex, region.indices[i], region.indices[j], w);
   });
-  return sets;
+  return simplices;
 }
 
 // one edge set for each centre: its edges to its neighbours, in the order of their numbers
 template <typename EdgeWeight>
-Edge_sets star_edge_sets(const EdgeWeight& weight, const Simplex_weights& weights,
-                         const Region& region)
+Stars star_edge_sets(const EdgeWeight& weight, const Simplices& simplices, const Region& region)
 {
-  // the neighbours of centre i, each with one weight for each simplex at the edge, will be
-  // neighbours[first[i]] to neighbours[first[i + 1] - 1]
+  // first the neighbours of each centre with one weight for each simplex at the edge
+  const int n = region.number_of_centres;
   using Neighbour = std::pair<int, double>;
-  std::vector<int> first(region.number_of_centres + 1, 0);
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-    for(int k = region.first_corner[s]; k < region.first_corner[s + 1]; ++k)
-      if(const int i = region.corners[k]; i < region.number_of_centres)
-        first[i + 1] += region.number_of_corners(s) - 1;
+  std::vector<int> first(n + 1, 0);
+  for(int s = 0; s < simplices.size(); ++s)
+    for(int k = simplices.corners.begin[s]; k < simplices.corners.begin[s + 1]; ++k)
+      if(const int i = simplices.corners.items[k]; i < n)
+        first[i + 1] += simplices.number_of_corners(s) - 1;
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Neighbour> neighbours(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
-  for_each_simplex_edge(weights, region, [&](int, int i, int j, double w) {
-    if(i < region.number_of_centres) neighbours[next[i]++] = {j, w};
-    if(j < region.number_of_centres) neighbours[next[j]++] = {i, w};
+  simplices.for_each_edge([&](int, int i, int j, double w) {
+    if(i < n) neighbours[next[i]++] = {j, w};
+    if(j < n) neighbours[next[j]++] = {i, w};
   });
 
-  Edge_sets sets;
-  sets.begin.reserve(first.size());
-  sets.edges.reserve(neighbours.size() / 2);
-  for(int i = 0; i < region.number_of_centres; ++i)
-  {
-    const auto end = neighbours.begin() + first[i + 1];
-    std::sort(neighbours.begin() + first[i], end);
-    for(auto it = neighbours.begin() + first[i]; it != end;)
+  // then one for all of them: of centre i there are sizes[i]
+  std::vector<int>& sizes = next;
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
     {
-      const int j = it->first;
-      double sum = 0;
-      for(; it != end && it->first == j; ++it)
-        sum += it->second;
-      sets.edges.push_back({i, j, weight.edge_weight(Edge_set::star, region.indices[i],
-                                                     region.indices[j], sum),
-                            difference(region.rest[i], region.rest[j])});
+      const auto begin_of_star = neighbours.begin() + first[i];
+      const auto end_of_star = neighbours.begin() + first[i + 1];
+      std::sort(begin_of_star, end_of_star);
+      auto last = begin_of_star;
+      for(auto it = begin_of_star; it != end_of_star;)
+      {
+        Neighbour sum(it->first, 0);
+        for(; it != end_of_star && it->first == sum.first; ++it)
+          sum.second += it->second;
+        sum.second = weight.edge_weight(Edge_set::star, region.indices[i],
+                                        region.indices[sum.first], sum.second);
+        *last++ = sum;
+      }
+      sizes[i] = static_cast<int>(last - begin_of_star);
     }
-    sets.begin.push_back(static_cast<int>(sets.edges.size()));
-  }
-  return sets;
+  });
+
+  Stars stars;
+  stars.neighbours.begin.resize(n + 1);
+  std::partial_sum(sizes.begin(), sizes.end(), stars.neighbours.begin.begin() + 1);
+  stars.neighbours.items.resize(stars.neighbours.begin.back());
+  stars.weights.resize(stars.neighbours.begin.back());
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(int k = 0; k < sizes[i]; ++k)
+      {
+        const Neighbour& neighbour = neighbours[first[i] + k];
+        stars.neighbours.items[stars.neighbours.begin[i] + k] = neighbour.first;
+        stars.weights[stars.neighbours.begin[i] + k] = neighbour.second;
+      }
+  });
+  return stars;
 }
 
 } // namespace internal

@@ -276,12 +276,13 @@ private:
       if(!is_finite(region.rest_coordinates(k)))
         return internal::outcome(Status::non_finite_point, name(region.vertices[k]));
 
-    const Halfedge_energy_builder builder(m_mesh, region, m_index_map, m_weights, system.numbers);
+    const Halfedge_energy_builder builder(m_mesh, region, m_index_map, m_weights, system.numbers,
+                                          system.number_of_free_vertices);
     if constexpr(Tag == SPOKES_AND_RIMS)
     {
       if(const int k = builder.find_non_triangle(); k >= 0)
         return Outcome(Status::not_a_simplex,
-                       name(region.vertices[k]) + " is at a face that is not a triangle");
+                       name(vertex(region, system, k)) + " is at a face that is not a triangle");
       system.energy = builder.spokes_and_rims();
     }
     else
@@ -290,19 +291,17 @@ private:
       Tag == SPOKES_AND_RIMS ? system.energy.number_of_edge_sets() : 0;
 
     Outcome bad_weight(Status::success, std::string());
-    system.energy.for_each_edge([&](const Weighted_edge& edge, double) {
-      if(bad_weight && !std::isfinite(edge.weight))
+    system.energy.for_each_edge([&](int i, int j, double weight) {
+      if(bad_weight && !std::isfinite(weight))
         bad_weight = Outcome(Status::non_finite_weight,
-                             "the weight of the edge from " +
-                               name(vertex(region, system, edge.j)) + " to " +
-                               name(vertex(region, system, edge.i)) +
+                             "the weight of the edge from " + name(vertex(region, system, j)) +
+                               " to " + name(vertex(region, system, i)) +
                                " is infinite or not a number");
     });
     if(!bad_weight)
       return bad_weight;
 
-    const Diagnosis diagnosis =
-      factorize_laplacian(system.energy, system.number_of_free_vertices, system.solver);
+    const Diagnosis diagnosis = factorize_laplacian(system.energy, system.solver);
     return internal::outcome(diagnosis.status,
                              diagnosis.vertex < 0 ? std::string()
                                                   : name(vertex(region, system, diagnosis.vertex)));
@@ -335,7 +334,9 @@ private:
         return internal::outcome(Status::non_finite_point, name(region.vertices[k]));
       x[system.numbers[k]] = c;
     }
-    std::vector<Matrix_3x3> rotations = region.rotations;
+    std::vector<Matrix_3x3> rotations(region.rotations.size()); // by the numbers of the centres
+    for(int k = 0; k < region.number_of_cells; ++k)
+      rotations[system.numbers[k]] = region.rotations[k];
     const Status status =
       minimize_global_local(system.energy, m_closest_rotation, system.solver,
                             report.free_vertices, iterations, tolerance, x, rotations, report);
@@ -352,9 +353,13 @@ private:
                          ? Point_conversion<Point>::make_point(x[number])
                          : region.points[k]);
     }
+    std::vector<Matrix_3x3> region_rotations;
+    region_rotations.reserve(rotations.size());
+    for(int k = 0; k < region.number_of_cells; ++k)
+      region_rotations.push_back(rotations[system.numbers[k]]);
     take(std::move(update));
     m_region.points = std::move(points);
-    m_region.rotations = std::move(rotations);
+    m_region.rotations = std::move(region_rotations);
     for(int k = 0; k < m_region.roi_size; ++k)
       put(m_point_map, m_region.vertices[k], m_region.points[k]);
     return status == Status::converged

@@ -31,66 +31,78 @@ namespace ARAP {
 namespace internal {
 
 // Energies of a region whose edges have the weights of halfedges. Vertex k of the region has the
-// number numbers[k] in the energy.
+// number numbers[k] in the energy, and so has the cell around it; the free vertices come first.
 template <typename Mesh, typename Region, typename VertexIndexMap, typename Weights>
 class Halfedge_energy_builder
 {
+  using Vertex_ = typename boost::graph_traits<Mesh>::vertex_descriptor;
+
 public:
   Halfedge_energy_builder(const Mesh& mesh, const Region& region,
                           const VertexIndexMap& index_map, const Weights& weights,
-                          const std::vector<int>& numbers)
+                          const std::vector<int>& numbers, int number_of_free_vertices)
     : m_mesh(mesh), m_region(region), m_index_map(index_map), m_weights(weights),
-      m_numbers(numbers)
-  {}
+      m_numbers(numbers), m_number_of_free_vertices(number_of_free_vertices),
+      m_centres(region.number_of_cells), m_rest(region.size())
+  {
+    for(int k = 0; k < region.size(); ++k)
+      m_rest[numbers[k]] = region.rest_coordinates(k);
+    for(int k = 0; k < region.number_of_cells; ++k)
+      m_centres[numbers[k]] = region.vertices[k];
+  }
 
   // for each cell its edges, each with the weight of the halfedge to the centre
   Rigidity_energy spokes() const
   {
-    Edge_sets sets = empty_sets();
+    Stars stars;
+    stars.weights.reserve(6 * m_region.vertices.size()); // what a closed mesh needs
+    stars.neighbours.items.reserve(6 * m_region.vertices.size());
     for(int cell = 0; cell < m_region.number_of_cells; ++cell)
     {
-      for_each_halfedge_to(m_region.vertices[cell], m_mesh,
-                           [&](auto h) { append_edge(h, sets); });
-      close_set(sets);
+      for_each_halfedge_to(m_centres[cell], m_mesh, [&](auto h) {
+        stars.neighbours.items.push_back(number(source(h, m_mesh)));
+        stars.weights.push_back(m_weights[h]);
+      });
+      stars.neighbours.begin.push_back(static_cast<int>(stars.neighbours.items.size()));
     }
-    return Rigidity_energy(std::move(sets), separate_cells(m_region.number_of_cells));
+    return Rigidity_energy(Star_energy(std::move(stars), m_number_of_free_vertices), m_rest,
+                           m_number_of_free_vertices);
   }
 
   // for each cell the edges of all faces at its centre, each with the weight of the halfedge in the
   // face
   Rigidity_energy spokes_and_rims() const
   {
-    Edge_sets sets = empty_sets();
+    Simplices faces;
     Cells cells;
-    std::vector<int> set_of_face(m_weights.size(), -1); // for each halfedge: that of its face
+    std::vector<int> number_of_face(m_weights.size(), -1); // for each halfedge: that of its face
     for(int cell = 0; cell < m_region.number_of_cells; ++cell)
     {
-      for_each_halfedge_to(m_region.vertices[cell], m_mesh, [&](auto h) {
+      for_each_halfedge_to(m_centres[cell], m_mesh, [&](auto h) {
         if(is_border(h, m_mesh))
           return;
-        if(set_of_face[m_weights.index(h)] < 0)
+        if(number_of_face[m_weights.index(h)] < 0)
         {
           for(const auto g : halfedges_around_face(h, m_mesh))
-          {
-            set_of_face[m_weights.index(g)] = sets.size();
-            append_edge(g, sets);
-          }
-          close_set(sets);
+            number_of_face[m_weights.index(g)] = faces.size();
+          append_face(h, faces);
         }
-        cells.sets.push_back(set_of_face[m_weights.index(h)]);
+        cells.sets.items.push_back(number_of_face[m_weights.index(h)]);
       });
-      cells.begin.push_back(static_cast<int>(cells.sets.size()));
+      cells.sets.begin.push_back(static_cast<int>(cells.sets.items.size()));
     }
     cells.stiffness.assign(m_region.number_of_cells, 1);
-    return Rigidity_energy(std::move(sets), std::move(cells));
+    return Rigidity_energy(
+      Simplex_energy(std::move(faces), std::move(cells), m_number_of_free_vertices), m_rest,
+      m_number_of_free_vertices);
   }
 
-  // the centre of a cell that is at a face that is not a triangle, or -1
+  // the number of a centre of a cell that is at a face that is not a triangle, or -1
   int find_non_triangle() const
   {
     int found = -1;
     for(int cell = 0; cell < m_region.number_of_cells && found < 0; ++cell)
-      for_each_halfedge_to(m_region.vertices[cell], m_mesh, [&](auto h) {
+      for_each_halfedge_to(m_centres[cell], m_mesh, [&](auto h) {
         if(!is_border(h, m_mesh) && !is_triangle(h, m_mesh))
           found = cell;
       });
@@ -98,36 +110,30 @@ public:
   }
 
 private:
-  // with room for what a closed mesh needs: there are three edges and two faces for each vertex
-  Edge_sets empty_sets() const
-  {
-    Edge_sets sets;
-    sets.edges.reserve(6 * m_region.vertices.size());
-    return sets;
-  }
-
+  // the triangle of h
   template <typename Halfedge>
-  void append_edge(Halfedge h, Edge_sets& sets) const
+  void append_face(Halfedge h, Simplices& faces) const
   {
-    const int i = place(target(h, m_mesh)), j = place(source(h, m_mesh));
-    sets.edges.push_back({m_numbers[i], m_numbers[j], m_weights[h],
-                          difference(m_region.rest_coordinates(i),
-                                     m_region.rest_coordinates(j))});
-  }
-
-  static void close_set(Edge_sets& sets)
-  {
-    sets.begin.push_back(static_cast<int>(sets.edges.size()));
+    const Halfedge g = next(h, m_mesh), f = next(g, m_mesh);
+    faces.first_weight.push_back(static_cast<int>(faces.weights.size()));
+    for(const Halfedge corner : {h, g, f})
+      faces.corners.items.push_back(number(target(corner, m_mesh)));
+    faces.corners.begin.push_back(static_cast<int>(faces.corners.items.size()));
+    for(const Halfedge edge : {g, h, f}) // of the corners (0, 1), (0, 2) and (1, 2)
+      faces.weights.push_back(m_weights[edge]);
   }
 
   template <typename Vertex>
-  int place(Vertex v) const { return m_region.places[get(m_index_map, v)]; }
+  int number(Vertex v) const { return m_numbers[m_region.places[get(m_index_map, v)]]; }
 
   const Mesh& m_mesh;
   const Region& m_region;
   const VertexIndexMap& m_index_map;
   const Weights& m_weights;
   const std::vector<int>& m_numbers;
+  int m_number_of_free_vertices;
+  std::vector<Vertex_> m_centres;   // by their numbers
+  std::vector<Coordinates> m_rest; // by the vertices' numbers
 };
 
 } // namespace internal

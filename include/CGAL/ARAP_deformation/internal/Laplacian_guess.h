@@ -35,16 +35,17 @@ template <typename Solver>
 class Laplacian_guess
 {
 public:
-  // The first vertices are free.
-  Laplacian_guess(Edge_sets stars, int number_of_free_vertices, Solver solver)
-    : m_stars(std::move(stars)), m_step(number_of_free_vertices), m_solver(std::move(solver))
+  // The first vertices are free; `rest` has the positions of all.
+  Laplacian_guess(Stars stars, const std::vector<Coordinates>& rest, int number_of_free_vertices,
+                  Solver solver)
+    : m_stars(std::move(stars)), m_rest_laplacian(laplacian(rest)),
+      m_step(number_of_free_vertices), m_solver(std::move(solver))
   {
     std::vector<Eigen::Triplet<double, int>> entries;
-    for(const Weighted_edge& edge : m_stars.edges)
-    {
-      if(edge.i < number_of_free_vertices) entries.emplace_back(edge.i, edge.i, edge.weight);
-      if(edge.j < number_of_free_vertices) entries.emplace_back(edge.i, edge.j, -edge.weight);
-    }
+    m_stars.for_each_edge([&](int i, int j, double w) {
+      if(i < number_of_free_vertices) entries.emplace_back(i, i, w);
+      if(j < number_of_free_vertices) entries.emplace_back(i, j, -w);
+    });
     Sparse_matrix columns(m_stars.size(), number_of_free_vertices); // of L, of the free vertices
     columns.setFromTriplets(entries.begin(), entries.end());
     const Sparse_matrix normal =
@@ -70,30 +71,32 @@ public:
   }
 
 private:
+  // L x
+  std::vector<Coordinates> laplacian(const std::vector<Coordinates>& x) const
+  {
+    std::vector<Coordinates> result(m_stars.size(), Coordinates{0, 0, 0});
+    m_stars.for_each_edge([&](int i, int j, double w) {
+      add(result[i], w, difference(x[i], x[j]));
+    });
+    return result;
+  }
+
   // L^T (L p - L x)
   void compute_right_hand_side(const std::vector<Coordinates>& x)
   {
+    const std::vector<Coordinates> present = laplacian(x);
     m_step.assign(m_step.size(), Coordinates{0, 0, 0});
-    for(int i = 0; i < m_stars.size(); ++i)
-    {
-      Coordinates residual = {0, 0, 0};
-      for(int e = m_stars.begin[i]; e < m_stars.begin[i + 1]; ++e)
-      {
-        const Weighted_edge& edge = m_stars.edges[e];
-        add(residual, edge.weight, difference(edge.rest, difference(x[edge.i], x[edge.j])));
-      }
-      for(int e = m_stars.begin[i]; e < m_stars.begin[i + 1]; ++e)
-      {
-        const Weighted_edge& edge = m_stars.edges[e];
-        if(is_free(edge.i)) add(m_step[edge.i], edge.weight, residual);
-        if(is_free(edge.j)) add(m_step[edge.j], -edge.weight, residual);
-      }
-    }
+    m_stars.for_each_edge([&](int i, int j, double w) {
+      const Coordinates residual = difference(m_rest_laplacian[i], present[i]);
+      if(is_free(i)) add(m_step[i], w, residual);
+      if(is_free(j)) add(m_step[j], -w, residual);
+    });
   }
 
   bool is_free(int v) const { return static_cast<std::size_t>(v) < m_step.size(); }
 
-  Edge_sets m_stars;
+  Stars m_stars;
+  std::vector<Coordinates> m_rest_laplacian; // L p, for each star
   std::vector<Coordinates> m_step; // of the free vertices
   Solver m_solver;
   bool m_is_factorized = false;

@@ -16,87 +16,63 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Cells.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/Simplex_energy.h>
+#include <CGAL/ARAP_deformation/internal/Star_energy.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// the edge sets of all cells: those of cell c are sets[begin[c]] to sets[begin[c + 1] - 1], and
-// they share one rotation and the stiffness of the cell
-struct Cells
-{
-  std::vector<int> begin = {0};
-  std::vector<int> sets;
-  std::vector<double> stiffness;
-
-  int size() const { return static_cast<int>(stiffness.size()); }
-};
-
-// each of the first edge sets is a cell
-inline Cells separate_cells(int number_of_sets)
-{
-  Cells cells;
-  cells.begin.resize(number_of_sets + 1);
-  std::iota(cells.begin.begin(), cells.begin.end(), 0);
-  cells.sets.assign(cells.begin.begin(), cells.begin.end() - 1);
-  cells.stiffness.assign(number_of_sets, 1);
-  return cells;
-}
-
-// the simplices at each centre are a cell
-inline Cells vertex_cells(const Region& region)
-{
-  Cells cells;
-  cells.begin.assign(region.number_of_centres + 1, 0);
-  for(int v : region.corners)
-    if(v < region.number_of_centres)
-      ++cells.begin[v + 1];
-  std::partial_sum(cells.begin.begin(), cells.begin.end(), cells.begin.begin());
-  cells.sets.resize(cells.begin.back());
-  std::vector<int> next(cells.begin.begin(), cells.begin.end() - 1);
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-    for(int k = region.first_corner[s]; k < region.first_corner[s + 1]; ++k)
-      if(const int v = region.corners[k]; v < region.number_of_centres)
-        cells.sets[next[v]++] = s;
-  cells.stiffness.assign(region.number_of_centres, 1);
-  return cells;
-}
-
 // The energy of rigidity
 //   E(x, R) = sum over cells c, over edge sets u in c, over edges (i, j) in u of
 //             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2,
-// with p the rest shape and x the current positions.
+// with p the rest shape and x the current positions. Edges are computed from the positions, and all
+// loops run over flat arrays, block by block and in parallel.
 class Rigidity_energy
 {
 public:
   Rigidity_energy() = default;
 
-  Rigidity_energy(Edge_sets sets, Cells cells)
-    : m_sets(std::move(sets)), m_cells(std::move(cells)),
-      m_set_stiffness(m_sets.size(), 0), m_set_covariances(m_sets.size()),
-      m_covariances(m_cells.size())
+  // `cells` is a Star_energy or a Simplex_energy
+  template <typename CellEnergy>
+  Rigidity_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
+                  int number_of_free_vertices)
+    : m_cells(std::move(cells)), m_number_of_free_vertices(number_of_free_vertices)
   {
-    for(int c = 0; c < m_cells.size(); ++c)
-      for(int k = m_cells.begin[c]; k < m_cells.begin[c + 1]; ++k)
-        m_set_stiffness[m_cells.sets[k]] += m_cells.stiffness[c];
-    for_each_edge([this](const Weighted_edge& e, double stiffness) {
-      m_sum_of_weights += std::abs(stiffness * e.weight);
-      m_scale += std::abs(stiffness * e.weight) * dot(e.rest, e.rest);
+    assign(m_rest, rest);
+    for_each_edge([&](int i, int j, double weight) {
+      const Coordinates edge = difference(rest[i], rest[j]);
+      m_sum_of_weights += std::abs(weight);
+      m_scale += std::abs(weight) * dot(edge, edge);
     });
   }
 
-  int number_of_cells() const { return m_cells.size(); }
-  int number_of_edge_sets() const { return m_sets.size(); }
+  int number_of_free_vertices() const { return m_number_of_free_vertices; }
+
+  int number_of_cells() const
+  {
+    return std::visit([](const auto& cells) { return cells.number_of_cells(); }, m_cells);
+  }
+
+  int number_of_edge_sets() const
+  {
+    return std::visit([](const auto& cells) { return cells.number_of_edge_sets(); }, m_cells);
+  }
 
   // sum of k w ||e||^2: the natural unit of the energy
   double scale() const { return m_scale; }
@@ -113,102 +89,82 @@ public:
     return m_sum_of_weights * error * error;
   }
 
-  // calls f(edge, k) for each edge of each edge set, with k the stiffness of its cells added up
+  // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
-    for(int u = 0; u < m_sets.size(); ++u)
-      for(int e = m_sets.begin[u]; e < m_sets.begin[u + 1]; ++e)
-        f(m_sets.edges[e], m_set_stiffness[u]);
+    std::visit([&f](const auto& cells) { cells.for_each_edge(f); }, m_cells);
   }
 
   // Fits the rotations to the positions x, starting from those given, and returns the energy.
-  // `force` becomes minus half the gradient, for each vertex.
+  // `force` becomes minus half the gradient, for each free vertex.
   template <typename ClosestRotation>
   double evaluate(const ClosestRotation& closest_rotation, const std::vector<Coordinates>& x,
                   std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
   {
-    compute_covariances(x);
-    closest_rotation(rotations.size(), m_covariances.data(), rotations.data());
-    return evaluate(x, rotations, force);
+    assign(m_x, x);
+    std::visit([&](auto& cells) {
+      cells.prepare_covariances(m_rest.data(), m_x.data());
+      for_each_block(rotations.size(), [&](std::size_t begin, std::size_t end) {
+        std::array<Matrix_3x3, batch_size> covariances;
+        cells.compute_covariances(m_rest.data(), m_x.data(), static_cast<int>(begin),
+                                  static_cast<int>(end), covariances.data());
+        closest_rotation(end - begin, covariances.data(), rotations.data() + begin);
+      }, batch_size);
+    }, m_cells);
+    return evaluate(rotations, force);
   }
 
   // The same with the rotations given.
   double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
-                  std::vector<Coordinates>& force) const
+                  std::vector<Coordinates>& force)
   {
-    double energy = 0;
-    force.assign(x.size(), Coordinates{0, 0, 0});
-    for(int c = 0; c < m_cells.size(); ++c)
-    {
-      const Matrix_3x3& rotation = rotations[c];
-      double cell_energy = 0;
-      for(int k = m_cells.begin[c]; k < m_cells.begin[c + 1]; ++k)
-      {
-        const int u = m_cells.sets[k];
-        for(int e = m_sets.begin[u]; e < m_sets.begin[u + 1]; ++e)
-        {
-          const Weighted_edge& edge = m_sets.edges[e];
-          const Coordinates residual = difference(difference(x[edge.i], x[edge.j]),
-                                                  product(rotation, edge.rest));
-          cell_energy += edge.weight * dot(residual, residual);
-          const double factor = m_cells.stiffness[c] * edge.weight;
-          add(force[edge.i], -factor, residual);
-          add(force[edge.j], factor, residual);
-        }
-      }
-      energy += m_cells.stiffness[c] * cell_energy;
-    }
-    return energy;
+    assign(m_x, x);
+    return evaluate(rotations, force);
   }
 
 private:
-  // for each cell the sum of w (x_i - x_j) (p_i - p_j)^T: its closest rotation minimizes the energy
-  void compute_covariances(const std::vector<Coordinates>& x)
+  static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
+
+  // points, with a fourth coordinate that is zero, so that each is loaded at once
+  static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)
   {
-    for(int u = 0; u < m_sets.size(); ++u)
-    {
-      Matrix_3x3& covariance = m_set_covariances[u];
-      covariance.fill(0);
-      for(int e = m_sets.begin[u]; e < m_sets.begin[u + 1]; ++e)
-      {
-        const Weighted_edge& edge = m_sets.edges[e];
-        const Coordinates d = scaled(difference(x[edge.i], x[edge.j]), edge.weight);
-        for(int row = 0; row < 3; ++row)
-          for(int column = 0; column < 3; ++column)
-            covariance[3 * row + column] += d[row] * edge.rest[column];
-      }
-    }
-    for(int c = 0; c < m_cells.size(); ++c)
-    {
-      Matrix_3x3& sum = m_covariances[c];
-      sum.fill(0);
-      for(int k = m_cells.begin[c]; k < m_cells.begin[c + 1]; ++k)
-        for(int entry = 0; entry < 9; ++entry)
-          sum[entry] += m_set_covariances[m_cells.sets[k]][entry];
-    }
+    padded.resize(points.size());
+    for_each_block(points.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t k = begin; k < end; ++k)
+        padded[k] = Double4::of(points[k][0], points[k][1], points[k][2]);
+    }, 16 * default_block_size);
   }
 
-  Edge_sets m_sets;
-  Cells m_cells;
-  std::vector<double> m_set_stiffness;       // for each edge set, its cells' stiffness added up
-  std::vector<Matrix_3x3> m_set_covariances; // scratch: for each edge set
-  std::vector<Matrix_3x3> m_covariances;     // scratch: for each cell
+  double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
+  {
+    force.resize(m_number_of_free_vertices);
+    return std::visit([&](auto& cells) {
+      return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
+    }, m_cells);
+  }
+
+  std::variant<Star_energy, Simplex_energy> m_cells;
+  int m_number_of_free_vertices = 0;
+  std::vector<Double4> m_rest;
+  std::vector<Double4> m_x; // of the last evaluation
   double m_scale = 0;
   double m_sum_of_weights = 0;
 };
 
 template <typename EdgeWeight>
-Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, const Simplex_weights& weights,
+Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, Simplices simplices,
                                      Cell_scheme scheme, const Region& region)
 {
+  const int n = region.number_of_free_vertices;
   if(scheme.edge_set() == Edge_set::star)
-    return Rigidity_energy(star_edge_sets(weight, weights, region),
-                           separate_cells(region.number_of_centres));
-  return Rigidity_energy(simplex_edge_sets(weight, weights, region),
-                         scheme.grouped_at_vertices()
-                           ? vertex_cells(region)
-                           : separate_cells(region.number_of_free_simplices));
+    return Rigidity_energy(Star_energy(star_edge_sets(weight, simplices, region), n), region.rest,
+                           n);
+  simplices = simplex_edge_sets(weight, std::move(simplices), region);
+  Cells cells = scheme.grouped_at_vertices()
+                  ? vertex_cells(simplices.corners, region.number_of_centres)
+                  : separate_cells(region.number_of_free_simplices);
+  return Rigidity_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest, n);
 }
 
 } // namespace internal

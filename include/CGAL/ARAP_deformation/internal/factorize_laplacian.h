@@ -32,15 +32,17 @@ struct Diagnosis
   int simplex = -1;
 };
 
-// Has the solver factorize the Laplacian of the first n vertices, which are free.
+// Has the solver factorize the Laplacian of the free vertices.
 template <typename Solver>
-Diagnosis factorize_laplacian(const Rigidity_energy& energy, int n, Solver& solver)
+Diagnosis factorize_laplacian(const Rigidity_energy& energy, Solver& solver)
 {
-  if(const int v = find_unattached_vertex(energy, n); v >= 0)
+  if(const int v = find_unattached_vertex(energy); v >= 0)
     return {Status::no_held_vertex, v};
-  const Sparse_matrix laplacian = free_laplacian(energy, n);
-  for(int v = 0; v < n; ++v)
-    if(const double diagonal = laplacian.coeff(v, v); !(diagonal > 0) || !std::isfinite(diagonal))
+  const int n = energy.number_of_free_vertices();
+  const Sparse_matrix laplacian = free_laplacian(energy);
+  for(int v = 0; v < n; ++v) // the first entry of each column is the diagonal
+    if(const double diagonal = laplacian.valuePtr()[laplacian.outerIndexPtr()[v]];
+       !(diagonal > 0) || !std::isfinite(diagonal))
       return {Status::singular_matrix, v};
   if(n > 0 && !(solver.analyze(laplacian) && solver.factorize(laplacian)))
     return {Status::singular_matrix};

@@ -15,55 +15,106 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
 
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Half the Hessian of the energy with its rotations fixed, for the first n vertices: the matrix of
+// Sorts pairs of a number and a value by the number, in place, adds the values of those that have the
+// same number up, and returns how many are left.
+template <typename Iterator>
+int sort_and_add_up(Iterator begin, Iterator end)
+{
+  std::stable_sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
+  Iterator last = begin;
+  for(Iterator it = begin; it != end;)
+  {
+    auto sum = *it;
+    for(++it; it != end && it->first == sum.first; ++it)
+      sum.second += it->second;
+    *last++ = sum;
+  }
+  return static_cast<int>(last - begin);
+}
+
+// Half the Hessian of the energy with its rotations fixed, for the free vertices: the matrix of
 // Equation (9) of the paper, from which the held vertices' rows and columns are left out, so that
 // it is symmetric positive definite. The lower triangle.
-inline Sparse_matrix free_laplacian(const Rigidity_energy& energy, int n)
+inline Sparse_matrix free_laplacian(const Rigidity_energy& energy)
 {
-  std::vector<Eigen::Triplet<double, int>> entries;
-  energy.for_each_edge([&](const Weighted_edge& edge, double stiffness) {
-    const double w = stiffness * edge.weight;
-    if(edge.i < n) entries.emplace_back(edge.i, edge.i, w);
-    if(edge.j < n) entries.emplace_back(edge.j, edge.j, w);
-    if(edge.i < n && edge.j < n)
-      entries.emplace_back((std::max)(edge.i, edge.j), (std::min)(edge.i, edge.j), -w);
+  // the off-diagonal entries of each column, with one entry for each edge set
+  const int n = energy.number_of_free_vertices();
+  using Entry = std::pair<int, double>;
+  std::vector<int> first(n + 1, 0);
+  std::vector<double> diagonal(n, 0);
+  energy.for_each_edge([&](int i, int j, double w) {
+    if(i < n) diagonal[i] += w;
+    if(j < n) diagonal[j] += w;
+    if(i < n && j < n) ++first[(std::min)(i, j) + 1];
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Entry> entries(first.back());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  energy.for_each_edge([&](int i, int j, double w) {
+    if(i < n && j < n) entries[next[(std::min)(i, j)]++] = {(std::max)(i, j), -w};
+  });
+
+  // sorted, and those of the same row added up: of column j there are sizes[j], and the diagonal
+  std::vector<int>& sizes = next;
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t j = begin; j < end; ++j)
+      sizes[j] = sort_and_add_up(entries.begin() + first[j], entries.begin() + first[j + 1]);
   });
   Sparse_matrix laplacian(n, n);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
+  int* outer = laplacian.outerIndexPtr();
+  for(int j = 0; j < n; ++j)
+    outer[j + 1] = outer[j] + sizes[j] + 1;
+  laplacian.resizeNonZeros(outer[n]);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t j = begin; j < end; ++j)
+    {
+      int* row = laplacian.innerIndexPtr() + outer[j];
+      double* value = laplacian.valuePtr() + outer[j];
+      *row++ = static_cast<int>(j);
+      *value++ = diagonal[j];
+      for(int k = 0; k < sizes[j]; ++k)
+      {
+        *row++ = entries[first[j] + k].first;
+        *value++ = entries[first[j] + k].second;
+      }
+    }
+  });
   return laplacian;
 }
 
 // A free vertex from which no edge of non-zero weight leads, over other free vertices, to a held
 // one: its component could be anywhere, and the matrix is singular. Returns -1 if there is none.
-inline int find_unattached_vertex(const Rigidity_energy& energy, int number_of_free_vertices)
+inline int find_unattached_vertex(const Rigidity_energy& energy)
 {
   // union-find, with one more element for all held vertices together
-  const int held = number_of_free_vertices;
-  std::vector<int> parent(number_of_free_vertices + 1);
+  const int held = energy.number_of_free_vertices();
+  std::vector<int> parent(held + 1);
   std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&parent](int v) {
     while(parent[v] != v)
       v = parent[v] = parent[parent[v]];
     return v;
   };
-  energy.for_each_edge([&](const Weighted_edge& edge, double stiffness) {
-    if(stiffness * edge.weight != 0)
-      parent[find((std::min)(edge.i, held))] = find((std::min)(edge.j, held));
+  energy.for_each_edge([&](int i, int j, double w) {
+    if(w != 0)
+      parent[find((std::min)(i, held))] = find((std::min)(j, held));
   });
-  for(int v = 0; v < number_of_free_vertices; ++v)
+  for(int v = 0; v < held; ++v)
     if(find(v) != find(held))
       return v;
   return -1;

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -25,10 +26,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// The weights of the edges of all simplices of a region, one simplex after the other: of all pairs
-// of corners, (0, 1), (0, 2), ..., (1, 2), ...
-using Simplex_weights = std::vector<double>;
 
 template <std::size_t N>
 std::array<Coordinates, N> corner_points(const Region& region, const std::array<int, N>& corners)
@@ -45,18 +42,15 @@ std::array<Coordinates, N> corner_points(const Region& region, const std::array<
 //   Cat(b - a - 1) Cat(c - b - 1) Cat(n - c + a - 1) / Cat(n - 2)
 // of those of a polygon with n corners. Cat(m) / 4^m is used instead, which does not overflow.
 template <typename EdgeWeight>
-void append_polygon_weights(const EdgeWeight& weight, const Region& region, int s,
-                            Simplex_weights& weights)
+void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int s, double* weights)
 {
   const int n = region.number_of_corners(s);
   const int* corners = region.corners_of(s);
   std::vector<double> scaled_catalan(n - 1, 1);
   for(int m = 0; m + 2 < n; ++m)
     scaled_catalan[m + 1] = scaled_catalan[m] * (2 * m + 1) / (2 * (m + 2));
-  const std::size_t first = weights.size();
-  const auto pair = [&](int a, int b) { return first + a * (2 * n - a - 1) / 2 + b - a - 1; };
-
-  weights.resize(first + n * (n - 1) / 2, 0);
+  const auto pair = [n](int a, int b) { return a * (2 * n - a - 1) / 2 + b - a - 1; };
+  std::fill(weights, weights + n * (n - 1) / 2, 0.0);
   for(int a = 0; a < n; ++a)
     for(int b = a + 1; b < n; ++b)
       for(int c = b + 1; c < n; ++c)
@@ -71,9 +65,10 @@ void append_polygon_weights(const EdgeWeight& weight, const Region& region, int 
       }
 }
 
+// The weights that the model gives for the shape of simplex s: of the edges between all pairs of
+// corners, (0, 1), (0, 2), ..., (1, 2), ...
 template <typename EdgeWeight>
-void append_simplex_weights(const EdgeWeight& weight, const Region& region, int s,
-                            Simplex_weights& weights)
+void compute_simplex_weights(const EdgeWeight& weight, const Region& region, int s, double* weights)
 {
   const int* c = region.corners_of(s);
   if(region.dimension == 3)
@@ -83,28 +78,17 @@ void append_simplex_weights(const EdgeWeight& weight, const Region& region, int 
     {
       const std::array<double, 6> w =
         weight.simplex_weights(corner_points<4>(region, {c[0], c[1], c[2], c[3]}));
-      weights.insert(weights.end(), w.begin(), w.end());
+      std::copy(w.begin(), w.end(), weights);
     }
   }
   else if(region.number_of_corners(s) == 3)
   {
     const std::array<double, 3> w =
       weight.simplex_weights(corner_points<3>(region, {c[0], c[1], c[2]}));
-    weights.insert(weights.end(), w.begin(), w.end());
+    std::copy(w.begin(), w.end(), weights);
   }
   else
-    append_polygon_weights(weight, region, s, weights);
-}
-
-template <typename EdgeWeight>
-Simplex_weights simplex_weights(const EdgeWeight& weight, const Region& region)
-{
-  Simplex_weights weights;
-  weights.reserve(region.dimension == 3 ? 6 * region.number_of_simplices()
-                                        : region.corners.size());
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-    append_simplex_weights(weight, region, s, weights);
-  return weights;
+    compute_polygon_weights(weight, region, s, weights);
 }
 
 } // namespace internal

@@ -1,0 +1,68 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_GROUPS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_GROUPS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Lists of numbers: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
+struct Groups
+{
+  std::vector<int> begin = {0};
+  std::vector<int> items;
+
+  int size() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+// For each number below n what name(k, place) is where list k has it, at that place in `items`.
+template <typename Naming>
+Groups inverse(const Groups& groups, int n, const Naming& name)
+{
+  Groups result;
+  result.begin.assign(n + 1, 0);
+  for(int item : groups.items)
+    if(item < n)
+      ++result.begin[item + 1];
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.items.resize(result.begin.back());
+  std::vector<int> next(result.begin.begin(), result.begin.end() - 1);
+  for(int k = 0; k < groups.size(); ++k)
+    for(int place = groups.begin[k]; place < groups.begin[k + 1]; ++place)
+      if(const int item = groups.items[place]; item < n)
+        result.items[next[item]++] = name(k, place);
+  return result;
+}
+
+// for each number below n the lists that have it
+inline Groups lists_with(const Groups& groups, int n)
+{
+  return inverse(groups, n, [](int list, int) { return list; });
+}
+
+// for each number below n the places in `items` that have it
+inline Groups places_of(const Groups& groups, int n)
+{
+  return inverse(groups, n, [](int, int place) { return place; });
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_GROUPS_H
