@@ -40,16 +40,27 @@ struct Domain_region
   std::vector<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
-  // Collects the region of the given free vertices, but for the positions of its vertices. Returns
-  // false if there is something that is not a simplex: refused_vertex() is at it.
+  // Collects the region of the given free vertices, which differ, but for the positions of its
+  // vertices. Free vertices are numbered in breadth-first order, so that what is near in the mesh
+  // is near in memory. Returns false if there is something that is not a simplex:
+  // refused_vertex() is at it.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& free_vertices)
   {
     flat.dimension = Domain::dimension;
+    flat.number_of_free_vertices = static_cast<int>(free_vertices.size());
+    vertices = free_vertices;
+    flat.indices.resize(free_vertices.size());
     for(vertex_descriptor v : free_vertices)
+      numbers.set(domain.index(v), free_without_number);
+
+    int number_of_visited = 0;
+    for(vertex_descriptor v : free_vertices) // a seed in each component
+    {
       number(domain, v);
-    flat.number_of_free_vertices = flat.number_of_centres = static_cast<int>(vertices.size());
-    if(!collect_simplices(domain, 0, flat.number_of_centres))
-      return false;
+      if(!collect_simplices(domain, number_of_visited, m_number_of_found))
+        return false;
+      number_of_visited = m_number_of_found;
+    }
     flat.number_of_free_simplices = static_cast<int>(simplices.size());
     flat.number_of_centres = static_cast<int>(vertices.size());
     if(!collect_simplices(domain, flat.number_of_free_vertices, flat.number_of_centres))
@@ -82,11 +93,20 @@ struct Domain_region
   vertex_descriptor refused_vertex() const { return vertices[first_simplex.size() - 1]; }
 
 private:
+  static constexpr int free_without_number = -2;
+
   int number(const Domain& domain, vertex_descriptor v)
   {
     const std::size_t index = domain.index(v);
     int n = numbers[index];
-    if(n == Paged_index_map::none)
+    if(n == free_without_number)
+    {
+      n = m_number_of_found++;
+      numbers.set(index, n);
+      vertices[n] = v;
+      flat.indices[n] = index;
+    }
+    else if(n == Paged_index_map::none)
     {
       n = static_cast<int>(vertices.size());
       numbers.set(index, n);
@@ -96,9 +116,10 @@ private:
     return n;
   }
 
-  // Vertices are visited in the order of their numbers, and what is not yet numbered gets a larger
-  // number: a simplex is met first at its smallest vertex.
-  bool collect_simplices(const Domain& domain, int begin, int end)
+  // Visits the vertices from `begin` to `end`, which moves on while free vertices are found. They
+  // are visited in the order of their numbers, and what is not yet numbered gets a larger number:
+  // a simplex is met first at its smallest vertex.
+  bool collect_simplices(const Domain& domain, int begin, const int& end)
   {
     for(int v = begin; v < end; ++v)
     {
@@ -127,6 +148,8 @@ private:
     }
     return true;
   }
+
+  int m_number_of_found = 0; // free vertices that have a number
 
   // whether there are as many corners as the dimension asks for, all different
   template <typename Iterator>
