@@ -14,13 +14,15 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/default_solver.h>
 
 #include <CGAL/Default.h>
+#include <CGAL/tags.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
@@ -32,28 +34,41 @@ namespace CGAL {
 /// The objects may carry state: construct the traits with them. A deformation works on copies of
 /// what its traits hand out.
 ///
-/// \tparam SparseSolver a model of `ARAPSparseSolver`, default `ARAP::Eigen_cholesky_solver`
+/// \tparam SparseSolver a model of `ARAPSparseSolver`; by default `ARAP::Cholmod_solver` in a program
+///         that is linked with CHOLMOD (the macro `CGAL_LINKED_WITH_CHOLMOD`), otherwise
+///         `ARAP::Eigen_cholesky_solver`
 /// \tparam EdgeWeight a model of `ARAPEdgeWeight_3`, default `ARAP::Safe_cotangent_weight`
 /// \tparam ClosestRotation a model of `ARAPClosestRotation_3`, default
-///         `ARAP::SVD_closest_rotation`
+///         `ARAP::Newton_closest_rotation`
+/// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`, which
+///         is the default. Results do not depend on it. Parallel is what is linked with TBB
+///         (the macro `CGAL_LINKED_WITH_TBB`).
 ///
 /// \cgalModels{ARAPDeformationTraits_3}
 template <typename SparseSolver = Default,
           typename EdgeWeight = Default,
-          typename ClosestRotation = Default>
+          typename ClosestRotation = Default,
+          typename ConcurrencyTag = Parallel_if_available_tag>
 class ARAP_deformation_traits_3
 {
 public:
   /// the type of the solver.
-  using Sparse_solver = typename Default::Get<SparseSolver, ARAP::Eigen_cholesky_solver>::type;
+  using Sparse_solver = typename Default::Get<SparseSolver, ARAP::internal::Default_solver>::type;
 
   /// the type of the edge weights.
   using Edge_weight = typename Default::Get<EdgeWeight, ARAP::Safe_cotangent_weight>::type;
 
   /// the type of the rotation fitting.
   using Closest_rotation =
-    typename Default::Get<ClosestRotation, ARAP::SVD_closest_rotation>::type;
+    typename Default::Get<ClosestRotation, ARAP::Newton_closest_rotation>::type;
 
+  /// whether work is done at the same time.
+  using Concurrency_tag = ConcurrencyTag;
+
+#ifndef CGAL_LINKED_WITH_TBB
+  static_assert(!std::is_convertible_v<Concurrency_tag, Parallel_tag>,
+                "Parallel_tag is enabled but TBB is unavailable.");
+#endif
   static_assert(ARAP::internal::Sparse_solver_requirements<Sparse_solver>::are_met);
   static_assert(ARAP::internal::Edge_weight_requirements<Edge_weight>::are_met);
   static_assert(ARAP::internal::Closest_rotation_requirements<Closest_rotation>::are_met);

@@ -32,6 +32,10 @@ public:
   /// a model of `ARAPClosestRotation_3`.
   using Closest_rotation = unspecified_type;
 
+  /// `CGAL::Sequential_tag`, `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`, which is taken
+  /// where this type is missing. Results do not depend on it.
+  using Concurrency_tag = unspecified_type;
+
   /// @}
 
   /// \name Objects

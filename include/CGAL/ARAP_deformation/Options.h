@@ -52,6 +52,11 @@ struct Options
   /// 0 runs all iterations.
   double tolerance = 1e-2;
 
+  /// how many threads may be at work in a call; 0 for as many as TBB takes by itself. Without TBB
+  /// (the macro `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is one.
+  /// Results are the same to the last bit, whatever the number.
+  unsigned int threads = 0;
+
   /// returns `Status::success`, or `Status::invalid_option` and a sentence that names the option.
   Outcome check() const
   {

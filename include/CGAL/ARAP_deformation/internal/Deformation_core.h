@@ -24,17 +24,34 @@
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+
+#include <CGAL/tags.h>
 
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+template <typename Traits, typename = void>
+struct Get_concurrency_tag { using type = Parallel_if_available_tag; };
+
+template <typename Traits>
+struct Get_concurrency_tag<Traits, std::void_t<typename Traits::Concurrency_tag>>
+{
+  using type = typename Traits::Concurrency_tag;
+};
+
+// what work is done at the same time with
+template <typename Traits>
+using Concurrency_tag_of = typename Get_concurrency_tag<Traits>::type;
 
 // The deformation of a region: all of it that is numbers, and nothing that is a mesh.
 template <typename Traits>
@@ -44,12 +61,13 @@ class Deformation_core
 
 public:
   // Computes what depends on the region and not on the positions: energy, matrix, factor.
-  Deformation_core(const Traits& traits, Region region, Cell_scheme scheme)
+  Deformation_core(const Traits& traits, Region region, const Options& options)
     : m_region(std::move(region)), m_weight(traits.edge_weight_object()),
       m_closest_rotation(traits.closest_rotation_object()),
       m_prototype_solver(traits.sparse_solver_object()), m_solver(m_prototype_solver)
   {
-    m_diagnosis = prepare(scheme);
+    run_with_threads(number_of_threads(options),
+                     [&] { m_diagnosis = prepare(options.cells); });
   }
 
   // what is wrong with the region, if anything; then the other members must not be called
@@ -72,6 +90,34 @@ public:
   Diagnosis run(const Options& options, const Observer& observe, std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report)
   {
+    Diagnosis diagnosis;
+    run_with_threads(number_of_threads(options), [&] {
+      diagnosis = run_in_arena(options, observe, x, rotations, report);
+    });
+    return diagnosis;
+  }
+
+  // the number of tetrahedra that are inside out at the positions x; 0 on a surface
+  std::size_t number_of_inverted_simplices(const std::vector<Coordinates>& x) const
+  {
+    std::size_t count = 0;
+    if(m_region.dimension == 3)
+      for(int s = 0; s < m_region.number_of_simplices(); ++s)
+        count += orientation(s, m_region.rest) * orientation(s, x) < 0;
+    return count;
+  }
+
+private:
+  // 0 for as many as there are
+  static unsigned int number_of_threads(const Options& options)
+  {
+    return std::is_convertible_v<Concurrency_tag_of<Traits>, Parallel_tag> ? options.threads : 1;
+  }
+
+  Diagnosis run_in_arena(const Options& options, const Observer& observe,
+                         std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                         Report& report)
+  {
     if(options.initial_guess == Initial_guess::laplacian && m_region.number_of_free_vertices > 0)
     {
       Scoped_seconds seconds(report.seconds.initial_guess);
@@ -93,17 +139,6 @@ public:
                                   rotations, report)};
   }
 
-  // the number of tetrahedra that are inside out at the positions x; 0 on a surface
-  std::size_t number_of_inverted_simplices(const std::vector<Coordinates>& x) const
-  {
-    std::size_t count = 0;
-    if(m_region.dimension == 3)
-      for(int s = 0; s < m_region.number_of_simplices(); ++s)
-        count += orientation(s, m_region.rest) * orientation(s, x) < 0;
-    return count;
-  }
-
-private:
   // the sign of the volume of the tetrahedron s
   int orientation(int s, const std::vector<Coordinates>& x) const
   {

@@ -127,7 +127,7 @@ public:
       return outcome(Status::non_finite_point, name(region.vertices[v]));
 
     std::optional<Core> core;
-    core.emplace(m_traits, std::move(region.flat), m_options.cells);
+    core.emplace(m_traits, std::move(region.flat), m_options);
     if(core->diagnosis().status != Status::success)
       return explain(core->diagnosis(), region, *core);
     m_region = std::move(region);

@@ -1,0 +1,37 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#else
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#endif
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+using Default_solver = Cholmod_solver;
+#else
+using Default_solver = Eigen_cholesky_solver;
+#endif
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
