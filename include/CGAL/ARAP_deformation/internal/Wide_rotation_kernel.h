@@ -125,32 +125,38 @@ private:
     }
   };
 
-  CGAL_ARAP_ALWAYS_INLINE static Matrices load(const Matrix_3x3* matrices)
+  // Loops over the matrices would keep the compilers from holding all in registers.
+  CGAL_ARAP_ALWAYS_INLINE static Matrices load(const Matrix_3x3* m)
   {
-    Matrices m;
-    for(int part : {0, 4})
-    {
-      Double4* e = m.entries + part;
-      for(int k = 0; k < 4; ++k)
-        e[k] = Double4::load(matrices[k].data() + part);
-      transpose(e[0], e[1], e[2], e[3]);
-    }
-    m.entries[8] = Double4::of(matrices[0][8], matrices[1][8], matrices[2][8], matrices[3][8]);
-    return m;
+    const double *a = m[0].data(), *b = m[1].data(), *c = m[2].data(), *d = m[3].data();
+    Matrices result = {{Double4::load(a), Double4::load(b), Double4::load(c), Double4::load(d),
+                        Double4::load(a + 4), Double4::load(b + 4), Double4::load(c + 4),
+                        Double4::load(d + 4), Double4::of(a[8], b[8], c[8], d[8])}};
+    Double4* e = result.entries;
+    transpose(e[0], e[1], e[2], e[3]);
+    transpose(e[4], e[5], e[6], e[7]);
+    return result;
   }
 
-  CGAL_ARAP_ALWAYS_INLINE static void store(const Matrices& from, Matrix_3x3* matrices)
+  CGAL_ARAP_ALWAYS_INLINE static void store(const Matrices& from, Matrix_3x3* m)
   {
-    Matrices m = from;
-    for(int part : {0, 4})
-    {
-      Double4* e = m.entries + part;
-      transpose(e[0], e[1], e[2], e[3]);
-      for(int k = 0; k < 4; ++k)
-        e[k].store(matrices[k].data() + part);
-    }
-    for(int k = 0; k < 4; ++k)
-      matrices[k][8] = m.entries[8][k];
+    double *a = m[0].data(), *b = m[1].data(), *c = m[2].data(), *d = m[3].data();
+    Double4 a0 = from.entries[0], b0 = from.entries[1], c0 = from.entries[2], d0 = from.entries[3];
+    Double4 a4 = from.entries[4], b4 = from.entries[5], c4 = from.entries[6], d4 = from.entries[7];
+    transpose(a0, b0, c0, d0);
+    transpose(a4, b4, c4, d4);
+    a0.store(a);
+    b0.store(b);
+    c0.store(c);
+    d0.store(d);
+    a4.store(a + 4);
+    b4.store(b + 4);
+    c4.store(c + 4);
+    d4.store(d + 4);
+    a[8] = from.entries[8][0];
+    b[8] = from.entries[8][1];
+    c[8] = from.entries[8][2];
+    d[8] = from.entries[8][3];
   }
 
   CGAL_ARAP_ALWAYS_INLINE static void fit_four(const Matrix_3x3* covariances,
