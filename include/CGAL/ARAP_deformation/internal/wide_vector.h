@@ -60,6 +60,9 @@ struct Double4
   friend CGAL_ARAP_ALWAYS_INLINE Double4 multiply_add(const Double4& a, const Double4& b,
                                                       const Double4& c)
   { return {a.lanes * b.lanes + c.lanes}; }
+  friend CGAL_ARAP_ALWAYS_INLINE Double4 multiply_subtract(const Double4& a, const Double4& b,
+                                                           const Double4& c)
+  { return {a.lanes * b.lanes - c.lanes}; }
 #else
   double lanes[4];
 
@@ -87,6 +90,8 @@ struct Double4
   }
   friend Double4 multiply_add(const Double4& a, const Double4& b, const Double4& c)
   { return a * b + c; }
+  friend Double4 multiply_subtract(const Double4& a, const Double4& b, const Double4& c)
+  { return a * b - c; }
 #endif
 
   CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a) { return of(a, a, a, a); }
@@ -117,8 +122,6 @@ struct Bool4
   { return {a.lanes & b.lanes}; }
   friend CGAL_ARAP_ALWAYS_INLINE Bool4 operator|(const Bool4& a, const Bool4& b)
   { return {a.lanes | b.lanes}; }
-
-  CGAL_ARAP_ALWAYS_INLINE static Bool4 all(bool b) { return {Lanes{} - static_cast<long long>(b)}; }
 #else
   long long lanes[4];
 
@@ -132,8 +135,6 @@ struct Bool4
     return {{a.lanes[0] | b.lanes[0], a.lanes[1] | b.lanes[1],
              a.lanes[2] | b.lanes[2], a.lanes[3] | b.lanes[3]}};
   }
-
-  static Bool4 all(bool b) { return {{-b, -b, -b, -b}}; }
 #endif
 
   CGAL_ARAP_ALWAYS_INLINE bool operator[](int k) const { return lanes[k] != 0; }
