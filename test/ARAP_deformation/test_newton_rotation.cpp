@@ -185,14 +185,20 @@ void check_all_starts()
   for(double angle : {0., 1e-12, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1., 2., 3., 3.14159265})
   {
     test_case() = "started " + std::to_string(angle) + " away";
-    const Matrices starts = samples.starts(angle);
-    check_closest(Newton_closest_rotation(), samples, starts);
-    check_closest(Plain_newton(), samples, starts);
+    const Matrices turned_away = samples.starts(angle);
+    check_closest(Newton_closest_rotation(), samples, turned_away);
+    check_closest(Plain_newton(), samples, turned_away);
     if(angle < 0.5) // it is Newton's method that is tested here, and not what it falls back on
       for(int kind : {generic, reflected, almost_rotation, planar})
-        CHECK(number_of_newton_results(samples, starts, kind) > samples.closest.size() /
-                                                                number_of_kinds * 9 / 10);
+        CHECK(number_of_newton_results(samples, turned_away, kind) >
+              samples.closest.size() / number_of_kinds * 9 / 10);
   }
+  test_case() = "started at all distances";
+  Matrices starts;
+  for(const Matrix& r : samples.closest)
+    starts.push_back(flat(turned(r, 3 * std::pow(10, -4 * uniform()))));
+  check_closest(Newton_closest_rotation(), samples, starts);
+
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for(const Matrix_3x3& start :

@@ -27,17 +27,16 @@ namespace ARAP {
 /// \brief the rotation closest to a matrix, by Newton's method from the previous rotation, eight
 /// matrices at a time.
 ///
-/// One step has an error of the seventh or higher order in the angle from the previous rotation to
-/// the result; a second one is made only where that is not enough, above about a hundredth of a
-/// radian. A positive definite Hessian of the trace of \f$R^T C\f$ at the result proves that it is
-/// the closest rotation. What is not settled so after four steps, such as matrices of rank one,
-/// for which the closest rotation is not unique, gets the result of `SVD_closest_rotation`, as do
-/// the previous rotations that are none get the identity in their place. The results are as exact
-/// as those of `SVD_closest_rotation`.
+/// One step is exact up to rounding where the previous rotation is less than about a fiftieth of a
+/// radian away, and a second one otherwise. That the Hessian of the trace of \f$R^T C\f$ is safely
+/// definite proves that the result is the closest rotation, for negative determinants too. Where
+/// four steps do not lead to that, as for matrices of rank one, whose closest rotation is not
+/// unique, the result is that of `SVD_closest_rotation`. A previous matrix that is no rotation is
+/// taken for the identity.
 ///
-/// With AVX2, for which processors are asked at run time, this is some twenty times faster than
-/// `SVD_closest_rotation` where the rotations change by less than a hundredth of a radian, and ten
-/// times from any other start.
+/// The results are as exact as those of `SVD_closest_rotation`. Where the processor has AVX2, which
+/// is found out at run time, they come some 25 times faster if the rotations have changed little,
+/// and ten times faster from any others.
 ///
 /// The result for a matrix is a function of this matrix and its previous rotation, to the last bit:
 /// it does not depend on the others, nor on how the arrays are cut into calls.

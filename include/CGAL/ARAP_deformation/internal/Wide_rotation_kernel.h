@@ -268,15 +268,17 @@ private:
     const Vectors b = {multiply_subtract(trace, a.x, ha.x), multiply_subtract(trace, a.y, ha.y),
                        multiply_subtract(trace, a.z, ha.z)};
 
-    // The polynomial is m^4 + trace m^3 + p2 m^2 + p1 m - q. For small a the series for the root
-    // next to zero has a relative error of five times the cube of `order`, divided by the
-    // determinant.
+    // The polynomial is m^4 + trace m^3 + p2 m^2 + p1 m - q. For small a the root next to zero is a
+    // series in `first`, here to the fourth power; each next term is smaller by `order`.
     const Double8 q = dot(a, g), p1 = determinant - dot(a, b), p2 = minors - dot(a, a);
     const Double8 inverse = Double8::all(1) / p1;
-    const Double8 first = q * inverse, u = p2 * inverse;
-    const Double8 order = first * minors;
-    const Double8 second_factor = u - first * multiply_subtract(two * u, u, trace * inverse);
-    Double8 root = first - first * first * second_factor;
+    const Double8 first = q * inverse, u2 = p2 * inverse, u3 = trace * inverse;
+    const Double8 u22 = u2 * u2;
+    const Double8 fourth = multiply_add(Double8::all(5) * u2, u22 - u3, inverse);
+    const Double8 third = u22 + u22 - u3 - first * fourth;
+    const Double8 second = u2 - first * third;
+    Double8 root = first - first * first * second;
+    const Double8 order = first * minors; // over the determinant
 
     const Double8 zero = Double8::zero();
     const Bool8 is_close = (zero < trace) & (zero < minors) &
@@ -289,7 +291,7 @@ private:
     const Double8 d = multiply_add(root, multiply_add(root, root + trace, minors), determinant);
     const Double8 v_squared = dot(v, v), d_squared = d * d;
     turn(d, v, v_squared, two / (d_squared + v_squared), r);
-    return is_close & (order < Double8::all(1e-4) * determinant) &
+    return is_close & (order < Double8::all(1e-3) * determinant) &
            (v_squared < d_squared * d_squared);
   }
 
