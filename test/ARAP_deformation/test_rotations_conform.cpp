@@ -16,6 +16,7 @@
 #include "include/conformance.h"
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
@@ -150,6 +151,8 @@ int main()
   using CGAL_polar = CGAL::Deformation_Eigen_polar_closest_rotation_traits_3;
   CHECK_CONFORMS(check_closest_rotation(SVD_closest_rotation()));
   CHECK_CONFORMS(check_closest_rotation(SVD_closest_rotation(), 1e-13));
+  CHECK_CONFORMS(check_closest_rotation(Newton_closest_rotation()));
+  CHECK_CONFORMS(check_closest_rotation(Newton_closest_rotation(), 1e-13));
   CHECK_CONFORMS(check_closest_rotation(Closest_rotation_traits_adaptor<CGAL_svd>()));
   CHECK_CONFORMS(check_closest_rotation(Closest_rotation_traits_adaptor<CGAL_polar>()));
   CHECK_CONFORMS(check_closest_rotation(Closest_rotation_traits_adaptor<Bare_rotation_traits>()));

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
@@ -138,6 +139,7 @@ int main()
           with_solver(solver), 10 * tolerance);
   }
 
+  swaps("Newton_closest_rotation", with_rotation<Newton_closest_rotation>(), direct);
   swaps("CGAL::Deformation_Eigen_closest_rotation_traits_3",
         with_rotation<Closest_rotation_traits_adaptor<CGAL_svd>>(), direct);
   swaps("CGAL::Deformation_Eigen_polar_closest_rotation_traits_3",

@@ -18,6 +18,7 @@ The function `CGAL::ARAP::check_closest_rotation()` tells which identities a mod
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::SVD_closest_rotation}
+\cgalHasModels{CGAL::ARAP::Newton_closest_rotation}
 \cgalHasModels{CGAL::ARAP::Closest_rotation_traits_adaptor<ClosestRotationTraits>}
 \cgalHasModelsEnd
 

@@ -95,7 +95,7 @@ struct Star_residuals_kernel
           sum = sum + multiply_add(opposite, d, weighted);
           row_0 = multiply_add(Double4::load(m), edge, row_0);
           row_1 = multiply_add(Double4::load(m + 3), edge, row_1);
-          row_2 = multiply_add(Double4::load(m + 5), edge.turned(), row_2);
+          row_2 = multiply_add(Double4::load(m + 5), shuffle<3, 0, 1, 2>(edge, edge), row_2);
         }
       }
       energies = energies + star_energy; // sums of sums: less is lost in rounding

@@ -21,15 +21,19 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The columns of a 3 x 3 matrix, side by side: what is needed to multiply a vector from the left.
+// The columns of a 3 x 3 matrix: what is needed to multiply a vector. The fourth lane of each may hold
+// anything, and so may that of a product.
 struct Matrix_columns
 {
   Double4 x, y, z;
 
   CGAL_ARAP_ALWAYS_INLINE static Matrix_columns of(const Matrix_3x3& m)
   {
-    return {Double4::of(m[0], m[3], m[6]), Double4::of(m[1], m[4], m[7]),
-            Double4::of(m[2], m[5], m[8])};
+    const Double4 row_0 = Double4::load(m.data()), row_1 = Double4::load(m.data() + 3);
+    const Double4 row_2 = Double4::load(m.data() + 5); // with the number before it
+    const Double4 even = shuffle<0, 4, 2, 6>(row_0, row_1), odd = shuffle<1, 5, 3, 7>(row_0, row_1);
+    return {shuffle<0, 1, 5, 5>(even, row_2), shuffle<0, 1, 6, 6>(odd, row_2),
+            shuffle<2, 3, 7, 7>(even, row_2)};
   }
 };
 
@@ -42,7 +46,7 @@ CGAL_ARAP_ALWAYS_INLINE Double4 subtract_product(const Double4& a, const Matrix_
          negative_multiply_add(Double4::all(b[0]), m.x, a)));
 }
 
-// The rows of a 3 x 3 matrix, side by side, to which outer products are added.
+// The rows of a 3 x 3 matrix, to which outer products are added.
 struct Matrix_rows
 {
   Double4 x, y, z;
