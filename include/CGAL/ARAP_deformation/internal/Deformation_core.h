@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Laplacian_guess.h>
+#include <CGAL/ARAP_deformation/internal/Laplacian_solver.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
@@ -60,11 +61,13 @@ class Deformation_core
   using Solver = typename Traits::Sparse_solver;
 
 public:
-  // Computes what depends on the region and not on the positions: energy, matrix, factor.
-  Deformation_core(const Traits& traits, Region region, const Options& options)
+  // Computes what depends on the region and not on the positions: energy, matrix, factor. A solver
+  // that has served before may have a factor that is of use.
+  Deformation_core(const Traits& traits, Region region, const Options& options,
+                   Laplacian_solver<Solver> solver)
     : m_region(std::move(region)), m_weight(traits.edge_weight_object()),
       m_closest_rotation(traits.closest_rotation_object()),
-      m_prototype_solver(traits.sparse_solver_object()), m_solver(m_prototype_solver)
+      m_prototype_solver(traits.sparse_solver_object()), m_solver(std::move(solver))
   {
     run_with_threads(number_of_threads(options),
                      [&] { m_diagnosis = prepare(options.cells); });
@@ -74,6 +77,9 @@ public:
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
   const Region& region() const { return m_region; }
+
+  // the solver, of which there is no further use here
+  Laplacian_solver<Solver> take_solver() { return std::move(m_solver); }
 
   // for each cell; identities before the first run
   const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }
@@ -156,7 +162,7 @@ private:
     if(const int s = find_non_finite_simplex(simplices); s >= 0)
       return {Status::non_finite_weight, -1, s};
     m_energy = make_rigidity_energy(m_weight, std::move(simplices), scheme, m_region);
-    const Diagnosis diagnosis = factorize_laplacian(m_energy, m_solver);
+    const Diagnosis diagnosis = m_solver.prepare(m_energy, m_region.indices, m_prototype_solver);
     reset_rotations();
     return diagnosis;
   }
@@ -165,7 +171,7 @@ private:
   typename Traits::Edge_weight m_weight;
   typename Traits::Closest_rotation m_closest_rotation;
   Solver m_prototype_solver; // as the traits hand it out
-  Solver m_solver;           // holds the factor of the Laplacian
+  Laplacian_solver<Solver> m_solver;
   Rigidity_energy m_energy;
   std::optional<Laplacian_guess<Solver>> m_laplacian_guess;
   std::vector<Matrix_3x3> m_rotations;

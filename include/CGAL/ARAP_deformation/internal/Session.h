@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/Iterate.h>
+#include <CGAL/ARAP_deformation/internal/Laplacian_solver.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/sentences.h>
@@ -127,9 +128,12 @@ public:
       return outcome(Status::non_finite_point, name(region.vertices[v]));
 
     std::optional<Core> core;
-    core.emplace(m_traits, std::move(region.flat), m_options);
+    core.emplace(m_traits, std::move(region.flat), m_options, std::move(m_idle_solver));
     if(core->diagnosis().status != Status::success)
+    {
+      m_idle_solver = core->take_solver();
       return explain(core->diagnosis(), region, *core);
+    }
     m_region = std::move(region);
     m_positions = std::move(positions);
     m_core = std::move(core);
@@ -217,6 +221,8 @@ private:
   {
     if(is_change)
     {
+      if(m_core)
+        m_idle_solver = m_core->take_solver(); // a factor may be of use for other free vertices
       m_core.reset();
       m_energy = not_a_number;
     }
@@ -321,6 +327,8 @@ private:
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;
+
+  Laplacian_solver<typename Traits::Sparse_solver> m_idle_solver; // of a core that was out of date
 
   // what preprocess() computes; up to date if m_core has a value
   Region_ m_region;

@@ -32,19 +32,25 @@ struct Diagnosis
   int simplex = -1;
 };
 
+// Why the Laplacian of the free vertices cannot be factorized, where that can be told before.
+inline Diagnosis find_fault(const Rigidity_energy& energy, const Sparse_matrix& laplacian)
+{
+  if(const int v = find_unattached_vertex(energy); v >= 0)
+    return {Status::no_held_vertex, v};
+  for(int v = 0; v < laplacian.cols(); ++v)
+    if(const double d = diagonal_entry(laplacian, v); !(d > 0) || !std::isfinite(d))
+      return {Status::singular_matrix, v};
+  return {};
+}
+
 // Has the solver factorize the Laplacian of the free vertices.
 template <typename Solver>
 Diagnosis factorize_laplacian(const Rigidity_energy& energy, Solver& solver)
 {
-  if(const int v = find_unattached_vertex(energy); v >= 0)
-    return {Status::no_held_vertex, v};
-  const int n = energy.number_of_free_vertices();
   const Sparse_matrix laplacian = free_laplacian(energy);
-  for(int v = 0; v < n; ++v) // the first entry of each column is the diagonal
-    if(const double diagonal = laplacian.valuePtr()[laplacian.outerIndexPtr()[v]];
-       !(diagonal > 0) || !std::isfinite(diagonal))
-      return {Status::singular_matrix, v};
-  if(n > 0 && !(solver.analyze(laplacian) && solver.factorize(laplacian)))
+  if(const Diagnosis fault = find_fault(energy, laplacian); fault.status != Status::success)
+    return fault;
+  if(laplacian.rows() > 0 && !(solver.analyze(laplacian) && solver.factorize(laplacian)))
     return {Status::singular_matrix};
   return {};
 }

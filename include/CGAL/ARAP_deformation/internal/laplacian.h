@@ -97,6 +97,11 @@ inline Sparse_matrix free_laplacian(const Rigidity_energy& energy)
   return laplacian;
 }
 
+inline double diagonal_entry(const Sparse_matrix& laplacian, int v)
+{
+  return laplacian.valuePtr()[laplacian.outerIndexPtr()[v]]; // the first of its column
+}
+
 // A free vertex from which no edge of non-zero weight leads, over other free vertices, to a held
 // one: its component could be anywhere, and the matrix is singular. Returns -1 if there is none.
 inline int find_unattached_vertex(const Rigidity_energy& energy)

@@ -1,0 +1,182 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_SOLVER_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_SOLVER_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Paged_index_map.h>
+#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
+#include <CGAL/ARAP_deformation/internal/laplacian.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename Solver>
+using Call_set_border = Requires_convertible<
+  decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
+                                              std::declval<const Eigen::MatrixXd&>())), bool>;
+
+// Solves for the free vertices, by a factor that may be that of other free vertices. Vertices that
+// are now held and were free when the factor was computed are kept where they are by multipliers,
+// and vertices that are now free and were held then are further unknowns. Both are a border of the
+// matrix A of the factor,
+//   [ A    B ] [ x ]   [ f ]
+//   [ B^T  D ] [ z ] = [ g ],
+// with a column of B that is a unit vector for each vertex that is now held, and one with the entries
+// of the Laplacian for each that is now free.
+template <typename Solver>
+class Laplacian_solver
+{
+public:
+  Laplacian_solver() = default;
+
+  // Makes it solve for the free vertices of an energy, whose indices in the mesh are given. The
+  // factor there is serves if few vertices have changed and weights have not; otherwise a copy of the
+  // prototype factorizes.
+  Diagnosis prepare(const Rigidity_energy& energy, const std::vector<std::size_t>& indices,
+                    const Solver& prototype)
+  {
+    const Sparse_matrix laplacian = free_laplacian(energy);
+    Diagnosis diagnosis = find_fault(energy, laplacian);
+    if(diagnosis.status == Status::success && !border_factor(laplacian, indices) &&
+       !factorize(laplacian, indices, prototype))
+      diagnosis.status = Status::singular_matrix;
+    return diagnosis;
+  }
+
+  // replaces the right-hand side x, one row for each free vertex, by the solution
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    if(m_rows.empty())
+      return m_solver->solve(n, x);
+    m_bordered.assign(m_number_of_rows, Coordinates{0, 0, 0});
+    for(std::size_t v = 0; v < n; ++v)
+      m_bordered[m_rows[v]] = x[v];
+    if(!m_solver->solve(m_bordered.size(), m_bordered.data()))
+      return false;
+    for(std::size_t v = 0; v < n; ++v)
+      x[v] = m_bordered[m_rows[v]];
+    return true;
+  }
+
+private:
+  // beyond this a factorization costs less than a border
+  static constexpr std::size_t largest_border = 256;
+
+  bool factorize(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
+                 const Solver& prototype)
+  {
+    m_solver.reset();
+    m_rows.clear();
+    m_base_rows = Paged_index_map();
+    m_base_diagonal.resize(laplacian.rows());
+    if(m_base_diagonal.empty())
+      return true;
+    for(int v = 0; v < base_size(); ++v)
+    {
+      m_base_rows.set(indices[v], v);
+      m_base_diagonal[v] = diagonal_entry(laplacian, v);
+    }
+    Solver solver(prototype);
+    if(!solver.analyze(laplacian) || !solver.factorize(laplacian))
+      return false;
+    m_solver.emplace(std::move(solver));
+    return true;
+  }
+
+  bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices)
+  {
+    if constexpr(is_valid<Call_set_border, Solver>)
+    {
+      if(!m_solver)
+        return false;
+      const int n = static_cast<int>(laplacian.rows());
+      std::vector<int> rows(n);
+      std::vector<char> is_free(base_size(), false);
+      int number_of_rows = base_size();
+      for(int v = 0; v < n; ++v)
+      {
+        const int row = m_base_rows[indices[v]];
+        rows[v] = row != Paged_index_map::none ? row : number_of_rows++;
+        if(row == Paged_index_map::none)
+          continue;
+        // all edges of a vertex are in its diagonal entry, whatever is free around it
+        const double old_diagonal = m_base_diagonal[row], diagonal = diagonal_entry(laplacian, v);
+        if(std::abs(diagonal - old_diagonal) > 1e-12 * std::abs(diagonal))
+          return false;
+        is_free[row] = true;
+      }
+      const int number_of_freed = number_of_rows - base_size();
+      const int number_of_kept = n - number_of_freed;
+      const std::size_t border_size =
+        static_cast<std::size_t>(number_of_freed) + (base_size() - number_of_kept);
+      if(border_size > largest_border)
+        return false;
+
+      std::vector<Eigen::Triplet<double, int>> entries;
+      Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(border_size, border_size);
+      for(int v = 0; v < n; ++v)
+        for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
+        {
+          const int i = (std::max)(rows[v], rows[entry.row()]) - base_size();
+          const int j = (std::min)(rows[v], rows[entry.row()]);
+          if(i >= 0 && j < base_size())
+            entries.emplace_back(j, i, entry.value());
+          else if(i >= 0)
+            corner(i, j - base_size()) = corner(j - base_size(), i) = entry.value();
+        }
+      for(int row = 0; row < base_size(); ++row)
+        if(!is_free[row])
+          entries.emplace_back(row, number_of_rows++ - base_size(), 1);
+      Sparse_matrix border(base_size(), border_size);
+      border.setFromTriplets(entries.begin(), entries.end());
+      if(!m_solver->set_border(border, corner))
+        return false;
+      m_rows = std::move(rows);
+      m_number_of_rows = static_cast<std::size_t>(number_of_rows);
+      return true;
+    }
+    else
+      return false;
+  }
+
+  // the number of rows of the factor
+  int base_size() const { return static_cast<int>(m_base_diagonal.size()); }
+
+  std::optional<Solver> m_solver;      // if something is factorized
+  Paged_index_map m_base_rows;         // from the indices in the mesh to the rows of the factor
+  std::vector<double> m_base_diagonal; // of the matrix that is factorized
+  std::vector<int> m_rows;             // for each free vertex its row; empty if they are the same
+  std::size_t m_number_of_rows = 0;    // with the border
+  std::vector<Coordinates> m_bordered; // scratch
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_LAPLACIAN_SOLVER_H
