@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Closest rotations by Newton's method, many at a time: against the singular value decomposition for
-// all kinds of matrices and starts, and to the last bit independent of the neighbours.
+// Closest rotations by Newton's method, many at a time: against the singular value decomposition
+// for all kinds of matrices and starts, and to the last bit independent of the neighbours.
 
 #include "include/check.h"
 

@@ -26,7 +26,8 @@ struct Double8
 {
   Double4 low, high;
 
-  CGAL_ARAP_ALWAYS_INLINE static Double8 all(double a) { return {Double4::all(a), Double4::all(a)}; }
+  CGAL_ARAP_ALWAYS_INLINE static Double8 all(double a)
+  { return {Double4::all(a), Double4::all(a)}; }
   CGAL_ARAP_ALWAYS_INLINE static Double8 zero() { return all(0); }
 
   friend CGAL_ARAP_ALWAYS_INLINE Double8 operator+(const Double8& a, const Double8& b)

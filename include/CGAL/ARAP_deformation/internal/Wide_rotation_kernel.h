@@ -45,7 +45,8 @@ namespace internal {
 // One step with all that is exact but for rounding, and the rounding errors are proportional to
 // x. A second step is needed only where x is not small.
 //
-// The lanes do not know of each other: what is computed in one is the same whatever the others hold.
+// The lanes do not know of each other: what is computed in one is the same whatever the others
+// hold.
 class Wide_rotation_kernel
 {
 public:
@@ -77,10 +78,10 @@ public:
   }
 
 private:
-  // One more than it takes from where the rotation is anything at all.
+  // The first step goes near the result from anywhere but half a turn away, the second one to it.
   static constexpr int step_limit = 4;
 
-  // For H scaled to about one: determinants below are taken for zero.
+  // Determinants of H, scaled to about one, that are smaller are taken for zero.
   static constexpr double smallest_determinant = 1e-10;
 
   // row by row
