@@ -14,10 +14,9 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
-#include <CGAL/ARAP_deformation/internal/default_solver.h>
+#include <CGAL/ARAP_deformation/internal/default_models.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/tags.h>
@@ -60,7 +59,7 @@ public:
 
   /// the type of the rotation fitting.
   using Closest_rotation =
-    typename Default::Get<ClosestRotation, ARAP::Newton_closest_rotation>::type;
+    typename Default::Get<ClosestRotation, ARAP::internal::Default_closest_rotation>::type;
 
   /// whether work is done at the same time.
   using Concurrency_tag = ConcurrencyTag;

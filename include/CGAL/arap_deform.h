@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/default_models.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -101,7 +102,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///   \cgalParamNBegin{sparse_linear_solver}
 ///     \cgalParamDescription{the solver}
 ///     \cgalParamType{a model of `ARAPSparseSolver`}
-///     \cgalParamDefault{`ARAP::Eigen_cholesky_solver`}
+///     \cgalParamDefault{that of `ARAP_deformation_traits_3`}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
@@ -119,7 +120,7 @@ ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,
   auto weight = choose_parameter(get_parameter(np, internal_np::weight_calculator),
                                  ARAP::Safe_cotangent_weight());
   auto solver = choose_parameter(get_parameter(np, internal_np::sparse_linear_solver),
-                                 ARAP::Eigen_cholesky_solver());
+                                 ARAP::internal::Default_solver());
   using Traits = ARAP_deformation_traits_3<decltype(solver), decltype(weight)>;
   using Visitor = typename internal_np::Lookup_named_param_def<
     internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_deformation.h>
+#include <CGAL/ARAP_deformation/internal/default_models.h>
 #include <CGAL/ARAP_deformation/internal/select_model.h>
 
 #include <CGAL/Default.h>
@@ -56,7 +57,7 @@ namespace ARAP {
 /// - *Targets* of vertices that are not control vertices are ignored by all functions, not only by
 ///   `set_target_position()`; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
-///   \cgal's. The defaults are `Eigen_cholesky_solver` and `SVD_closest_rotation`. A Cholesky
+///   \cgal's. The defaults are those of `CGAL::ARAP_deformation_traits_3`. A Cholesky
 ///   factorization needs weights for which the matrix is positive definite, as it is with those of
 ///   \cgal; where negative weights make it indefinite, `preprocess()` fails.
 /// - *Free parts.* If a part of the region of interest is not tied to any vertex that is held,
@@ -102,9 +103,9 @@ public:
   using Weight_calculator = typename Base_types::Weight_calculator; ///< the weights.
   using Vertex_point_map = typename Base_types::Vertex_point_map; ///< the points.
   /// the solver: `ST`, or its default.
-  using Sparse_linear_solver = typename Default::Get<ST, Eigen_cholesky_solver>::type;
+  using Sparse_linear_solver = typename Default::Get<ST, internal::Default_solver>::type;
   /// the rotation: `CR`, or its default.
-  using Closest_rotation_traits = typename Default::Get<CR, SVD_closest_rotation>::type;
+  using Closest_rotation_traits = typename Default::Get<CR, internal::Default_closest_rotation>::type;
   using vertex_descriptor = typename Base_types::vertex_descriptor; ///< a vertex.
   using halfedge_descriptor = typename Base_types::halfedge_descriptor; ///< a halfedge.
   using Point = typename Base_types::Point; ///< a point.

@@ -15,10 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/default_models.h>
 
 #include <CGAL/Default.h>
 
@@ -54,7 +53,7 @@ struct Select_sparse_solver
 };
 
 template <>
-struct Select_sparse_solver<Default> { using type = Eigen_cholesky_solver; };
+struct Select_sparse_solver<Default> { using type = Default_solver; };
 
 // the model of ARAPClosestRotation_3 for what a user gave, which may be a model of CGAL's concept
 template <typename T>
@@ -69,7 +68,7 @@ struct Select_closest_rotation
 };
 
 template <>
-struct Select_closest_rotation<Default> { using type = SVD_closest_rotation; };
+struct Select_closest_rotation<Default> { using type = Default_closest_rotation; };
 
 } // namespace internal
 } // namespace ARAP

@@ -9,10 +9,12 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_MODELS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_MODELS_H
 
 #include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
@@ -30,8 +32,10 @@ using Default_solver = Cholmod_solver;
 using Default_solver = Eigen_cholesky_solver;
 #endif
 
+using Default_closest_rotation = Newton_closest_rotation;
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_SOLVER_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DEFAULT_MODELS_H
