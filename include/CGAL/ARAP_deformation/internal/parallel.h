@@ -20,6 +20,7 @@
 #include <vector>
 
 #ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
@@ -41,7 +42,9 @@ void run_with_threads(unsigned int number_of_threads, const Function& f)
 #ifdef CGAL_LINKED_WITH_TBB
   if(number_of_threads > 0)
   {
-    tbb::task_arena arena(static_cast<int>(number_of_threads));
+    const std::size_t available =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    tbb::task_arena arena(static_cast<int>((std::min<std::size_t>)(number_of_threads, available)));
     arena.execute(f);
     return;
   }
