@@ -23,7 +23,9 @@
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
+#include <CGAL/ARAP_deformation/internal/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
+#include <CGAL/ARAP_deformation/internal/minimize_quasi_newton.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <cmath>
@@ -87,9 +89,11 @@ public:
       if(!(*m_laplacian_guess)(x))
         return {Status::solver_failed};
     }
-    return {minimize_local_global(m_energy, m_closest_rotation, m_solver,
-                                  m_region.number_of_free_vertices, options, observe, x,
-                                  rotations, report)};
+    Minimization<typename Traits::Closest_rotation, Solver> minimization(
+      m_energy, m_closest_rotation, m_solver, m_region.number_of_free_vertices, options, observe, x,
+      rotations, report);
+    return {is_quasi_newton(options) ? minimize_quasi_newton(minimization)
+                                     : minimize_local_global(minimization)};
   }
 
   // the number of tetrahedra that are inside out at the positions x; 0 on a surface
@@ -103,6 +107,12 @@ public:
   }
 
 private:
+  static bool is_quasi_newton(const Options& options)
+  {
+    return options.minimizer == Minimizer::quasi_newton ||
+           (options.minimizer == Minimizer::automatic && options.tolerance > 0);
+  }
+
   // the sign of the volume of the tetrahedron s
   int orientation(int s, const std::vector<Coordinates>& x) const
   {

@@ -30,13 +30,17 @@ inline double energy_resolution(double energy, double scale)
   return std::numeric_limits<double>::epsilon() * (std::abs(energy) + scale);
 }
 
-// Estimates (E - E*) / E* for a run that has reached the energy E by the given decreases and tends
-// to E*: those of the second half of the run are taken for a geometric series and summed to the
-// end. Infinity where there are too few of them, or where they do not shrink. An energy of at most
-// `zero`, its rounding error, is at its minimum.
-inline double estimate_relative_gap(double energy, const std::vector<double>& decreases,
-                                    double zero)
+// Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to E*.
+class Gap_estimate
 {
+public:
+  Gap_estimate() = default;
+  explicit Gap_estimate(double) {}
+  void add(double decrease) { m_decreases.push_back(decrease); }
+  // An energy of at most `zero`, its rounding error, is at its minimum.
+  double operator()(double energy, double zero) const
+  {
+  const std::vector<double>& decreases = m_decreases;
   const double infinity = (std::numeric_limits<double>::infinity)();
   const std::size_t k = decreases.size(), half = k / 2;
   if(std::abs(energy) <= zero || (k > 0 && decreases.back() == 0))
@@ -49,7 +53,10 @@ inline double estimate_relative_gap(double energy, const std::vector<double>& de
   const double ratio = std::pow(last / earlier, 1.0 / static_cast<double>(k - half));
   const double gap = last * ratio / (1 - ratio);
   return gap / (std::max)(std::abs(energy - gap), zero);
-}
+  }
+private:
+  std::vector<double> m_decreases;
+};
 
 } // namespace internal
 } // namespace ARAP
