@@ -101,7 +101,7 @@ public:
   std::optional<Status> next_iterate(double decrease = 0)
   {
     if(report.energy.empty())
-      m_gap = Gap_estimate(m_energy);
+      m_gap = Gap_estimate(m_rigidity.rounding_error_of_zero(x));
     else
     {
       ++report.iterations;
@@ -111,8 +111,7 @@ public:
     if(!std::isfinite(m_energy))
       return Status::non_finite_energy;
     const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
-    report.estimated_relative_gap =
-      is_nothing_free ? 0 : m_gap(m_energy, m_rigidity.rounding_error_of_zero(x));
+    report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_energy);
 
     switch(m_observe(report.iterations, m_energy))
     {

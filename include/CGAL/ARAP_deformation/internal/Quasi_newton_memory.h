@@ -77,7 +77,7 @@ class Quasi_newton_memory
 {
 public:
   // the number of pairs: more save few iterations, and cost time and memory
-  static constexpr int capacity = 5;
+  static constexpr int capacity = 6;
 
   explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
 
