@@ -372,7 +372,7 @@ void test_refusals()
   check_refused("in.off --frobnicate" + rest, 2, "frobnicate");
   check_refused("in.off --cells dinner" + rest, 2, "spokes, spokes_and_rims, elements");
   check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
-  check_refused("in.off --minimizer newton" + rest, 2, "local_global");
+  check_refused("in.off --minimizer newton" + rest, 2, "automatic, local_global, quasi_newton");
   check_refused("in.off --initial_guess none" + rest, 2, "previous, laplacian");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");

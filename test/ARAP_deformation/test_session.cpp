@@ -236,9 +236,7 @@ void test_options()
 
   // what the estimate is worth: the minimum is what two thousand more iterations reach
   const double minimum = d.deform(2000, 0).energy.back();
-  const double gap = (report.energy.back() - minimum) / minimum;
-  CHECK_AT_MOST(gap, 10 * report.estimated_relative_gap);
-  CHECK_AT_MOST(report.estimated_relative_gap, 10 * gap);
+  CHECK_AT_MOST((report.energy.back() - minimum) / minimum, report.estimated_relative_gap);
 
   options.tolerance = -1;
   const auto refused = d.set_options(options);
@@ -263,7 +261,8 @@ void test_options()
   const CGAL::ARAP::Options defaults;
   CHECK(defaults.cells == CGAL::ARAP::Cell_scheme::spokes_and_rims());
   CHECK(defaults.initial_guess == CGAL::ARAP::Initial_guess::previous);
-  CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-2);
+  CHECK(defaults.minimizer == CGAL::ARAP::Minimizer::automatic);
+  CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-3);
 }
 
 // However small a motion is, the run goes on until the gap is as small as was asked for.

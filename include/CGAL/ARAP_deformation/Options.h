@@ -35,6 +35,19 @@ enum class Initial_guess
 };
 
 /// \ingroup PkgARAPDeformationOptions
+/// how the energy is minimized. By either its value never rises, and an iteration costs about the
+/// same: one fit of the rotations and one solution of the linear system.
+enum class Minimizer
+{
+  automatic,    ///< `quasi_newton` if `Options::tolerance` is positive, else `local_global`
+  local_global, ///< the iteration of the paper: the most for the first few iterations of a frame,
+                ///< and needs the least memory
+  quasi_newton  ///< L-BFGS in the metric of the Laplacian: many times fewer iterations to the
+                ///< minimum. It takes about 200 bytes more for
+                ///< each free vertex.
+};
+
+/// \ingroup PkgARAPDeformationOptions
 /// what a program chooses at run time.
 struct Options
 {
@@ -44,13 +57,17 @@ struct Options
   /// where each run starts from.
   Initial_guess initial_guess = Initial_guess::previous;
 
+  /// how the energy is minimized.
+  Minimizer minimizer = Minimizer::automatic;
+
   /// the largest number of iterations of a run; 0 only moves to the initial guess.
   /// Two or three a frame are enough in an interactive program.
   unsigned int iterations = 1000;
 
   /// the run ends when `Report::estimated_relative_gap` is at most this; not negative.
-  /// 0 runs all iterations.
-  double tolerance = 1e-2;
+  /// 0 runs all iterations. The estimate is usually too large, so that the true gap is well below
+  /// the tolerance.
+  double tolerance = 1e-3;
 
   /// how many threads may be at work in a call; 0 for as many as TBB takes by itself. Without TBB
   /// (the macro `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is one.

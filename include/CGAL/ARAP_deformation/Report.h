@@ -51,9 +51,10 @@ struct Report : Outcome
   /// the energy that are below a rounding error of it mean nothing.
   double energy_scale = 0;
 
-  /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the iteration tends to,
-  /// extrapolated from the last decreases of the energy; infinity when too few are known.
-  /// An order of magnitude, not a bound.
+  /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the run tends to,
+  /// extrapolated from the decreases of the energy; infinity where too few are known, or where they
+  /// do not shrink. It is meant to be too large rather than too small, but it is not a bound: see
+  /// \ref ARAPDeformation_Gap for how good it is.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
   std::size_t free_vertices = 0; ///< vertices whose positions were solved for

@@ -20,11 +20,13 @@
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Laplacian_guess.h>
 #include <CGAL/ARAP_deformation/internal/Laplacian_solver.h>
+#include <CGAL/ARAP_deformation/internal/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
+#include <CGAL/ARAP_deformation/internal/minimize_quasi_newton.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
@@ -140,9 +142,17 @@ private:
       if(!(*m_laplacian_guess)(x))
         return {Status::solver_failed};
     }
-    return {minimize_local_global(m_energy, m_closest_rotation, m_solver,
-                                  m_region.number_of_free_vertices, options, observe, x,
-                                  rotations, report)};
+    Minimization<typename Traits::Closest_rotation, Laplacian_solver<Solver>> minimization(
+      m_energy, m_closest_rotation, m_solver, m_region.number_of_free_vertices, options, observe, x,
+      rotations, report);
+    return {is_quasi_newton(options) ? minimize_quasi_newton(minimization)
+                                     : minimize_local_global(minimization)};
+  }
+
+  static bool is_quasi_newton(const Options& options)
+  {
+    return options.minimizer == Minimizer::quasi_newton ||
+           (options.minimizer == Minimizer::automatic && options.tolerance > 0);
   }
 
   // the sign of the volume of the tetrahedron s

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -30,26 +31,63 @@ inline double energy_resolution(double energy, double scale)
   return std::numeric_limits<double>::epsilon() * (std::abs(energy) + scale);
 }
 
-// Estimates (E - E*) / E* for a run that has reached the energy E by the given decreases and tends
-// to E*: those of the second half of the run are taken for a geometric series and summed to the
-// end. Infinity where there are too few of them, or where they do not shrink. An energy of at most
-// `zero`, its rounding error, is at its minimum.
-inline double estimate_relative_gap(double energy, const std::vector<double>& decreases,
-                                    double zero)
+// Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to E*.
+// The decreases of the last tenth of the run and those of the tenth before it are taken for two
+// terms of a geometric series, which is summed to its end. Two things keep the estimate from being
+// too small, which is worse than too large: terms are not believed to shrink to less than half, and
+// what counts is the largest of the sums that were found lately. A run often seems to be at its end
+// when it has only taken in what is local, or when it passes a saddle.
+class Gap_estimate
 {
-  const double infinity = (std::numeric_limits<double>::infinity)();
-  const std::size_t k = decreases.size(), half = k / 2;
-  if(std::abs(energy) <= zero || (k > 0 && decreases.back() == 0))
-    return 0;
-  if(half < 2)
-    return infinity;
-  const double last = decreases[k - 1], earlier = decreases[half - 1];
-  if(!(0 < last && last < earlier))
-    return infinity;
-  const double ratio = std::pow(last / earlier, 1.0 / static_cast<double>(k - half));
-  const double gap = last * ratio / (1 - ratio);
-  return gap / (std::max)(std::abs(energy - gap), zero);
-}
+public:
+  // An energy of at most `zero`, its rounding error, is at its minimum.
+  explicit Gap_estimate(double zero = 0) : m_zero(zero) {}
+
+  void add(double decrease)
+  {
+    m_decreases.push_back(decrease);
+    m_gaps.push_back(extrapolated_gap());
+  }
+
+  // infinity where too little is known, or where the decreases do not shrink
+  double operator()(double energy) const
+  {
+    if(std::abs(energy) <= m_zero || (!m_decreases.empty() && m_decreases.back() == 0))
+      return 0;
+    const std::size_t n = share(15);
+    if(m_gaps.size() < n)
+      return infinity;
+    const double gap = *std::max_element(m_gaps.end() - n, m_gaps.end());
+    const double minimum = energy - gap;
+    return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), m_zero);
+  }
+
+private:
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  // some percent of the number of iterations, but not too few to tell anything
+  std::size_t share(std::size_t percent) const
+  {
+    return (std::max)(std::size_t(5), m_decreases.size() * percent / 100);
+  }
+
+  double extrapolated_gap() const
+  {
+    const std::size_t n = share(10);
+    if(m_decreases.size() < 2 * n)
+      return infinity;
+    const double last = std::accumulate(m_decreases.end() - n, m_decreases.end(), 0.0);
+    const double earlier = std::accumulate(m_decreases.end() - 2 * n, m_decreases.end() - n, 0.0);
+    if(last <= m_zero) // nothing but rounding is left
+      return (std::max)(last, 0.0);
+    const double ratio = (std::max)(last / earlier, 0.5);
+    return 0 < earlier && ratio < 1 ? last * ratio / (1 - ratio) : infinity;
+  }
+
+  double m_zero;
+  std::vector<double> m_decreases;
+  std::vector<double> m_gaps; // after each of them
+};
 
 } // namespace internal
 } // namespace ARAP

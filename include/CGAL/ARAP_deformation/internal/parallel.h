@@ -92,16 +92,17 @@ void for_each_block(std::size_t n, const Function& f, std::size_t block_size = d
   });
 }
 
-// The sum of f(begin, end) over consecutive blocks of [0, n), added up in their order.
+// The sum of f(begin, end) over consecutive blocks of [0, n), added up in their order; f returns
+// numbers, or what can be added like numbers.
 template <typename Function>
-double sum_over_blocks(std::size_t n, const Function& f,
-                       std::size_t block_size = default_block_size)
+auto sum_over_blocks(std::size_t n, const Function& f, std::size_t block_size = default_block_size)
 {
-  std::vector<double> sums((n + block_size - 1) / block_size);
+  using Value = decltype(f(n, n));
+  std::vector<Value> sums((n + block_size - 1) / block_size);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     sums[begin / block_size] = f(begin, end);
   }, block_size);
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::accumulate(sums.begin(), sums.end(), Value());
 }
 
 } // namespace internal

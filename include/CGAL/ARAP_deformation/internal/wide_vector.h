@@ -111,6 +111,18 @@ struct alignas(32) Double4
     return a;
   }
 
+  // four numbers in single precision
+  CGAL_ARAP_ALWAYS_INLINE static Double4 load(const float* p)
+  {
+#if defined(__GNUC__)
+    float __attribute__((vector_size(16))) single;
+    std::memcpy(&single, p, sizeof(single));
+    return {__builtin_convertvector(single, Lanes)};
+#else
+    return {{p[0], p[1], p[2], p[3]}};
+#endif
+  }
+
   CGAL_ARAP_ALWAYS_INLINE void store(double* p) const { std::memcpy(p, &lanes, sizeof(lanes)); }
 
   CGAL_ARAP_ALWAYS_INLINE double operator[](int k) const { return lanes[k]; }

@@ -1,0 +1,146 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZATION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZATION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/gap_estimate.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// `observe(k, E_k)` is called after iteration k, and after the initial evaluation with k = 0. Its
+// type is erased: what a mesh and its visitor are makes no difference here, and costs no compile
+// time.
+using Observer = std::function<Visitor_action(unsigned int, double)>;
+
+// What all minimizers have in common: the local step, the solution for the global step, and what is
+// observed, reported and tested after each iteration. The solver holds the factorized Laplacian L
+// of the first `number_of_free_vertices` vertices.
+template <typename ClosestRotation, typename Solver>
+class Minimization
+{
+public:
+  std::vector<Coordinates>& x;
+  const std::size_t number_of_free_vertices;
+  Report& report;
+
+  Minimization(Rigidity_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
+               std::size_t number_of_free_vertices_, const Options& options,
+               const Observer& observe, std::vector<Coordinates>& x_,
+               std::vector<Matrix_3x3>& rotations, Report& report_)
+    : x(x_), number_of_free_vertices(number_of_free_vertices_), report(report_),
+      m_rigidity(energy), m_closest_rotation(closest_rotation), m_solver(solver),
+      m_options(options), m_observe(observe), m_rotations(rotations)
+  {
+    report.energy_scale = energy.scale();
+  }
+
+  // the energy at x with the rotations fitted to x
+  double evaluate()
+  {
+    Scoped_seconds local(report.seconds.local_steps);
+    return m_energy = m_rigidity.evaluate(m_closest_rotation, x, m_rotations, m_force);
+  }
+
+  // minus half the gradient where the energy was last evaluated
+  const std::vector<Coordinates>& force() const { return m_force; }
+
+  // Computes the local/global step, the solution of L step = force.
+  bool solve(std::vector<Coordinates>& step)
+  {
+    step.assign(m_force.begin(), m_force.begin() + number_of_free_vertices);
+    return m_solver.solve(number_of_free_vertices, step.data());
+  }
+
+  // By how much the energy has decreased by a step s since the last iterate. Near the minimum the
+  // difference of the energies is lost in rounding, and the products of s with the forces before
+  // and after it are not; they are computed by the functions.
+  template <typename Before, typename After>
+  double decrease(const Before& force_before, const After& force_after) const
+  {
+    const double difference = report.energy.back() - m_energy;
+    const double rounding = energy_resolution(m_energy, report.energy_scale);
+    return difference > 1e5 * rounding || !std::isfinite(m_energy)
+         ? difference : force_before() + force_after();
+  }
+
+  // whether the energy last evaluated is not above that of the last iterate
+  bool is_not_higher() const
+  {
+    const double before = report.energy.back();
+    return m_energy <= before + energy_resolution(before, report.energy_scale);
+  }
+
+  // Makes x the next iterate, reached by the given decrease of the energy, or the first one. Returns
+  // a status if the run is over.
+  std::optional<Status> next_iterate(double decrease = 0)
+  {
+    if(report.energy.empty())
+      m_gap = Gap_estimate(m_rigidity.rounding_error_of_zero(x));
+    else
+    {
+      ++report.iterations;
+      m_gap.add(decrease);
+    }
+    report.energy.push_back(m_energy);
+    if(!std::isfinite(m_energy))
+      return Status::non_finite_energy;
+    const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
+    report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_energy);
+
+    switch(m_observe(report.iterations, m_energy))
+    {
+    case Visitor_action::stop: return Status::stopped;
+    case Visitor_action::cancel: return Status::cancelled;
+    case Visitor_action::proceed: break;
+    }
+    if(is_nothing_free || (m_options.tolerance > 0 &&
+                           report.estimated_relative_gap <= m_options.tolerance))
+      return Status::converged;
+    if(report.iterations == m_options.iterations)
+      return Status::iteration_limit;
+    return std::nullopt;
+  }
+
+private:
+  Rigidity_energy& m_rigidity;
+  const ClosestRotation& m_closest_rotation;
+  Solver& m_solver;
+  const Options& m_options;
+  const Observer& m_observe;
+  std::vector<Matrix_3x3>& m_rotations;
+  std::vector<Coordinates> m_force;
+  double m_energy = 0;
+  Gap_estimate m_gap;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZATION_H

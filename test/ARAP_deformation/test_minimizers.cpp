@@ -1,0 +1,438 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The quasi-Newton minimizer against the one of the paper: the same minima with any solver, in fewer
+// iterations; what happens when its steps fail; and what the estimated gap is worth for both.
+
+#include "include/check.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/internal/Quasi_newton_memory.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+using Vertex = Mesh::Vertex_index;
+using CGAL::ARAP::Cell_scheme;
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Options;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+
+Options options_for(Minimizer minimizer, Cell_scheme cells = Cell_scheme::spokes_and_rims())
+{
+  Options options;
+  options.cells = cells;
+  options.minimizer = minimizer;
+  return options;
+}
+
+// a run from the rest shape with the handles moved
+template <typename Traits = CGAL::ARAP_deformation_traits_3<>>
+Report run(const Shape& shape, const Scenario& s, const Options& options, unsigned int iterations,
+           double tolerance, const Traits& traits = Traits())
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh, traits);
+  CHECK(d.set_options(options));
+  prepare(d, s, all_vertices(mesh));
+  return d.deform(iterations, tolerance);
+}
+
+unsigned int iterations_to(double energy, const Report& report)
+{
+  unsigned int k = 0;
+  while(k < report.iterations && report.energy[k] > energy)
+    ++k;
+  return k;
+}
+
+// The step of the memory is that of L-BFGS, written down a second time with dense matrices, for a
+// quadratic energy with the minimum 0 and the second derivative 2 A, where L is the metric.
+void test_step()
+{
+  test_case() = "the step";
+  using CGAL::ARAP::internal::Quasi_newton_memory;
+  using Vector = Eigen::VectorXd;
+  for(const std::size_t n : {1, 3, 40, 1500}) // the last has more than one block
+  {
+    const int size = static_cast<int>(3 * n);
+    Vector a(size), metric(size);
+    for(int k = 0; k < size; ++k)
+    {
+      metric[k] = 1 + (k * 7 % 13);
+      a[k] = metric[k] * (0.02 + 0.98 * ((k * 5 + 1) % 11) / 11.0);
+    }
+    const auto points = [n](const Vector& v) {
+      std::vector<Coordinates> result(n);
+      for(std::size_t k = 0; k < n; ++k)
+        result[k] = {v[3 * k], v[3 * k + 1], v[3 * k + 2]};
+      return result;
+    };
+    const auto to_vector = [size](const std::vector<Coordinates>& p) {
+      Vector v(size);
+      for(int k = 0; k < size; ++k)
+        v[k] = p[k / 3][k % 3];
+      return v;
+    };
+    Vector x = Vector::LinSpaced(size, 1, 2);
+    Quasi_newton_memory memory(n);
+    std::vector<Vector> s, y;
+    std::vector<Coordinates> before(n), d;
+    for(int iteration = 0; iteration < 12; ++iteration)
+    {
+      const Vector f = -a.cwiseProduct(x);
+      const std::vector<Coordinates> new_d = points(f.cwiseQuotient(metric));
+      if(iteration > 0)
+        memory.remember(iteration == 3 ? 0.5 : 1, points(f), d, new_d);
+      d = new_d;
+
+      // the inverse Hessian times f, by the two loops over vectors; the last pairs only
+      const int first = (std::max)(0, int(s.size()) - Quasi_newton_memory::capacity);
+      Vector q = f;
+      std::vector<double> alpha(s.size());
+      for(int k = int(s.size()) - 1; k >= first; --k)
+      {
+        alpha[k] = s[k].dot(q) / s[k].dot(y[k]);
+        q -= alpha[k] * y[k];
+      }
+      double scale = 1;
+      if(!s.empty())
+        scale = 1.5 * s.back().dot(y.back()) / y.back().dot(y.back().cwiseQuotient(metric));
+      Vector p = scale * q.cwiseQuotient(metric);
+      for(int k = first; k < int(s.size()); ++k)
+        p += (alpha[k] - y[k].dot(p) / s[k].dot(y[k])) * s[k];
+
+      std::vector<Coordinates> moved = points(x);
+      const double slope = memory.move(points(f), d, moved, before);
+      const Vector step = to_vector(moved) - x;
+      CHECK(before == points(x));
+      CHECK_AT_MOST((step - p).norm(), 1e-4 * p.norm());
+      CHECK_AT_MOST(std::abs(slope - f.dot(step)), 1e-10 * std::abs(slope));
+      CHECK_AT_MOST(std::abs(memory.slope(points(f)) - slope), 1e-5 * std::abs(slope));
+      if(iteration == 2) // shortened once
+        moved = points(Vector(x + 0.5 * step));
+      s.push_back(to_vector(moved) - x);
+      y.push_back(a.cwiseProduct(s.back()));
+      x = to_vector(moved);
+      if(x.norm() < 1e-4) // what follows is rounding
+        break;
+    }
+
+    // the last move is replaced by d, and all is forgotten
+    std::vector<Coordinates> moved = points(x);
+    const Vector f = -a.cwiseProduct(x);
+    memory.move(points(f), d, moved, before);
+    CHECK_AT_MOST(std::abs(memory.move_by(d, before, moved) - f.dot(to_vector(d))),
+                  1e-10 * f.dot(f));
+    CHECK_AT_MOST((to_vector(moved) - x - to_vector(d)).norm(), 1e-12);
+    CHECK(memory.is_empty());
+  }
+}
+
+// Many fewer iterations, to the minimum that local/global tends to, or to a lower one.
+void test_minimum()
+{
+  unsigned int sum = 0, sum_of_local_global = 0;
+  for(const Shape& shape : shapes())
+  {
+    test_case() = "minimum, " + shape.name;
+    const Scenario s = scenario(shape);
+    const Report slow = run(shape, s, options_for(Minimizer::local_global), 2000, 0);
+    const Report fast = run(shape, s, options_for(Minimizer::quasi_newton), 300, 0);
+    CHECK_AT_MOST(fast.energy.back(), slow.energy.back() * (1 + 1e-5));
+    const double close = slow.energy.back() * (1 + 1e-4);
+    const unsigned int n = iterations_to(close, fast), m = iterations_to(close, slow);
+    CHECK_AT_MOST(n, m + 10);
+    sum += n;
+    sum_of_local_global += m;
+  }
+  CHECK_AT_MOST(4 * sum, sum_of_local_global);
+}
+
+// Which minimizer runs when none is named.
+void test_automatic()
+{
+  test_case() = "automatic";
+  const Shape shape = grid("sheet", 16, 8, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.1 * u * u);
+  });
+  const Scenario s = scenario(shape);
+  for(const double tolerance : {0.0, 1e-12})
+  {
+    const Report automatic = run(shape, s, options_for(Minimizer::automatic), 12, tolerance);
+    const Report named = run(shape, s, options_for(tolerance > 0 ? Minimizer::quasi_newton
+                                                                 : Minimizer::local_global),
+                             12, tolerance);
+    CHECK(automatic.energy == named.energy);
+  }
+  const Report quasi_newton = run(shape, s, options_for(Minimizer::quasi_newton), 12, 0);
+  const Report local_global = run(shape, s, options_for(Minimizer::local_global), 12, 0);
+  CHECK(quasi_newton.energy != local_global.energy);
+  CHECK(quasi_newton.energy[1] == local_global.energy[1]); // the first step is the same
+}
+
+// The size of the shape makes no difference, though the memory is in single precision.
+void test_units()
+{
+  test_case() = "units";
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  const Options options = options_for(Minimizer::quasi_newton);
+  const Report usual = run(shape, s, options, 40, 0);
+  for(const int exponent : {-150, 150}) // floats end at 2^128
+  {
+    Shape scaled_shape = shape;
+    Scenario scaled = s;
+    const double factor = std::ldexp(1.0, exponent);
+    for(auto& p : scaled_shape.points)
+      p *= factor;
+    for(auto& p : scaled.targets)
+      p *= factor;
+    const Report report = run(scaled_shape, scaled, options, 40, 0);
+    for(std::size_t k = 0; k < usual.energy.size(); ++k)
+      CHECK_AT_MOST(std::abs(report.energy[k] / factor / factor / usual.energy[k] - 1), 1e-6);
+  }
+}
+
+// Half a turn, and more than one: the covariances of the first iterations are degenerate.
+void test_large_rotations()
+{
+  const double pi = std::acos(-1.0);
+  for(const Shape& shape : shapes())
+    for(const double angle : {pi, 1.5 * pi})
+    {
+      test_case() = "large rotations, " + shape.name;
+      const Scenario s = scenario(shape, angle);
+      for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+      {
+        const Report report = run(shape, s, options_for(minimizer), 300, 0);
+        CHECK(report.iterations == 300);
+        CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      }
+    }
+}
+
+// tetrahedra, each cell scheme: a block is twisted
+void test_tetrahedra()
+{
+  using Tetrahedra = std::vector<std::array<int, 4>>;
+  using Soup = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>;
+  const int length = 8;
+  std::vector<Point> rest;
+  Tetrahedra tetrahedra;
+  for(int i = 0; i <= length; ++i)
+    for(int j = 0; j < 3; ++j)
+      for(int k = 0; k < 3; ++k)
+        rest.emplace_back(i, j, k);
+  const std::array<int, 3> stride = {9, 3, 1};
+  for(int i = 0; i < length; ++i)
+    for(int j = 0; j < 2; ++j)
+      for(int k = 0; k < 2; ++k)
+      {
+        std::array<int, 3> order = {0, 1, 2};
+        do
+        {
+          const int a = 9 * i + 3 * j + k, b = a + stride[order[0]], c = b + stride[order[1]];
+          tetrahedra.push_back({a, b, c, c + stride[order[2]]});
+        }
+        while(std::next_permutation(order.begin(), order.end()));
+      }
+  for(Cell_scheme cells :
+      {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+  {
+    test_case() = "tetrahedra";
+    std::vector<Report> reports;
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      std::vector<Point> points = rest;
+      Soup soup(points, tetrahedra);
+      CGAL::ARAP_deformation<Soup> d(soup);
+      CHECK(d.set_options(options_for(minimizer, cells)));
+      for(std::size_t v = 9; v < rest.size(); ++v)
+        d.insert_roi_vertex(v);
+      for(std::size_t v = rest.size() - 9; v < rest.size(); ++v)
+      {
+        d.insert_control_vertex(v); // a quarter turn about the axis of the block
+        d.set_target_position(v, Point(length, 2 - rest[v].z(), rest[v].y()));
+      }
+      reports.push_back(d.deform(minimizer == Minimizer::local_global ? 3000 : 200, 0));
+      CHECK(CGAL::ARAP::first_rise_of_energy(reports.back()) == 0);
+    }
+    CHECK_AT_MOST(reports[1].energy.back(), reports[0].energy.back() * (1 + 1e-8));
+    CHECK_AT_MOST(3 * iterations_to(reports[0].energy.back() * 1.0001, reports[1]),
+                  iterations_to(reports[0].energy.back() * 1.0001, reports[0]));
+  }
+}
+
+// A solver that is far from exact: the method goes on by what it gives, never upwards.
+void test_inexact_solver()
+{
+  using Solver = CGAL::ARAP::Eigen_conjugate_gradient_solver;
+  using Traits = CGAL::ARAP_deformation_traits_3<Solver>;
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  const Options options = options_for(Minimizer::quasi_newton);
+  const double minimum = run(shape, s, options, 500, 0).energy.back();
+  for(const double accuracy : {1e-12, 1e-6, 1e-2})
+  {
+    test_case() = "conjugate gradients, " + std::to_string(accuracy);
+    const Solver solver([accuracy](auto& gradients) { gradients.setTolerance(accuracy); });
+    const Report report = run(shape, s, options, 1000, 0, Traits(solver));
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK_AT_MOST(report.energy.back(), minimum * (1 + 1e-6));
+  }
+}
+
+// Solves as the default does, but for the given solution.
+class Failing_solver : public CGAL::ARAP::Eigen_cholesky_solver
+{
+public:
+  explicit Failing_solver(int good_solutions = 0, bool is_silent = false)
+    : m_good_solutions(good_solutions), m_is_silent(is_silent) {}
+
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    if(m_good_solutions-- > 0)
+      return CGAL::ARAP::Eigen_cholesky_solver::solve(n, x);
+    if(m_is_silent)
+      std::fill_n(x, n, Coordinates{std::nan(""), 0, 0});
+    return m_is_silent;
+  }
+
+private:
+  int m_good_solutions;
+  bool m_is_silent;
+};
+
+void test_failing_solver()
+{
+  test_case() = "a solver that fails";
+  using Traits = CGAL::ARAP_deformation_traits_3<Failing_solver>;
+  const Shape shape = shapes()[5];
+  for(const int good : {0, 1, 7})
+    for(const bool is_silent : {false, true})
+    {
+      Mesh mesh = make_mesh<Mesh>(shape);
+      const Mesh before = mesh;
+      CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits(Failing_solver(good, is_silent)));
+      CHECK(d.set_options(options_for(Minimizer::quasi_newton)));
+      prepare(d, scenario(shape), all_vertices(mesh));
+      const Report report = d.deform(100, 0);
+      CHECK(report.status == (is_silent ? Status::non_finite_energy : Status::solver_failed));
+      CHECK(report.energy.size() >= std::size_t(good) + 1);
+      CHECK(same_points(mesh, before));
+    }
+}
+
+// The visitor stops at the very iterate that a shorter run ends at, or rolls back.
+void test_visitor()
+{
+  test_case() = "visitor";
+  const Shape shape = shapes()[5];
+  std::vector<Mesh> meshes;
+  for(const unsigned int stop_at : {1000u, 9u})
+  {
+    meshes.push_back(make_mesh<Mesh>(shape));
+    Deformation d(meshes.back());
+    CHECK(d.set_options(options_for(Minimizer::quasi_newton)));
+    prepare(d, scenario(shape), all_vertices(meshes.back()));
+    const auto visit = [stop_at](const auto& iterate) {
+      return iterate.iteration() == stop_at ? CGAL::ARAP::Visitor_action::stop
+                                            : CGAL::ARAP::Visitor_action::proceed;
+    };
+    const Report report = d.deform(stop_at == 9 ? 100 : 9, 0, visit);
+    CHECK(report.status == (stop_at == 9 ? Status::stopped : Status::iteration_limit));
+    CHECK(report.iterations == 9 && report.energy.size() == 10);
+
+    const Mesh before = meshes.back();
+    CHECK(d.deform(9, 0, [](const auto& iterate) {
+      return iterate.iteration() == 4 ? CGAL::ARAP::Visitor_action::cancel
+                                      : CGAL::ARAP::Visitor_action::proceed;
+    }).status == Status::cancelled);
+    CHECK(same_points(meshes.back(), before));
+  }
+  CHECK(same_points(meshes[0], meshes[1]));
+}
+
+// no free vertices, no iterations
+void test_nothing_to_do()
+{
+  test_case() = "nothing to do";
+  const Shape shape = shapes()[5];
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation d(mesh);
+  CHECK(d.set_options(options_for(Minimizer::quasi_newton)));
+  const auto vertices = all_vertices(mesh);
+  d.insert_control_vertices(vertices.begin(), vertices.end());
+  const Report held = d.deform(10, 0);
+  CHECK(held.status == Status::converged && held.iterations == 0);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  const Report none = d.deform(0, 1e-3);
+  CHECK(none.iterations == 0 && none.energy.size() == 1);
+}
+
+// What a tolerance gives: with either minimizer the gap is seldom larger than asked for, and the
+// iterations are not many more than one would take who knows the minimum. Where that is zero, as for
+// the two strips, each of which is held at one end, it is reached up to rounding.
+void test_tolerance()
+{
+  int number_of_runs = 0, number_of_larger_gaps = 0;
+  for(const Shape& shape : shapes())
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      test_case() = "tolerance, " + shape.name;
+      const Scenario s = scenario(shape);
+      const Report all = run(shape, s, options_for(minimizer), 5000, 0);
+      const double minimum = (std::max)(all.energy.back(), 1e-25 * all.energy_scale);
+      for(const double tolerance : {1e-2, 1e-4})
+      {
+        const Report report = run(shape, s, options_for(minimizer), 5000, tolerance);
+        if(!CHECK(report.status == Status::converged))
+          continue;
+        CHECK(report.estimated_relative_gap <= tolerance);
+        const double gap = report.energy.back() / minimum - 1;
+        ++number_of_runs;
+        number_of_larger_gaps += gap > tolerance;
+        CHECK_AT_MOST(gap, 10 * tolerance);
+        CHECK_AT_MOST(report.iterations, 2 * iterations_to(minimum * (1 + tolerance), all) + 15);
+      }
+    }
+  CHECK_AT_MOST(5 * number_of_larger_gaps, number_of_runs);
+}
+
+int main()
+{
+  test_step();
+  test_minimum();
+  test_automatic();
+  test_units();
+  test_large_rotations();
+  test_tetrahedra();
+  test_inexact_solver();
+  test_failing_solver();
+  test_visitor();
+  test_nothing_to_do();
+  test_tolerance();
+  return checks_result();
+}
