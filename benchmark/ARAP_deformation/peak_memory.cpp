@@ -39,7 +39,7 @@ double peak_megabytes()
   std::ifstream status("/proc/self/status");
   for(std::string line; std::getline(status, line);)
     if(line.rfind("VmHWM:", 0) == 0)
-      return std::stod(line.substr(6)) / 1e3;
+      return std::stod(line.substr(6)) * 1024 / 1e6; // it counts 1024 bytes
   return 0;
 }
 
