@@ -118,7 +118,7 @@ void add_peak(const std::string& file, const std::string& name, double vertices,
     results["peak_memory"] = make_section(
       "Peak memory", "Megabytes of a process that deforms a mesh, the mesh included.",
       {{"vertices", "vertices"}, {"mesh_mb", "the mesh alone"}, {"ours_mb", "ours"},
-       {"ours_default_mb", "ours, default solver"}, {"cgal_mb", "CGAL"},
+       {"ours_eigen_mb", "ours, Eigen"}, {"cgal_mb", "CGAL"},
        {"libigl_mb", "libigl"}, {"ratio", "CGAL / ours"}});
   Json& rows = results["peak_memory"]["rows"];
   auto row = std::find_if(rows.begin(), rows.end(),
@@ -279,14 +279,14 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
     plot.add("reading, " + threads_name(results, threads),
              "lines " + dashes + "linecolor rgb '#404040' ",
              section["streaming_of_" + std::to_string(threads)]);
-    for(const auto& [solver, title] :
-        {std::pair<std::string, std::string>{"ours, default", "this package, default"},
-         {"ours, CHOLMOD", "this package, CHOLMOD"}})
-      plot.add(title + ", " + threads_name(results, threads),
-               "linespoints " + dashes + (solver == "ours, default" ? "pointtype 11 linecolor rgb "
-                                          "'#60a0d0' " : "pointtype 9 " + our_colour),
+    for(const auto& [solver, style] :
+        {std::pair<std::string, std::string>{"Eigen", "pointtype 11 linecolor rgb '#60a0d0' "},
+         {"CHOLMOD", "pointtype 9 " + our_colour},
+         {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
+      plot.add("this package, " + solver + ", " + threads_name(results, threads),
+               "linespoints " + dashes + style,
                points_of(section["rows"], "factor_mb", "gb_per_second", [&](const Json& row) {
-                 return row["solver"] == solver && row["threads"] == threads;
+                 return row["solver"] == "ours, " + solver && row["threads"] == threads;
                }));
   }
   for(const auto& [solver, colour] :

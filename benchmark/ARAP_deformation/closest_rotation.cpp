@@ -16,11 +16,8 @@
 #include "include/star_energy.h"
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
-#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#if __has_include(<CGAL/ARAP_deformation/Newton_closest_rotation.h>)
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
-#define ARAP_DEFORMATION_BENCHMARK_NEWTON
-#endif
+#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 
 #include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
 #include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>
@@ -79,10 +76,10 @@ private:
 // what the local step is given before the iteration of that number
 Batch record_batch(const Scenario& scenario, unsigned int iteration)
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<Best_solver, Clamped_angle_weight,
+  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight,
                                                  Recording_rotation>;
   Recording_rotation::Record record;
-  Our_deformation<Traits> ours(scenario, Traits(Best_solver(), Clamped_angle_weight(),
+  Our_deformation<Traits> ours(scenario, Traits(Traits::Sparse_solver(), Clamped_angle_weight(),
                                                 Recording_rotation(record)));
   ours.restart();
   expect_success(ours.deformation().deform(iteration, 0, [&](const auto& iterate) {
@@ -137,9 +134,7 @@ Json run(const Settings& settings)
     const auto add = [&](const std::string& name, const auto& rotation) {
       add_row(name, rotation, is_warm ? "warm" : "cold", batch, settings, section["rows"]);
     };
-#ifdef ARAP_DEFORMATION_BENCHMARK_NEWTON
     add("Newton_closest_rotation", ARAP::Newton_closest_rotation());
-#endif
     add("SVD_closest_rotation", ARAP::SVD_closest_rotation());
     add("CGAL, SVD", ARAP::Closest_rotation_traits_adaptor<
                        CGAL::Deformation_Eigen_closest_rotation_traits_3>());

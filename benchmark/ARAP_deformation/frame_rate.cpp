@@ -81,7 +81,7 @@ std::vector<double> measure_frames(const Drag& drag, Deformation& deformation, u
 // come to the same minimum; fails if they do not.
 void verify_drag(const Scenario& scenario, const Drag& drag)
 {
-  Our_deformation<Best_traits> ours(scenario);
+  Our_deformation<Default_traits> ours(scenario);
   Cgal_deformation<CGAL::ORIGINAL_ARAP> cgal(scenario);
   for(unsigned int frame = 0; frame < 20; ++frame)
   {
@@ -135,7 +135,7 @@ Json run(const Settings& settings)
   for(unsigned int threads : thread_counts())
   {
     const Thread_limit limit(threads);
-    Our_deformation<Best_traits> ours(scenario);
+    Our_deformation<Default_traits> ours(scenario);
     add("ours", threads, measure_frames(drag, ours, frames));
   }
   add("CGAL", 1, cgal_seconds);

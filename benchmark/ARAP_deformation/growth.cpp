@@ -43,7 +43,7 @@ Json run(const Settings& settings)
     for(std::size_t k = 0; k < first.size(); ++k)
     {
       const Thread_limit limit(thread_counts()[k]);
-      Our_deformation<Best_traits> ours(scenario);
+      Our_deformation<Default_traits> ours(scenario);
       Measurements measurements;
       for(unsigned int repetition = 0; repetition < settings.few_repetitions(); ++repetition)
         measure_ours(ours, number_of_iterations(scenario.number_of_vertices()), measurements);

@@ -83,7 +83,7 @@ double verify_exchange(const Scenario& scenario, const Exchange& sets)
 {
   const unsigned int iterations = 5;
   const Scenario after = scenario_after(scenario, sets);
-  Our_deformation<Best_traits> changed(scenario), fresh(after);
+  Our_deformation<Default_traits> changed(scenario), fresh(after);
   changed.run(iterations);
   exchange(changed, sets.first, sets.second);
   restart(after, changed.deformation());
@@ -134,7 +134,7 @@ Json run(const Settings& settings)
       for(std::size_t k = 0; k < ours.size(); ++k)
       {
         const Thread_limit limit(thread_counts()[k]);
-        Our_deformation<Best_traits> deformation(scenario);
+        Our_deformation<Default_traits> deformation(scenario);
         ours[k].measure(deformation, sets);
       }
       Cgal_deformation<CGAL::ORIGINAL_ARAP> deformation(scenario);

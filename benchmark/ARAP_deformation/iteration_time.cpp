@@ -59,7 +59,9 @@ void compare(const Scenario& scenario, const Settings& settings, ARAP::Cell_sche
   const unsigned int iterations = number_of_iterations(scenario.number_of_vertices());
   std::map<std::pair<unsigned int, std::string>, Measurements> ours; // by threads and solver
   Measurements cgal, libigl;
-  for(unsigned int repetition = 0; repetition < settings.repetitions; ++repetition)
+  const unsigned int repetitions = scenario.number_of_vertices() < 200000
+                                 ? settings.repetitions : settings.few_repetitions();
+  for(unsigned int repetition = 0; repetition < repetitions; ++repetition)
   {
     for(unsigned int threads : thread_counts())
       for_each_solver<Weight>([&](const auto& traits, const char* solver) {

@@ -84,7 +84,7 @@ std::vector<Sample> sample_cgal(Deformation& cgal, const Star_energy& energy, do
 // code with ours.
 double find_minimum(const Scenario& scenario, const Star_energy& energy)
 {
-  Our_deformation<Best_traits> ours(scenario);
+  Our_deformation<Default_traits> ours(scenario);
   const ARAP::Report report = sample_ours(ours, 10000, 1e-11).second;
   const Star_energy::Value value = energy(ours.mesh());
   verify_at_most(std::abs(value.energy - report.energy.back()) / value.energy, 1e-9,
@@ -136,7 +136,7 @@ Json run(const Settings& settings)
   for(unsigned int threads : thread_counts())
   {
     const Thread_limit limit(threads);
-    Our_deformation<Best_traits> ours(scenario);
+    Our_deformation<Default_traits> ours(scenario);
     std::vector<Sample> samples;
     std::vector<std::vector<double>> seconds(gaps.size()), tolerance_seconds(gaps.size());
     std::vector<ARAP::Report> reports(gaps.size());

@@ -19,8 +19,14 @@
 #include "scenario.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+#if defined(CGAL_LINKED_WITH_METIS) && __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
+#define ARAP_DEFORMATION_BENCHMARK_ORDERINGS
 #endif
 
 #include <CGAL/Surface_mesh_deformation.h>
@@ -73,23 +79,23 @@ private:
   Rotation m_rotation;
 };
 
-// Calls f(traits, name) with traits for each of our solvers, the default one first.
+// Calls f(traits, name) with traits for each of our solvers.
 template <typename Weight, typename Function>
 void for_each_solver(const Function& f)
 {
-  f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(), "default");
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver, Weight>(), "Eigen");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif
+#ifdef ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+  using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
+  f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
+      Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");
+#endif
 }
 
-// the solver to take where there is a choice
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-using Best_solver = ARAP::Cholmod_solver;
-#else
-using Best_solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
-#endif
-using Best_traits = CGAL::ARAP_deformation_traits_3<Best_solver, Clamped_angle_weight>;
+// what a user gets who chooses nothing, but for the weights, which are those of CGAL's class
+using Default_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight>;
 
 // Makes all vertices free but the control vertices.
 template <typename Deformation>
