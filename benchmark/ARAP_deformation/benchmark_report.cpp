@@ -48,15 +48,13 @@ void for_each_section(const Json& results, const Function& f)
       f(section);
 }
 
-void print_machine(std::ostream& out, const Json& results)
+std::string machine_sentence(const Json& results)
 {
   const Json& m = results["machine"];
   const auto text = [&m](const char* key) { return m[key].get<std::string>(); };
-  out << "machine    " << text("processor") << ", " << m["cores"] << " cores\n"
-      << "compiler   " << text("compiler") << "\n"
-      << "flags      " << text("flags") << "\n"
-      << "libraries  " << text("libraries") << "\n"
-      << "threads    1 and " << m["threads"] << "\n";
+  return text("processor") + ", " + m["cores"].dump() + " cores; " + text("compiler") + ", `" +
+         text("flags") + "`; " + text("libraries") + "; 1 and " + m["threads"].dump() +
+         " threads.";
 }
 
 // one line for each figure that a user may compare with another machine or another package
@@ -299,40 +297,44 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
 }
 
 const char usage[] =
-  "usage: benchmark_report FILE text|markdown\n"
-  "       benchmark_report FILE gnuplot FOLDER    (for gnuplot's standard input)\n"
-  "       benchmark_report FILE peak CLASS VERTICES MEGABYTES\n";
+  "usage: benchmark_report FILE text              all tables, for a terminal\n"
+  "       benchmark_report FILE summary           the most important figures, as Markdown\n"
+  "       benchmark_report FILE markdown          all tables, as Markdown\n"
+  "       benchmark_report FILE gnuplot FOLDER    plots, for gnuplot's standard input\n"
+  "       benchmark_report FILE peak CLASS VERTICES MEGABYTES\n"
+  "                                               adds what peak_memory has printed\n";
 
 void report(const std::vector<std::string>& arguments)
 {
-  if(arguments[1] == "peak")
+  const std::string &file = arguments[0], &form = arguments[1];
+  if(form == "peak")
   {
-    add_peak(arguments[0], arguments[2], std::stod(arguments[3]), std::stod(arguments[4]));
+    add_peak(file, arguments[2], std::stod(arguments[3]), std::stod(arguments[4]));
     return;
   }
-  const Json results = read_results(arguments[0]);
-  if(arguments[1] == "gnuplot")
+  const Json results = read_results(file);
+  if(form == "gnuplot")
   {
     plot_iteration_time(std::cout, results, arguments[2]);
     plot_energy(std::cout, results, arguments[2]);
     plot_roofline(std::cout, results, arguments[2]);
+    return;
   }
-  else if(arguments[1] == "text")
+  std::cout << machine_sentence(results) << "\n";
+  if(form == "text")
   {
-    print_machine(std::cout, results);
     for_each_section(results, [](const Json& section) { print_text(std::cout, section); });
     print_text(std::cout, make_summary(results));
+    return;
   }
-  else
-  {
-    const auto print = [](const Json& section) {
-      std::cout << "\n" << section["title"].get<std::string>() << ". "
+  std::cout << "\n";
+  print_markdown(std::cout, make_summary(results));
+  if(form == "markdown")
+    for_each_section(results, [](const Json& section) {
+      std::cout << "\n**" << section["title"].get<std::string>() << ".** "
                 << section["description"].get<std::string>() << "\n\n";
       print_markdown(std::cout, section);
-    };
-    print(make_summary(results));
-    for_each_section(results, print);
-  }
+    });
 }
 
 } // namespace

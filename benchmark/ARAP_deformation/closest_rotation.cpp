@@ -41,8 +41,8 @@ struct Batch
   std::size_t size() const { return covariances.size(); }
 };
 
-// Fits as SVD_closest_rotation does, and keeps what it was given while it is told to. A step may come
-// in pieces, at the same time.
+// Fits as SVD_closest_rotation does, and keeps what it was given while it is told to. A step may
+// come in pieces, at the same time.
 class Recording_rotation
 {
 public:

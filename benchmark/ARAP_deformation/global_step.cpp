@@ -49,7 +49,7 @@ void verify_solution(const Matrix& a, const Columns& x, const Columns& b, const 
 
 double least_seconds(const Settings& settings) { return settings.quick ? 0.2 : 1; }
 
-// The bytes of the factor: what the solver says, or an index and a number for each of its non-zeros.
+// The bytes of the factor: what the solver says, or an index and a number for each non-zero.
 template <typename Solver>
 auto factor_bytes(const Solver& solver, const Matrix&, int)
   -> decltype(static_cast<double>(solver.factor_bytes()))
@@ -156,7 +156,8 @@ Json run(const Settings& settings)
   {
     Json curve = Json::array();
     for(std::size_t bytes = std::size_t(1) << 20; bytes <= bytes_in_memory; bytes *= 2)
-      curve.push_back({static_cast<double>(bytes) / 1e6, streaming_bandwidth(bytes, threads) / 1e9});
+      curve.push_back({static_cast<double>(bytes) / 1e6,
+                       streaming_bandwidth(bytes, threads) / 1e9});
     bandwidth.push_back(curve.back()[1].get<double>() * 1e9);
     section["streaming_of_" + std::to_string(threads)] = curve;
   }

@@ -33,8 +33,8 @@ namespace {
 using namespace benchmark;
 
 #ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
-// libigl's stars have raw cotangents for weights, and it starts as ours do. Its rotations are fitted
-// in single precision by few steps, so that only the first iterates are comparable.
+// libigl's stars have raw cotangents for weights, and it starts as ours do. Its rotations are
+// fitted in single precision by few steps, so that only the first iterates are comparable.
 void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
 {
   Our_deformation<CGAL::ARAP_deformation_traits_3<CGAL::Default, ARAP::Cotangent_weight>>
@@ -46,8 +46,8 @@ void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
     largest = (std::max)(largest, (to_vector(ours.mesh().point(v)) -
                                    libigl.points().row(v.idx()).transpose()).norm());
   verify_at_most(largest / scenario.diagonal, 1e-3,
-                 "the largest difference of our first iterate and libigl's, relative to the bounding "
-                 "box,");
+                 "the largest difference of our first iterate and libigl's, relative to the "
+                 "bounding box,");
 }
 #endif
 

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The time of an iteration and of the preprocessing for tetrahedra, with one rotation each, compared
-// with libigl if it is there.
+// The time of an iteration and of the preprocessing for tetrahedra, with one rotation each,
+// compared with libigl if it is there.
 
 #include "include/deformations.h"
 #include "include/iteration.h"
@@ -45,8 +45,8 @@ struct Bar
   std::vector<std::pair<std::size_t, Point>> targets;
 };
 
-// A grid of cubes, each cut into six tetrahedra around a diagonal. Inner vertices are off the grid, so
-// that no weight is zero for being that of a right angle.
+// A grid of cubes, each cut into six tetrahedra around a diagonal. Inner vertices are off the grid,
+// so that no weight is zero for being that of a right angle.
 Bar make_bar(int nx, int ny, int nz)
 {
   Bar bar;

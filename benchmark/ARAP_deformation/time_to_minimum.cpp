@@ -59,8 +59,8 @@ std::pair<std::vector<Sample>, ARAP::Report> sample_ours(Deformation& ours, unsi
   return {std::move(samples), std::move(report)};
 }
 
-// Runs CGAL's class in pieces until the gap is reached. It does not tell energies: they are evaluated
-// between the pieces, and the time of that does not count.
+// Runs CGAL's class in pieces until the gap is reached. It does not tell energies: they are
+// evaluated between the pieces, and the time of that does not count.
 template <typename Deformation>
 std::vector<Sample> sample_cgal(Deformation& cgal, const Star_energy& energy, double minimum,
                                 double gap)
@@ -181,6 +181,6 @@ int main(int argc, char** argv)
   return run_benchmark(argc, argv, "time_to_minimum",
                        "usage: time_to_minimum [options]\n\n"
                        "Measures how long it takes from the rest shape to the minimum of the\n"
-                       "energy, in our class and in CGAL's. That is a few minutes, or with --quick,\n"
-                       "for a smaller mesh, some seconds.", run);
+                       "energy, in our class and in CGAL's. That is a few minutes, or with\n"
+                       "--quick, for a smaller mesh, some seconds.", run);
 }

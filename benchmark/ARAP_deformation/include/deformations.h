@@ -24,9 +24,11 @@
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
 
-#if defined(CGAL_LINKED_WITH_METIS) && __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
+#ifdef CGAL_LINKED_WITH_METIS
+#if __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #define ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+#endif
 #endif
 
 #include <CGAL/Surface_mesh_deformation.h>
@@ -227,8 +229,8 @@ private:
   double m_preprocess_seconds = 0;
 };
 
-// Fails unless our iterates are those of CGAL's class: both solve the same problem by the same steps.
-// Returns the largest difference, relative to the bounding box.
+// Fails unless our iterates are those of CGAL's class: both solve the same problem by the same
+// steps. Returns the largest difference, relative to the bounding box.
 template <typename Weight, CGAL::Deformation_algorithm_tag Tag>
 double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells)
 {

@@ -87,7 +87,8 @@ inline Mesh subdivided(const Mesh& mesh, std::size_t parts)
     if(k == parts) return corner[mesh.target(h).idx()];
     const auto e = mesh.edge(h);
     const std::size_t place = mesh.source(h) == mesh.vertex(e, 0) ? k : parts - k;
-    return vertex_descriptor(static_cast<Mesh::size_type>(first_on_edge[e.idx()].idx() + place - 1));
+    return vertex_descriptor(
+      static_cast<Mesh::size_type>(first_on_edge[e.idx()].idx() + place - 1));
   };
   std::vector<vertex_descriptor> row, next_row; // parallel to the first side
   for(auto f : faces(mesh))

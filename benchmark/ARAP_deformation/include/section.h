@@ -29,8 +29,8 @@ namespace benchmark {
 
 using Json = nlohmann::ordered_json;
 
-// Columns are pairs of a key and a title. Rows are objects; keys that are no column are numbers that
-// the table does not show.
+// Columns are pairs of a key and a title. Rows are objects; keys that are no column are numbers
+// that the table does not show.
 inline Json make_section(const std::string& title, const std::string& description,
                          const std::vector<std::pair<std::string, std::string>>& columns)
 {
