@@ -1,0 +1,258 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_DEFORMATIONS_H
+#define CGAL_ARAP_DEFORMATION_BENCHMARK_DEFORMATIONS_H
+
+// Our class and CGAL's with one interface, each on its own copy of the mesh, and what it takes to
+// make both do the same.
+
+#include "measure.h"
+#include "scenario.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+#ifdef CGAL_LINKED_WITH_METIS
+#if __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
+#define ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+#endif
+#endif
+
+#include <CGAL/Surface_mesh_deformation.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace benchmark {
+
+namespace ARAP = CGAL::ARAP;
+
+// The weights of CGAL's ORIGINAL_ARAP: the cotangent of each angle is clamped, and not the sum of
+// both at an edge.
+class Clamped_angle_weight : public ARAP::Cotangent_weight
+{
+public:
+  std::array<double, 3> simplex_weights(const std::array<ARAP::Coordinates, 3>& triangle) const
+  {
+    std::array<double, 3> weights = ARAP::Cotangent_weight::simplex_weights(triangle);
+    for(double& w : weights)
+      w = (std::max)(w, 0.0);
+    return weights;
+  }
+};
+
+// CGAL's class starts with the global step, with identities for rotations, where ours starts with
+// the local step. This fitting leaves the identities where they are as long as it is told to, and
+// so gives our class the same start; afterwards it is the default one.
+class Rotation_after_identity
+{
+  using Rotation = CGAL::ARAP_deformation_traits_3<>::Closest_rotation;
+
+public:
+  explicit Rotation_after_identity(const bool& is_identity) : m_is_identity(&is_identity) {}
+
+  void operator()(std::size_t n, const ARAP::Matrix_3x3* covariances,
+                  ARAP::Matrix_3x3* rotations) const
+  {
+    if(*m_is_identity)
+      std::fill_n(rotations, n, ARAP::Matrix_3x3{1, 0, 0, 0, 1, 0, 0, 0, 1});
+    else
+      m_rotation(n, covariances, rotations);
+  }
+
+private:
+  const bool* m_is_identity;
+  Rotation m_rotation;
+};
+
+// Calls f(traits, name) with traits for each of our solvers.
+template <typename Weight, typename Function>
+void for_each_solver(const Function& f)
+{
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver, Weight>(), "Eigen");
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
+#endif
+#ifdef ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+  using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
+  f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
+      Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");
+#endif
+}
+
+// what a user gets who chooses nothing, but for the weights, which are those of CGAL's class
+using Default_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight>;
+
+// Makes all vertices free but the control vertices.
+template <typename Deformation>
+void insert_vertices(const Scenario& scenario, Deformation& deformation)
+{
+  deformation.insert_roi_vertices(vertices(scenario.mesh).begin(), vertices(scenario.mesh).end());
+  for(const auto& [v, target] : scenario.targets)
+    deformation.insert_control_vertex(v);
+}
+
+// Goes back to the rest shape with all targets set.
+template <typename Deformation>
+void restart(const Scenario& scenario, Deformation& deformation)
+{
+  deformation.reset();
+  for(const auto& [v, target] : scenario.targets)
+    deformation.set_target_position(v, target);
+}
+
+inline void expect_success(const ARAP::Outcome& outcome)
+{
+  if(!outcome)
+    throw Failure("CGAL::ARAP_deformation: " + outcome.message);
+}
+
+template <typename Traits>
+class Our_deformation
+{
+public:
+  explicit Our_deformation(const Scenario& scenario, const Traits& traits = Traits(),
+                           ARAP::Cell_scheme cells = ARAP::Cell_scheme::spokes())
+    : m_scenario(scenario), m_mesh(scenario.mesh), m_deformation(m_mesh, traits)
+  {
+    ARAP::Options options;
+    options.cells = cells;
+    m_deformation.set_options(options);
+    insert_vertices(scenario, m_deformation);
+    preprocess();
+    m_preprocess_seconds = m_stopwatch.seconds();
+  }
+
+  // all from the construction to the factor
+  double preprocess_seconds() const { return m_preprocess_seconds; }
+  const Mesh& mesh() const { return m_mesh; }
+  CGAL::ARAP_deformation<Mesh, Traits>& deformation() { return m_deformation; }
+
+  void preprocess() { expect_success(m_deformation.preprocess()); }
+  void restart() { benchmark::restart(m_scenario, m_deformation); }
+  void proceed(unsigned int iterations) { expect_success(m_deformation.deform(iterations, 0)); }
+
+  // Local/global iterations from the rest shape.
+  ARAP::Report run(unsigned int iterations)
+  {
+    restart();
+    return checked(m_deformation.deform(iterations, 0), iterations);
+  }
+
+  // the same, from the same start as CGAL's class; for traits with Rotation_after_identity
+  void run_after_identity(unsigned int iterations, bool& is_identity)
+  {
+    restart();
+    is_identity = true;
+    checked(m_deformation.deform(iterations, 0, [&is_identity](const auto&) {
+      is_identity = false;
+      return ARAP::Visitor_action::proceed;
+    }), iterations);
+  }
+
+private:
+  static ARAP::Report checked(ARAP::Report report, unsigned int iterations)
+  {
+    expect_success(report);
+    if(report.iterations != iterations)
+      throw Failure("CGAL::ARAP_deformation stopped after " + std::to_string(report.iterations) +
+                    " of " + std::to_string(iterations) + " iterations: " + report.message);
+    return report;
+  }
+
+  const Scenario& m_scenario;
+  Mesh m_mesh;
+  Stopwatch m_stopwatch; // starts before m_deformation is constructed
+  CGAL::ARAP_deformation<Mesh, Traits> m_deformation;
+  double m_preprocess_seconds = 0;
+};
+
+template <CGAL::Deformation_algorithm_tag Tag>
+class Cgal_deformation
+{
+public:
+  explicit Cgal_deformation(const Scenario& scenario)
+    : m_scenario(scenario), m_mesh(scenario.mesh), m_deformation(m_mesh)
+  {
+    insert_vertices(scenario, m_deformation);
+    preprocess();
+    m_preprocess_seconds = m_stopwatch.seconds();
+  }
+
+  double preprocess_seconds() const { return m_preprocess_seconds; }
+  const Mesh& mesh() const { return m_mesh; }
+  auto& deformation() { return m_deformation; }
+
+  void preprocess()
+  {
+    if(!m_deformation.preprocess())
+      throw Failure("CGAL::Surface_mesh_deformation: preprocess() failed");
+  }
+
+  void restart() { benchmark::restart(m_scenario, m_deformation); }
+
+  // further iterations, and their seconds
+  double proceed(unsigned int iterations)
+  {
+    const Stopwatch stopwatch;
+    m_deformation.deform(iterations, 0);
+    return stopwatch.seconds();
+  }
+
+  double run(unsigned int iterations)
+  {
+    restart();
+    return proceed(iterations);
+  }
+
+private:
+  const Scenario& m_scenario;
+  Mesh m_mesh;
+  Stopwatch m_stopwatch; // starts before m_deformation is constructed
+  CGAL::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, Tag> m_deformation;
+  double m_preprocess_seconds = 0;
+};
+
+// Fails unless our iterates are those of CGAL's class: both solve the same problem by the same
+// steps. Returns the largest difference, relative to the bounding box.
+template <typename Weight, CGAL::Deformation_algorithm_tag Tag>
+double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells)
+{
+  using Traits =
+    CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight, Rotation_after_identity>;
+  bool is_identity = true;
+  Our_deformation<Traits> ours(scenario,
+                               Traits(typename Traits::Sparse_solver(), Weight(),
+                                      Rotation_after_identity(is_identity)), cells);
+  Cgal_deformation<Tag> cgal(scenario);
+  double largest = 0;
+  for(unsigned int iterations : {1u, 10u})
+  {
+    ours.run_after_identity(iterations, is_identity);
+    cgal.run(iterations);
+    largest = (std::max)(largest, largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal);
+  }
+  verify_at_most(largest, 1e-8, "the largest difference of the iterates of our class and CGAL's, "
+                                "relative to the bounding box,");
+  return largest;
+}
+
+} // namespace benchmark
+
+#endif // CGAL_ARAP_DEFORMATION_BENCHMARK_DEFORMATIONS_H

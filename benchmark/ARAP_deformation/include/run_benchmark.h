@@ -1,0 +1,197 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_RUN_BENCHMARK_H
+#define CGAL_ARAP_DEFORMATION_BENCHMARK_RUN_BENCHMARK_H
+
+// What all benchmarks have in common: the command line, the machine, the file of results.
+
+#include "measure.h"
+#include "section.h"
+#include "threads.h"
+
+#include <CGAL/config.h>
+
+#include <Eigen/Core>
+
+#include <boost/config.hpp>
+#include <boost/program_options.hpp>
+
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <thread>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/version.h>
+#endif
+
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <cholmod.h>
+#endif
+
+#ifndef ARAP_DEFORMATION_COMPILER_FLAGS // CMakeLists.txt defines it
+#define ARAP_DEFORMATION_COMPILER_FLAGS "unknown"
+#endif
+
+namespace benchmark {
+
+struct Settings
+{
+  bool quick = false;
+  unsigned int repetitions = 7;
+  std::string mesh_file; // empty for the benchmark's own choice
+  std::string json_file;
+
+  unsigned int few_repetitions() const { return (std::min)(repetitions, 3u); }
+};
+
+inline std::string processor()
+{
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for(std::string line; std::getline(cpuinfo, line);)
+    if(line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
+  return "unknown processor";
+}
+
+inline std::string eigen_version()
+{
+#ifdef EIGEN_VERSION_STRING // since Eigen 5
+  return EIGEN_VERSION_STRING;
+#else
+  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
+#endif
+}
+
+inline std::string library_versions()
+{
+  std::string versions = std::string("CGAL ") + CGAL_VERSION_STR + ", Eigen " + eigen_version();
+#ifdef CGAL_LINKED_WITH_TBB
+  versions += ", TBB " + std::to_string(TBB_VERSION_MAJOR) + "." +
+              std::to_string(TBB_VERSION_MINOR);
+#else
+  versions += ", without TBB";
+#endif
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  versions += ", CHOLMOD " + std::to_string(CHOLMOD_MAIN_VERSION) + "." +
+              std::to_string(CHOLMOD_SUB_VERSION);
+#else
+  versions += ", without CHOLMOD";
+#endif
+#ifdef CGAL_LINKED_WITH_METIS
+  versions += ", METIS";
+#endif
+#ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
+  versions += ", libigl";
+#endif
+  return versions;
+}
+
+inline Json machine()
+{
+  return {{"processor", processor()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"threads", number_of_threads()},
+          {"compiler", BOOST_COMPILER},
+          {"flags", ARAP_DEFORMATION_COMPILER_FLAGS},
+          {"libraries", library_versions()}};
+}
+
+// Replaces one section of the file of results, which need not exist.
+inline void write_section(const std::string& file, const std::string& name, const Json& section)
+{
+  Json results;
+  if(std::ifstream in(file); in)
+    results = Json::parse(in);
+  results["machine"] = machine();
+  results[name] = section;
+  std::ofstream out(file);
+  out << results.dump(1) << "\n";
+  if(!out.flush())
+    throw Failure("cannot write " + file);
+}
+
+// Returns false if only help was asked for.
+inline bool parse_command_line(int argc, char** argv, const std::string& usage,
+                               Settings& settings)
+{
+  namespace po = boost::program_options;
+  int repetitions = 0;
+  po::options_description options("Options");
+  options.add_options()
+    ("quick", po::bool_switch(&settings.quick), "smaller meshes, fewer repetitions")
+    ("repetitions", po::value(&repetitions)->value_name("N"),
+     "timed runs of each kind, of which medians are printed; 7, with --quick 3")
+    ("mesh", po::value(&settings.mesh_file)->value_name("FILE"), "another triangulated surface")
+    ("json", po::value(&settings.json_file)->value_name("FILE"),
+     "put the numbers into FILE, next to those of other benchmarks")
+    ("help,h", "print this and exit");
+
+  po::variables_map values;
+  po::store(po::command_line_parser(argc, argv)
+              .options(options)
+              .positional(po::positional_options_description())
+              .run(), values);
+  po::notify(values);
+  if(values.count("help"))
+  {
+    std::cout << usage << "\n\n" << options;
+    return false;
+  }
+  if(values.count("repetitions") && repetitions < 1)
+    throw po::error("--repetitions must be at least 1");
+  settings.repetitions = repetitions > 0 ? static_cast<unsigned int>(repetitions)
+                                         : settings.quick ? 3 : 7;
+  return true;
+}
+
+// The main() of a benchmark: run(settings) returns its section, or throws.
+template <typename Function>
+int run_benchmark(int argc, char** argv, const std::string& name, const std::string& usage,
+                  const Function& run)
+{
+  Settings settings;
+  try
+  {
+    if(!parse_command_line(argc, argv, usage, settings))
+      return EXIT_SUCCESS;
+  }
+  catch(const boost::program_options::error& error)
+  {
+    std::cerr << name << ": " << error.what() << "\n";
+    return 2;
+  }
+
+  try
+  {
+#ifndef NDEBUG
+    std::cout << "NOTICE: assertions are on: these times are not those of a release\n";
+#endif
+    const Json section = run(settings);
+    print_text(std::cout, section);
+    if(!settings.json_file.empty())
+      write_section(settings.json_file, name, section);
+  }
+  catch(const std::exception& error)
+  {
+    std::cerr << name << ": " << error.what() << "\n";
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
+
+} // namespace benchmark
+
+#endif // CGAL_ARAP_DEFORMATION_BENCHMARK_RUN_BENCHMARK_H

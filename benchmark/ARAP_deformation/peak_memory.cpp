@@ -1,0 +1,137 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The peak memory of a process that deforms one mesh with one class: run it once for each of them.
+
+#include "include/deformations.h"
+#include "include/run_benchmark.h"
+#ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
+#include "include/libigl_deformation.h"
+#endif
+
+#include <cstddef>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <type_traits>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace {
+
+using namespace benchmark;
+
+// Linux only; 0 elsewhere
+double peak_megabytes()
+{
+  std::ifstream status("/proc/self/status");
+  for(std::string line; std::getline(status, line);)
+    if(line.rfind("VmHWM:", 0) == 0)
+      return std::stod(line.substr(6)) * 1024 / 1e6; // it counts 1024 bytes
+  return 0;
+}
+
+// Forgets what reading the mesh took.
+void reset_peak()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
+}
+
+// deforms the mesh of the scenario itself: there is no other copy
+template <typename Deformation, typename Preprocess>
+void deform(Scenario& scenario, Deformation& deformation, const Preprocess& preprocess)
+{
+  insert_vertices(scenario, deformation);
+  preprocess();
+  restart(scenario, deformation);
+  deformation.deform(5, 0);
+  for(const auto& [v, target] : scenario.targets)
+    if(scenario.mesh.point(v) != target)
+      throw Failure("a control vertex is not at its target");
+}
+
+void deform_with(const std::string& name, Scenario& scenario)
+{
+  if(name == "ours" || name == "ours_eigen")
+  {
+    const auto deform_by_traits = [&scenario](const auto& traits) {
+      CGAL::ARAP_deformation<Mesh, std::decay_t<decltype(traits)>> deformation(scenario.mesh,
+                                                                               traits);
+      ARAP::Options options;
+      options.cells = ARAP::Cell_scheme::spokes();
+      deformation.set_options(options);
+      deform(scenario, deformation, [&] { expect_success(deformation.preprocess()); });
+    };
+    if(name == "ours")
+      deform_by_traits(Default_traits());
+    else
+      deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver,
+                                                       Clamped_angle_weight>());
+  }
+  else if(name == "cgal")
+  {
+    CGAL::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, CGAL::ORIGINAL_ARAP>
+      deformation(scenario.mesh);
+    deform(scenario, deformation, [&] {
+      if(!deformation.preprocess())
+        throw Failure("CGAL::Surface_mesh_deformation: preprocess() failed");
+    });
+  }
+#ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
+  else if(name == "libigl")
+  {
+    const Libigl_scenario copy = libigl_scenario(scenario);
+    scenario.mesh.clear();
+    Libigl_deformation deformation(copy, Libigl_energy::spokes);
+    deformation.run(5);
+  }
+#endif
+  else if(name != "mesh")
+    throw Failure("there is no class " + name);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if(argc < 3 || argc > 4)
+  {
+    std::cerr << "usage: peak_memory CLASS PARTS [MESH]\n"
+                 "  CLASS  ours, ours_eigen (Eigen's factor), cgal, libigl, or mesh, to read\n"
+                 "         it only\n"
+                 "  PARTS  each edge is cut into so many\n"
+                 "Prints the number of vertices and the peak memory in megabytes.\n";
+    return 2;
+  }
+  try
+  {
+    Scenario scenario = make_scenario(
+      subdivided(read_mesh(argc > 3 ? argv[3] : CGAL::data_file_path("meshes/armadillo.off")),
+                 std::stoul(argv[2])));
+    const std::size_t n = scenario.number_of_vertices();
+    reset_peak();
+    deform_with(argv[1], scenario);
+    std::cout << n << " " << peak_megabytes() << "\n";
+  }
+  catch(const std::exception& error)
+  {
+    std::cerr << "peak_memory: " << error.what() << "\n";
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
