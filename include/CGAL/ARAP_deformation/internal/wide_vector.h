@@ -35,14 +35,16 @@ namespace ARAP {
 namespace internal {
 
 // Four numbers side by side, on which the operations are done at once. The compilers make of it
-// what the processor has: one register of AVX, two of SSE2, NEON or WebAssembly.
-struct Double4
+// what the processor has: one register of AVX, two of SSE2, NEON or WebAssembly. (Without alignas()
+// g++ aligns by what the program is compiled for, which is not enough for what is chosen later.)
+struct alignas(32) Double4
 {
 #if defined(__GNUC__)
   using Lanes = double __attribute__((vector_size(32)));
   Lanes lanes;
 
-  CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a) { return {Lanes{a, a, a, a}}; }
+  CGAL_ARAP_ALWAYS_INLINE static Double4 of(double a, double b, double c, double d = 0)
+  { return {Lanes{a, b, c, d}}; }
 
   friend CGAL_ARAP_ALWAYS_INLINE Double4 operator+(const Double4& a, const Double4& b)
   { return {a.lanes + b.lanes}; }
@@ -53,14 +55,17 @@ struct Double4
   friend CGAL_ARAP_ALWAYS_INLINE Double4 operator/(const Double4& a, const Double4& b)
   { return {a.lanes / b.lanes}; }
 
-  // a b + c, fused where the processor can: in one expression, or clang does not fuse it
+  // a b + c and c - a b, fused where the processor can: in one expression, or clang does not fuse it
   friend CGAL_ARAP_ALWAYS_INLINE Double4 multiply_add(const Double4& a, const Double4& b,
                                                       const Double4& c)
   { return {a.lanes * b.lanes + c.lanes}; }
+  friend CGAL_ARAP_ALWAYS_INLINE Double4 negative_multiply_add(const Double4& a, const Double4& b,
+                                                               const Double4& c)
+  { return {c.lanes - a.lanes * b.lanes}; }
 #else
   double lanes[4];
 
-  static Double4 all(double a) { return {{a, a, a, a}}; }
+  static Double4 of(double a, double b, double c, double d = 0) { return {{a, b, c, d}}; }
 
   friend Double4 operator+(const Double4& a, const Double4& b)
   {
@@ -84,8 +89,11 @@ struct Double4
   }
   friend Double4 multiply_add(const Double4& a, const Double4& b, const Double4& c)
   { return a * b + c; }
+  friend Double4 negative_multiply_add(const Double4& a, const Double4& b, const Double4& c)
+  { return c - a * b; }
 #endif
 
+  CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a) { return of(a, a, a, a); }
   CGAL_ARAP_ALWAYS_INLINE static Double4 zero() { return all(0); }
 
   // four numbers in a row, at any address
@@ -99,6 +107,19 @@ struct Double4
   CGAL_ARAP_ALWAYS_INLINE void store(double* p) const { std::memcpy(p, &lanes, sizeof(lanes)); }
 
   CGAL_ARAP_ALWAYS_INLINE double operator[](int k) const { return lanes[k]; }
+
+  // (d, a, b, c) of (a, b, c, d)
+  CGAL_ARAP_ALWAYS_INLINE Double4 turned() const
+  {
+#if defined(__clang__)
+    return {__builtin_shufflevector(lanes, lanes, 3, 0, 1, 2)};
+#elif defined(__GNUC__)
+    using Places = long long __attribute__((vector_size(32)));
+    return {__builtin_shuffle(lanes, Places{3, 0, 1, 2})};
+#else
+    return of(lanes[3], lanes[0], lanes[1], lanes[2]);
+#endif
+  }
 };
 
 #ifdef CGAL_ARAP_HAS_DISPATCH
