@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
@@ -47,20 +48,11 @@ namespace ARAP {
 class Cholmod_solver
 {
 public:
-  /// How the rows are ordered.
-  enum class Ordering
-  {
-    automatic,        ///< as CHOLMOD finds best: with AMD, and with METIS too where the factor is large
-    amd,              ///< approximate minimum degree: the fastest analysis
-    nested_dissection ///< nested dissection of METIS, if CHOLMOD is built with it, or else AMD:
-                      ///< a smaller factor
-  };
-
   /// constructs a solver that has nothing analyzed.
   Cholmod_solver() = default;
 
   /// constructs a solver that has nothing analyzed, and orders as told.
-  explicit Cholmod_solver(Ordering ordering) : m_ordering(ordering) {}
+  explicit Cholmod_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
 
   /// moves, with the factor.
   Cholmod_solver(Cholmod_solver&&) = default;
@@ -92,7 +84,15 @@ public:
     return m_state->factorize(matrix);
   }
 
-  /// gives the matrix a border, or takes it away.
+  /// gives the matrix a border, or takes it away if `b` has no columns.
+  ///
+  /// What is solved from now on is the symmetric system
+  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
+  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
+  /// \param d a symmetric matrix, of which the lower triangle is read
+  /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
   bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
   {
     return m_state->substitution.set_border(m_state->structure, m_state->values(), b, d);
@@ -110,24 +110,18 @@ private:
   // what CHOLMOD owns, and the substitution that reads it
   struct State
   {
-    explicit State(Ordering ordering)
+    explicit State(Fill_reducing_ordering ordering)
     {
       cholmod_start(&common);
-      common.print = 0;                           // return values say all
-      common.supernodal = CHOLMOD_SUPERNODAL;     // what the substitution takes
-      switch(ordering)
+      common.print = 0;                       // return values say all
+      common.supernodal = CHOLMOD_SUPERNODAL; // what the substitution takes
+      common.nmethods = 1;
+      common.method[0].ordering = CHOLMOD_AMD;
+      if(ordering == Fill_reducing_ordering::nested_dissection)
       {
-      case Ordering::automatic:
-        break;
-      case Ordering::amd:
-        common.nmethods = 1;
-        common.method[0].ordering = CHOLMOD_AMD;
-        break;
-      case Ordering::nested_dissection:
-        common.nmethods = 2; // the second one where CHOLMOD is built without METIS
+        common.nmethods = 2; // the second one too, of use where CHOLMOD is built without METIS
         common.method[0].ordering = CHOLMOD_METIS;
         common.method[1].ordering = CHOLMOD_AMD;
-        break;
       }
     }
 
@@ -202,7 +196,7 @@ private:
     return matrix;
   }
 
-  Ordering m_ordering = Ordering::automatic;
+  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
   internal::Unshared_ptr<State> m_state;
 };
 

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
@@ -44,23 +45,26 @@ public:
   /// constructs a solver that has nothing analyzed.
   Eigen_cholesky_solver() = default;
 
+  /// constructs a solver that has nothing analyzed, and orders as told.
+  explicit Eigen_cholesky_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
+
   /// moves, with the factor.
   Eigen_cholesky_solver(Eigen_cholesky_solver&&) = default;
 
   /// moves, with the factor.
   Eigen_cholesky_solver& operator=(Eigen_cholesky_solver&&) = default;
 
-  /// constructs a solver that has nothing analyzed: factors are not copied.
+  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
   Eigen_cholesky_solver(const Eigen_cholesky_solver&) = default;
 
-  /// makes this a solver that has nothing analyzed: factors are not copied.
+  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
   Eigen_cholesky_solver& operator=(const Eigen_cholesky_solver&) = default;
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   bool analyze(const Sparse_matrix& a)
   {
     m_state.reset(); // its memory is of use
-    m_state = std::make_unique<State>(a);
+    m_state = std::make_unique<State>(a, m_ordering);
     return true;
   }
 
@@ -72,7 +76,15 @@ public:
     return m_state->cholesky.factorize(a);
   }
 
-  /// gives the matrix a border, or takes it away.
+  /// gives the matrix a border, or takes it away if `b` has no columns.
+  ///
+  /// What is solved from now on is the symmetric system
+  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
+  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
+  /// \param d a symmetric matrix, of which the lower triangle is read
+  /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
   bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
   {
     return m_state->substitution.set_border(m_state->cholesky.structure(),
@@ -90,12 +102,15 @@ public:
 private:
   struct State
   {
-    explicit State(const Sparse_matrix& a) : cholesky(a, internal::fill_reducing_order(a)) {}
+    State(const Sparse_matrix& a, Fill_reducing_ordering ordering)
+      : cholesky(a, internal::fill_reducing_order(a, ordering))
+    {}
 
     internal::Supernodal_cholesky cholesky;
     internal::Bordered_substitution substitution;
   };
 
+  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
   internal::Unshared_ptr<State> m_state;
 };
 

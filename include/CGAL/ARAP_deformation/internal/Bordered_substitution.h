@@ -243,7 +243,8 @@ private:
           for(std::size_t j = 0; j < m_groups[h].columns.size(); ++j)
           {
             const int row = m_groups[g].columns[i], column = m_groups[h].columns[j];
-            const double entry = d(row, column) - products[4 * i + j];
+            const double entry =
+              d((std::max)(row, column), (std::min)(row, column)) - products[4 * i + j];
             remainder(row, column) = entry;
             remainder(column, row) = entry;
           }
