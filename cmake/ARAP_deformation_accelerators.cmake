@@ -1,12 +1,14 @@
 # What makes programs that use this package faster, where it is found: the target
-# ARAP_deformation_accelerators has TBB (threads) and CHOLMOD (a faster factorization). Programs work
-# without it too.
+# ARAP_deformation_accelerators has TBB (threads), CHOLMOD (a factorization) and METIS (an ordering
+# for smaller factors). Programs work without it too.
 if(NOT TARGET ARAP_deformation_accelerators)
   find_package(TBB QUIET)
   include(CGAL_TBB_support)
+  find_package(METIS QUIET)
+  include(CGAL_METIS_support)
   include(${CMAKE_CURRENT_LIST_DIR}/CGAL_Cholmod_support.cmake)
   add_library(ARAP_deformation_accelerators INTERFACE IMPORTED)
-  foreach(library TBB Cholmod)
+  foreach(library TBB Cholmod METIS)
     if(TARGET CGAL::${library}_support)
       set_property(TARGET ARAP_deformation_accelerators APPEND PROPERTY
                    INTERFACE_LINK_LIBRARIES CGAL::${library}_support)

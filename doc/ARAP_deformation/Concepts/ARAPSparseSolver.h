@@ -59,4 +59,17 @@ public:
   /// `CGAL::ARAP::Status::solver_failed`. The iteration solves for corrections, so that rounding errors
   /// of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
+
+  /// is not required. Where a solver has this function, another set of control vertices does not need
+  /// another factorization as long as few of them change.
+  ///
+  /// It gives the matrix \f$A\f$ of the last call of `factorize()` a border, or takes it away if `b` has
+  /// no columns; `factorize()` takes it away too. From then on `solve()` takes and returns as many more
+  /// rows as `b` has columns, for the system
+  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}. \f]
+  /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts.
+  ///
+  /// Returns whether the bordered system can be solved safely. If not, there is no border.
+  bool set_border(const CGAL::ARAP::Sparse_matrix& b, const Eigen::MatrixXd& d);
 };

@@ -14,7 +14,13 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
+#include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
+
+#include <Eigen/Core>
 
 #if __has_include(<cholmod.h>)
 #include <cholmod.h>
@@ -24,13 +30,16 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief CHOLMOD's sparse Cholesky factorization: of supernodes where it pays, with the ordering
-/// that CHOLMOD finds best.
+/// \brief CHOLMOD's supernodal Cholesky factorization.
+///
+/// CHOLMOD computes the factor; the substitution is our own, as in `Eigen_cholesky_solver`, and reads
+/// the factor where CHOLMOD has put it.
 ///
 /// Needs CHOLMOD, of SuiteSparse, and its library. It runs on the BLAS it is built with, whose
 /// threads may make results differ in the last bits from run to run.
@@ -42,30 +51,29 @@ public:
   /// constructs a solver that has nothing analyzed.
   Cholmod_solver() = default;
 
+  /// constructs a solver that has nothing analyzed, and orders as told.
+  explicit Cholmod_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
+
   /// moves, with the factor.
   Cholmod_solver(Cholmod_solver&&) = default;
 
   /// moves, with the factor.
   Cholmod_solver& operator=(Cholmod_solver&&) = default;
 
-  /// constructs a solver that has nothing analyzed: factors are not copied.
-  Cholmod_solver(const Cholmod_solver&) {}
+  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
+  Cholmod_solver(const Cholmod_solver&) = default;
 
-  /// makes this a solver that has nothing analyzed: factors are not copied.
-  Cholmod_solver& operator=(const Cholmod_solver&)
-  {
-    m_state.reset();
-    return *this;
-  }
+  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
+  Cholmod_solver& operator=(const Cholmod_solver&) = default;
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   /// Returns `false` if memory runs out.
   bool analyze(const Sparse_matrix& a)
   {
-    m_state = std::make_unique<State>();
+    m_state.reset(); // its memory is of use
+    m_state = std::make_unique<State>(m_ordering);
     cholmod_sparse matrix = view(a);
-    m_state->factor = cholmod_analyze(&matrix, &m_state->common);
-    return m_state->factor != nullptr;
+    return m_state->analyze(matrix);
   }
 
   /// computes the factor; `a` has the pattern of the last `analyze()`. Returns `false` if `a` is
@@ -73,50 +81,52 @@ public:
   bool factorize(const Sparse_matrix& a)
   {
     cholmod_sparse matrix = view(a);
-    return cholmod_factorize(&matrix, m_state->factor, &m_state->common)
-        && m_state->common.status == CHOLMOD_OK
-        && cholmod_rcond(m_state->factor, &m_state->common) > 0; // 0 for pivots that are no numbers
+    return m_state->factorize(matrix);
+  }
+
+  /// gives the matrix a border, or takes it away if `b` has no columns.
+  ///
+  /// What is solved from now on is the symmetric system
+  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
+  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
+  /// \param d a symmetric matrix, of which the lower triangle is read
+  /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    return m_state->substitution.set_border(m_state->structure, m_state->values(), b, d);
   }
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the
-  /// factorized matrix. Returns `false` if memory runs out.
+  /// factorized matrix, its border included. Time: two sweeps over the factor.
   bool solve(std::size_t n, Coordinates* x)
   {
-    if(!m_state->reserve_right_hand_side(n))
-      return false;
-    double* right_hand_side = static_cast<double*>(m_state->right_hand_side->x);
-    for(std::size_t k = 0; k < n; ++k)
-      for(std::size_t c = 0; c < 3; ++c)
-        right_hand_side[c * n + k] = x[k][c];
-    if(!cholmod_solve2(CHOLMOD_A, m_state->factor, m_state->right_hand_side, nullptr,
-                       &m_state->solution, nullptr, &m_state->workspace[0], &m_state->workspace[1],
-                       &m_state->common))
-      return false;
-    const double* solution = static_cast<const double*>(m_state->solution->x);
-    for(std::size_t k = 0; k < n; ++k)
-      for(std::size_t c = 0; c < 3; ++c)
-        x[k][c] = solution[c * n + k];
+    m_state->substitution.solve(m_state->structure, m_state->values(), n, x);
     return true;
   }
 
 private:
-  // what CHOLMOD owns
+  // what CHOLMOD owns, and the substitution that reads it
   struct State
   {
-    State()
+    explicit State(Fill_reducing_ordering ordering)
     {
       cholmod_start(&common);
-      common.print = 0;       // return values say all
-      common.final_asis = 0;  // where there are no supernodes L L^T, which notices negative pivots
-      common.final_ll = 1;
+      common.print = 0;                       // return values say all
+      common.supernodal = CHOLMOD_SUPERNODAL; // what the substitution takes
+      common.nmethods = 1;
+      common.method[0].ordering = CHOLMOD_AMD;
+      if(ordering == Fill_reducing_ordering::nested_dissection)
+      {
+        common.nmethods = 2; // the second one too, of use where CHOLMOD is built without METIS
+        common.method[0].ordering = CHOLMOD_METIS;
+        common.method[1].ordering = CHOLMOD_AMD;
+      }
     }
 
     ~State()
     {
-      cholmod_free_dense(&right_hand_side, &common);
-      cholmod_free_dense(&solution, &common);
-      cholmod_free_dense(&workspace[0], &common);
-      cholmod_free_dense(&workspace[1], &common);
       cholmod_free_factor(&factor, &common);
       cholmod_finish(&common);
     }
@@ -124,21 +134,47 @@ private:
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    bool reserve_right_hand_side(std::size_t n)
+    double* values() { return static_cast<double*>(factor->x); }
+
+    bool analyze(cholmod_sparse& matrix)
     {
-      if(right_hand_side == nullptr || right_hand_side->nrow != n)
+      factor = cholmod_analyze(&matrix, &common);
+      if(factor == nullptr)
+        return false;
+      const auto supernode = static_cast<const int*>(factor->super);
+      const auto rows_begin = static_cast<const int*>(factor->pi);
+      const auto values_begin = static_cast<const int*>(factor->px);
+      const auto rows = static_cast<const int*>(factor->s);
+      const auto order = static_cast<const int*>(factor->Perm);
+      internal::Supernodes supernodes;
+      supernodes.columns.assign(supernode, supernode + factor->nsuper + 1);
+      supernodes.values_begin.assign(values_begin, values_begin + factor->nsuper);
+      supernodes.rows_begin.assign(1, 0);
+      for(std::size_t s = 0; s < factor->nsuper; ++s)
       {
-        cholmod_free_dense(&right_hand_side, &common);
-        right_hand_side = cholmod_allocate_dense(n, 3, n, CHOLMOD_REAL, &common);
+        supernodes.rows.insert(supernodes.rows.end(), rows + rows_begin[s] + supernodes.width(s),
+                               rows + rows_begin[s + 1]);
+        supernodes.rows_begin.push_back(supernodes.rows.size());
       }
-      return right_hand_side != nullptr;
+      structure = internal::Supernodal_structure(supernodes,
+                                                 std::vector<int>(order, order + factor->n));
+      return true;
+    }
+
+    bool factorize(cholmod_sparse& matrix)
+    {
+      substitution.remove_border();
+      if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK
+      || !internal::has_positive_diagonal(structure, values())) // numbers that are none pass CHOLMOD
+        return false;
+      internal::invert_diagonal(structure, values());
+      return true;
     }
 
     cholmod_common common;
     cholmod_factor* factor = nullptr;
-    cholmod_dense* right_hand_side = nullptr;
-    cholmod_dense* solution = nullptr;
-    cholmod_dense* workspace[2] = {nullptr, nullptr};
+    internal::Supernodal_structure structure;
+    internal::Bordered_substitution substitution;
   };
 
   // `a` as CHOLMOD sees it, which does not change it
@@ -160,7 +196,8 @@ private:
     return matrix;
   }
 
-  std::unique_ptr<State> m_state;
+  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
+  internal::Unshared_ptr<State> m_state;
 };
 
 } // namespace ARAP

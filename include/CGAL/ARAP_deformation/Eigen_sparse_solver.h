@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
@@ -86,14 +87,10 @@ public:
   Eigen_sparse_solver& operator=(Eigen_sparse_solver&&) = default;
 
   /// constructs a solver with the same preparation that has nothing analyzed.
-  Eigen_sparse_solver(const Eigen_sparse_solver& other) : m_prepare(other.m_prepare) {}
+  Eigen_sparse_solver(const Eigen_sparse_solver&) = default;
 
   /// makes this a solver with the same preparation that has nothing analyzed.
-  Eigen_sparse_solver& operator=(const Eigen_sparse_solver& other)
-  {
-    *this = Eigen_sparse_solver(other);
-    return *this;
-  }
+  Eigen_sparse_solver& operator=(const Eigen_sparse_solver&) = default;
 
   /// lets Eigen analyze the pattern of `a`.
   bool analyze(const Sparse_matrix& a)
@@ -169,7 +166,7 @@ private:
   }
 
   std::function<void(EigenSolver&)> m_prepare;
-  std::unique_ptr<State> m_state; // Eigen's solvers cannot be moved
+  internal::Unshared_ptr<State> m_state; // Eigen's solvers cannot be moved
 };
 
 /// \ingroup PkgARAPDeformationSolvers

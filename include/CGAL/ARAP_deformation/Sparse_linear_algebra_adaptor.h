@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
 
 #include <cmath>
 #include <cstddef>
@@ -62,16 +63,10 @@ public:
   Sparse_linear_algebra_adaptor& operator=(Sparse_linear_algebra_adaptor&&) = default;
 
   /// constructs a solver with the same preparation that has nothing factorized.
-  Sparse_linear_algebra_adaptor(const Sparse_linear_algebra_adaptor& other)
-    : m_prepare(other.m_prepare)
-  {}
+  Sparse_linear_algebra_adaptor(const Sparse_linear_algebra_adaptor&) = default;
 
   /// makes this a solver with the same preparation that has nothing factorized.
-  Sparse_linear_algebra_adaptor& operator=(const Sparse_linear_algebra_adaptor& other)
-  {
-    *this = Sparse_linear_algebra_adaptor(other);
-    return *this;
-  }
+  Sparse_linear_algebra_adaptor& operator=(const Sparse_linear_algebra_adaptor&) = default;
 
   /// makes an object of `SparseLinearAlgebra`; all else is left to `factorize()`.
   bool analyze(const Sparse_matrix&)
@@ -138,7 +133,7 @@ private:
   };
 
   std::function<void(SparseLinearAlgebra&)> m_prepare;
-  std::unique_ptr<State> m_state; // need not be movable itself
+  internal::Unshared_ptr<State> m_state; // need not be movable itself
 };
 
 } // namespace ARAP

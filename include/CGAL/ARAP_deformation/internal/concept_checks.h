@@ -18,6 +18,8 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstddef>
 #include <iterator>
@@ -60,6 +62,15 @@ using Call_factorize = Requires_convertible<
 template <typename Solver>
 using Call_solve = Requires_convertible<
   decltype(std::declval<Solver&>().solve(std::size_t(), std::declval<Coordinates*>())), bool>;
+
+// not required: a border saves a factorization when handles change
+template <typename Solver>
+using Call_set_border = Requires_convertible<
+  decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
+                                              std::declval<const Eigen::MatrixXd&>())), bool>;
+
+template <typename Solver>
+constexpr bool can_have_border = is_valid<Call_set_border, Solver>;
 
 template <typename Solver>
 struct Sparse_solver_requirements

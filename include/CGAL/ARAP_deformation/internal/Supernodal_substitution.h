@@ -1,0 +1,100 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SUPERNODAL_SUBSTITUTION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SUPERNODAL_SUBSTITUTION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/substitution_kernels.h>
+#include <CGAL/ARAP_deformation/internal/wide_vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Substitution with a factor in supernodes, for three right-hand sides at once. The local vectors
+// of all blocks are filled on the way up; on the way down, they hold the solution.
+class Supernodal_substitution
+{
+public:
+  // x := L^-1 P x, in the local vectors. The values are those of the factor, with the reciprocals of
+  // its diagonal.
+  void forward(const Supernodal_structure& structure, const double* values, const Coordinates* x)
+  {
+    m_vectors.resize(4 * structure.vectors_size());
+    structure.for_each_block_upwards([&](int k) {
+      const Block& b = structure.blocks()[k];
+      double* const vector = local_vector(b);
+      const int* const order = structure.order().data() + b.columns;
+      for(int j = 0; j < b.own; ++j)
+      {
+        const Coordinates& row = x[order[j]];
+        Double4::of(row[0], row[1], row[2], 0).store(vector + 4 * j);
+      }
+      std::fill(vector + 4 * b.own, vector + 4 * (b.own + b.boundary), 0);
+      for(int c = b.children_begin; c < b.children_end; ++c)
+        add_contribution(structure, structure.blocks()[c], vector);
+      run_kernel<Forward_block>(structure, k, values, vector);
+    });
+  }
+
+  // x := P^T L^-T of the local vectors.
+  void backward(const Supernodal_structure& structure, const double* values, Coordinates* x)
+  {
+    structure.for_each_block_downwards([&](int k) {
+      const Block& b = structure.blocks()[k];
+      double* const vector = local_vector(b);
+      if(b.boundary > 0)
+      {
+        const double* const above = local_vector(structure.blocks()[b.parent]);
+        const int* const place = structure.to_parent(b);
+        for(int j = 0; j < b.boundary; ++j)
+          Double4::load(above + 4 * place[j]).store(vector + 4 * (b.own + j));
+      }
+      run_kernel<Backward_block>(structure, k, values, vector);
+      const int* const order = structure.order().data() + b.columns;
+      for(int j = 0; j < b.own; ++j)
+        std::copy_n(vector + 4 * j, 3, x[order[j]].begin());
+    });
+  }
+
+  double* local_vector(const Supernodal_structure::Block& b)
+  { return m_vectors.data() + 4 * b.vector; }
+
+private:
+  using Block = Supernodal_structure::Block;
+
+  void add_contribution(const Supernodal_structure& structure, const Block& child, double* vector)
+  {
+    const double* const boundary = local_vector(child) + 4 * child.own;
+    const int* const place = structure.to_parent(child);
+    for(int j = 0; j < child.boundary; ++j)
+    {
+      double* const row = vector + 4 * place[j];
+      (Double4::load(row) + Double4::load(boundary + 4 * j)).store(row);
+    }
+  }
+
+  std::vector<double> m_vectors; // four numbers for each row
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SUPERNODAL_SUBSTITUTION_H

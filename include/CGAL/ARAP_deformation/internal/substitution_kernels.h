@@ -1,0 +1,203 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SUBSTITUTION_KERNELS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SUBSTITUTION_KERNELS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/wide_vector.h>
+
+#include <cstddef>
+
+// Substitution with the supernodes of one block, for four right-hand sides side by side. The values
+// of a supernode are read once, a few columns together, so that each row of the vector is read and
+// written once for all of them. Vectors are arrays of numbers, four for each row: an array of Double4
+// would have another alignment for the code that makes it than for the wide kernels. In place of the diagonal there are its reciprocals.
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// as many columns as leave registers for the rest
+constexpr int columns_at_once = 8;
+
+// `Width` columns, whose first is that of the vector: solves with their triangle and subtracts
+// their multiples from `own` rows that follow and from those listed.
+template <int Width>
+struct Forward_columns
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const double* values, std::size_t stride, int own,
+                                          const int* rows, int below, double* column,
+                                          double* vector)
+  {
+    Double4 minus[Width];
+    for(int j = 0; j < Width; ++j)
+    {
+      Double4 sum = Double4::load(column + 4 * j);
+      for(int i = 0; i < j; ++i)
+        sum = multiply_add(Double4::all(values[i * stride + j]), minus[i], sum);
+      sum = sum * Double4::all(values[j * stride + j]);
+      sum.store(column + 4 * j);
+      minus[j] = Double4::zero() - sum;
+    }
+    values += Width;
+    column += 4 * Width;
+    for(int k = 0; k < own; ++k)
+    {
+      Double4 sum = Double4::load(column + 4 * k);
+      for(int j = 0; j < Width; ++j)
+        sum = multiply_add(Double4::all(values[j * stride + k]), minus[j], sum);
+      sum.store(column + 4 * k);
+    }
+    values += own;
+    for(int k = 0; k < below; ++k)
+    {
+      double* const row = vector + 4 * std::ptrdiff_t(rows[k]);
+      Double4 sum = Double4::load(row);
+      for(int j = 0; j < Width; ++j)
+        sum = multiply_add(Double4::all(values[j * stride + k]), minus[j], sum);
+      sum.store(row);
+    }
+  }
+};
+
+// The same with the transposed columns.
+template <int Width>
+struct Backward_columns
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const double* values, std::size_t stride, int own,
+                                          const int* rows, int below, double* column,
+                                          double* vector)
+  {
+    Double4 sum[Width];
+    for(int j = 0; j < Width; ++j)
+      sum[j] = Double4::zero();
+    const double* const lower = values + Width + own;
+    for(int k = 0; k < below; ++k)
+    {
+      const Double4 x = Double4::load(vector + 4 * std::ptrdiff_t(rows[k]));
+      for(int j = 0; j < Width; ++j)
+        sum[j] = multiply_add(Double4::all(lower[j * stride + k]), x, sum[j]);
+    }
+    for(int k = 0; k < own; ++k)
+    {
+      const Double4 x = Double4::load(column + 4 * (Width + k));
+      for(int j = 0; j < Width; ++j)
+        sum[j] = multiply_add(Double4::all(values[j * stride + Width + k]), x, sum[j]);
+    }
+    for(int j = Width; j-- > 0;)
+    {
+      const Double4 x = (Double4::load(column + 4 * j) - sum[j]) * Double4::all(values[j * stride + j]);
+      x.store(column + 4 * j);
+      for(int i = 0; i < j; ++i)
+        sum[i] = multiply_add(Double4::all(values[i * stride + j]), x, sum[i]);
+    }
+  }
+};
+
+// Columns<width>::run(arguments...)
+template <template <int> class Columns, typename... Arguments>
+CGAL_ARAP_ALWAYS_INLINE void run_columns(int width, Arguments... arguments)
+{
+  static_assert(columns_at_once == 8, "a case for each width");
+  switch(width)
+  {
+  case 1: return Columns<1>::run(arguments...);
+  case 2: return Columns<2>::run(arguments...);
+  case 3: return Columns<3>::run(arguments...);
+  case 4: return Columns<4>::run(arguments...);
+  case 5: return Columns<5>::run(arguments...);
+  case 6: return Columns<6>::run(arguments...);
+  case 7: return Columns<7>::run(arguments...);
+  default: return Columns<8>::run(arguments...);
+  }
+}
+
+// L y = x with the columns of one supernode
+struct Forward_supernode
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure::Supernode& s,
+                                          const int* rows, const double* values, double* vector)
+  {
+    const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+    for(int j = 0; j < s.width; j += columns_at_once)
+    {
+      const int width = s.width - j < columns_at_once ? s.width - j : columns_at_once;
+      run_columns<Forward_columns>(width, values + j * stride + j, stride, s.width - j - width,
+                                   rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j), vector);
+    }
+  }
+};
+
+// L^T x = y with the columns of one supernode
+struct Backward_supernode
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure::Supernode& s,
+                                          const int* rows, const double* values, double* vector)
+  {
+    const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+    for(int j = (s.width - 1) / columns_at_once * columns_at_once; j >= 0; j -= columns_at_once)
+    {
+      const int width = s.width - j < columns_at_once ? s.width - j : columns_at_once;
+      run_columns<Backward_columns>(width, values + j * stride + j, stride, s.width - j - width,
+                                    rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j), vector);
+    }
+  }
+};
+
+// L y = x with all columns of a block
+struct Forward_block
+{
+  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, int block,
+                                          const double* values, double* vector)
+  {
+    const Supernodal_structure::Block& b = structure.blocks()[block];
+    const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
+    for(int k = b.supernodes_begin; k < b.supernodes_end; ++k)
+      Forward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
+                             values + supernodes[k].values, vector);
+  }
+};
+
+// L y = x with some of the supernodes of a block
+struct Forward_supernodes
+{
+  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, const int* begin,
+                                          const int* end, const double* values, double* vector)
+  {
+    for(; begin != end; ++begin)
+    {
+      const Supernodal_structure::Supernode& s = structure.supernodes()[*begin];
+      Forward_supernode::run(s, structure.rows(s), values + s.values, vector);
+    }
+  }
+};
+
+// L^T x = y with all columns of a block
+struct Backward_block
+{
+  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, int block,
+                                          const double* values, double* vector)
+  {
+    const Supernodal_structure::Block& b = structure.blocks()[block];
+    const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
+    for(int k = b.supernodes_end; k-- > b.supernodes_begin;)
+      Backward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
+                              values + supernodes[k].values, vector);
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SUBSTITUTION_KERNELS_H

@@ -1,0 +1,413 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+// The factorization and substitution over supernodes: against dense solutions for graphs of all
+// shapes, the same to the last bit for any number of threads, and with a border.
+
+#include "include/check.h"
+
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+#include <Eigen/Dense>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace CGAL::ARAP;
+using internal::run_with_threads;
+
+using Edges = std::vector<std::pair<int, int>>;
+using Rows = std::vector<Coordinates>;
+
+std::mt19937 random_engine(3);
+
+double random_number(double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(random_engine);
+}
+
+int random_index(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_engine); }
+
+// the Laplacian of a graph with random weights, plus `shift` times the identity
+Sparse_matrix laplacian(int n, const Edges& edges, double shift)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for(const auto& [i, j] : edges)
+  {
+    const double w = random_number(0.5, 2);
+    entries.emplace_back(i, i, w);
+    entries.emplace_back(j, j, w);
+    entries.emplace_back((std::max)(i, j), (std::min)(i, j), -w);
+  }
+  for(int i = 0; i < n; ++i)
+    entries.emplace_back(i, i, shift);
+  Sparse_matrix a(n, n);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+Edges grid_edges(int columns, int rows)
+{
+  Edges edges;
+  for(int i = 0; i < columns; ++i)
+    for(int j = 0; j < rows; ++j)
+    {
+      if(i + 1 < columns) edges.emplace_back(i * rows + j, (i + 1) * rows + j);
+      if(j + 1 < rows) edges.emplace_back(i * rows + j, i * rows + j + 1);
+      if(i + 1 < columns && j + 1 < rows) edges.emplace_back(i * rows + j, (i + 1) * rows + j + 1);
+    }
+  return edges;
+}
+
+struct Problem
+{
+  std::string name;
+  Sparse_matrix matrix;
+};
+
+std::vector<Problem> small_problems()
+{
+  std::vector<Problem> problems;
+  const auto add = [&](const std::string& name, int n, const Edges& edges, double shift = 0.1) {
+    problems.push_back({name, laplacian(n, edges, shift)});
+  };
+  add("one row", 1, {});
+  add("no edges", 40, {});
+  Edges chain, star, complete, bipartite, binary_tree;
+  for(int i = 1; i < 200; ++i)
+  {
+    chain.emplace_back(i - 1, i);
+    star.emplace_back(0, i);
+    binary_tree.emplace_back((i - 1) / 2, i);
+  }
+  for(int i = 0; i < 45; ++i)
+    for(int j = 0; j < i; ++j)
+    {
+      complete.emplace_back(i, j);
+      if(i % 2 != j % 2) bipartite.emplace_back(i, j);
+    }
+  add("chain", 200, chain);
+  add("star", 200, star);
+  add("binary tree", 200, binary_tree);
+  add("complete graph", 45, complete);
+  add("bipartite graph", 45, bipartite);
+  for(int size : {2, 3, 5, 12, 17})
+    add("grid " + std::to_string(size), size * size, grid_edges(size, size));
+  add("long grid", 4 * 75, grid_edges(75, 4));
+  Edges components = grid_edges(15, 15);
+  for(auto [i, j] : grid_edges(11, 12))
+    components.emplace_back(i + 240, j + 240);
+  add("two grids and isolated vertices", 400, components);
+  for(int k = 0; k < 12; ++k)
+  {
+    const int n = 10 + random_index(250);
+    Edges edges;
+    for(int e = random_index(4 * n); e > 0; --e)
+      if(const int i = random_index(n), j = random_index(n); i != j)
+        edges.emplace_back(i, j);
+    add("random graph " + std::to_string(k), n, edges, 0.01);
+  }
+  return problems;
+}
+
+// cut into blocks, as no small one is
+Sparse_matrix large_matrix()
+{
+  Edges edges = grid_edges(170, 90);
+  for(auto [i, j] : grid_edges(60, 50))
+    edges.emplace_back(i + 15400, j + 15400);
+  return laplacian(19000, edges, 0.01);
+}
+
+Eigen::MatrixXd dense(const Sparse_matrix& a)
+{
+  return Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>();
+}
+
+Rows random_rows(std::size_t n)
+{
+  Rows rows(n);
+  for(Coordinates& row : rows)
+    row = {random_number(-1, 1), random_number(-1, 1), random_number(-1, 1)};
+  return rows;
+}
+
+Eigen::MatrixXd as_matrix(const Rows& rows)
+{
+  Eigen::MatrixXd m(rows.size(), 3);
+  for(std::size_t k = 0; k < rows.size(); ++k)
+    for(int c = 0; c < 3; ++c)
+      m(static_cast<Eigen::Index>(k), c) = rows[k][c];
+  return m;
+}
+
+// the largest difference to the dense solution, relative to its largest entry
+double error(const Eigen::MatrixXd& a, const Rows& b, const Rows& x)
+{
+  const Eigen::MatrixXd expected = a.partialPivLu().solve(as_matrix(b));
+  return (as_matrix(x) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+}
+
+double relative_residual(const Sparse_matrix& a, const Rows& b, const Rows& x)
+{
+  const Eigen::MatrixXd product = a.selfadjointView<Eigen::Lower>() * as_matrix(x);
+  return (product - as_matrix(b)).cwiseAbs().maxCoeff() / as_matrix(b).cwiseAbs().maxCoeff();
+}
+
+Sparse_matrix sparse(const Eigen::MatrixXd& m)
+{
+  Sparse_matrix s = m.sparseView();
+  s.makeCompressed();
+  return s;
+}
+
+// Columns of both kinds: unit vectors, that hold a vertex, and rows of a Laplacian, that free one.
+struct Border
+{
+  Eigen::MatrixXd b, d;
+};
+
+Border random_border(int n, int held, int freed)
+{
+  std::vector<int> vertices(n);
+  for(int i = 0; i < n; ++i)
+    vertices[i] = i;
+  std::shuffle(vertices.begin(), vertices.end(), random_engine);
+  Border border{Eigen::MatrixXd::Zero(n, held + freed),
+                Eigen::MatrixXd::Zero(held + freed, held + freed)};
+  for(int k = 0; k < held; ++k)
+    border.b(vertices[k], k) = 1;
+  // diagonally dominant together with what the matrix has of its shift
+  for(int k = held; k < held + freed; ++k)
+  {
+    for(int e = 0; e < 5; ++e)
+      border.b(random_index(n), k) = -random_number(0.001, 0.01);
+    border.d(k, k) = 3;
+    if(k > held)
+      border.d(k, k - 1) = border.d(k - 1, k) = -random_number(0.1, 1);
+  }
+  return border;
+}
+
+Eigen::MatrixXd bordered(const Sparse_matrix& a, const Border& border)
+{
+  const Eigen::Index n = a.rows(), k = border.d.rows();
+  Eigen::MatrixXd m(n + k, n + k);
+  m << dense(a), border.b, border.b.transpose(), border.d;
+  return m;
+}
+
+template <typename Solver>
+void test_borders(Solver& solver, const Sparse_matrix& a)
+{
+  const int n = static_cast<int>(a.rows());
+  for(const auto& [held, freed] :
+      std::vector<std::pair<int, int>>{{1, 0}, {0, 1}, {4, 0}, {3, 2}, {0, 5}, {9, 4}})
+  {
+    if(held > n)
+      continue;
+    const Border border = random_border(n, held, freed);
+    Eigen::MatrixXd lower = border.d;
+    lower.triangularView<Eigen::StrictlyUpper>().setConstant(7); // is not read
+    CHECK(solver.set_border(sparse(border.b), lower));
+    const Rows b = random_rows(static_cast<std::size_t>(n + held + freed));
+    Rows x = b;
+    CHECK(solver.solve(x.size(), x.data()));
+    CHECK_AT_MOST(error(bordered(a, border), b, x), 1e-9);
+  }
+
+  // the same vertex held twice
+  Eigen::MatrixXd twice = Eigen::MatrixXd::Zero(n, 2);
+  twice.row(n / 2).setOnes();
+  CHECK(!solver.set_border(sparse(twice), Eigen::MatrixXd::Zero(2, 2)));
+  // a column of zeros
+  CHECK(!solver.set_border(Sparse_matrix(n, 1), Eigen::MatrixXd::Zero(1, 1)));
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  CHECK(!solver.set_border(sparse(random_border(n, 1, 0).b),
+                           Eigen::MatrixXd::Constant(1, 1, not_a_number)));
+}
+
+template <typename Solver>
+void test_small(const std::string& name, const Solver& prototype)
+{
+  for(const Problem& problem : small_problems())
+  {
+    test_case() = name + ", " + problem.name;
+    Solver solver(prototype);
+    const Sparse_matrix& a = problem.matrix;
+    CHECK(solver.analyze(a));
+    for(double factor : {1.0, 3.0})
+    {
+      // of the same pattern
+      const Sparse_matrix scaled = factor * a;
+      CHECK(solver.factorize(scaled));
+      const auto check_plain = [&] {
+        const Rows b = random_rows(static_cast<std::size_t>(a.rows()));
+        Rows x = b;
+        CHECK(solver.solve(x.size(), x.data()));
+        CHECK_AT_MOST(error(dense(scaled), b, x), 1e-10);
+      };
+      check_plain();
+      test_borders(solver, scaled);
+      check_plain(); // a border that was refused is none
+      const Border border = random_border(static_cast<int>(a.rows()), 1, 0);
+      CHECK(solver.set_border(sparse(border.b), border.d));
+      CHECK(solver.set_border(Sparse_matrix(a.rows(), 0), Eigen::MatrixXd(0, 0)));
+      check_plain();
+      CHECK(solver.set_border(sparse(border.b), border.d));
+    }
+    CHECK(solver.factorize(a)); // takes the border away
+    const Rows b = random_rows(static_cast<std::size_t>(a.rows()));
+    Rows x = b, y = b;
+    CHECK(solver.solve(x.size(), x.data()));
+    CHECK_AT_MOST(error(dense(a), b, x), 1e-10);
+
+    // moves keep the factor, copies need one
+    Solver copy(solver), moved(std::move(solver));
+    CHECK(moved.solve(y.size(), y.data()) && x == y);
+    CHECK(copy.analyze(a) && copy.factorize(a));
+    y = b;
+    CHECK(copy.solve(y.size(), y.data()) && x == y);
+    copy = moved;
+    moved = Solver();
+    CHECK(copy.analyze(a) && copy.factorize(a));
+  }
+}
+
+template <typename Solver>
+void test_refusals(const std::string& name, const Solver& prototype)
+{
+  test_case() = name;
+  const Sparse_matrix a = laplacian(144, grid_edges(12, 12), 0.1);
+  for(int row : {0, 77, 143})
+    for(double value : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::infinity()})
+    {
+      Solver solver(prototype);
+      CHECK(solver.analyze(a));
+      Sparse_matrix wrong = a;
+      wrong.coeffRef(row, row) = value;
+      CHECK(!solver.factorize(wrong));
+      CHECK(solver.factorize(a));
+      const Rows b = random_rows(144);
+      Rows x = b;
+      CHECK(solver.solve(x.size(), x.data()));
+      CHECK_AT_MOST(error(dense(a), b, x), 1e-10);
+    }
+}
+
+// the solution with that many threads, and the one with a border
+template <typename Solver>
+Rows solutions(Solver& solver, const Sparse_matrix& a, const Border& border, const Rows& b,
+               unsigned int threads)
+{
+  const std::size_t n = static_cast<std::size_t>(a.rows());
+  Rows x = b, y = b;
+  run_with_threads(threads, [&] {
+    CHECK(solver.factorize(a));
+    CHECK(solver.solve(n, x.data()));
+    CHECK(solver.set_border(sparse(border.b), border.d));
+    CHECK(solver.solve(b.size(), y.data()));
+  });
+  x.resize(n);
+  x.insert(x.end(), y.begin(), y.end());
+  return x;
+}
+
+template <typename Solver>
+void test_threads(const std::string& name, Solver solver)
+{
+  test_case() = name;
+  const Sparse_matrix a = large_matrix();
+  const Border border = random_border(static_cast<int>(a.rows()), 11, 6);
+  const Rows b = random_rows(static_cast<std::size_t>(a.rows()) + 17);
+  CHECK(solver.analyze(a));
+  const Rows first = solutions(solver, a, border, b, 1);
+  for(unsigned int threads : {1u, 2u, 8u, 0u})
+    for(int k = 0; k < 5; ++k)
+      CHECK(solutions(solver, a, border, b, threads) == first);
+
+  const std::size_t n = static_cast<std::size_t>(a.rows());
+  const Rows x(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(n));
+  CHECK_AT_MOST(relative_residual(a, Rows(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(n)), x),
+                1e-11);
+  Sparse_matrix all(a.rows() + 17, a.rows() + 17);
+  std::vector<Eigen::Triplet<double>> entries;
+  for(int j = 0; j < a.cols(); ++j)
+    for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
+      entries.emplace_back(entry.row(), j, entry.value());
+  for(int k = 0; k < 17; ++k)
+  {
+    for(int i = 0; i < a.rows(); ++i)
+      if(border.b(i, k) != 0) entries.emplace_back(static_cast<int>(a.rows()) + k, i, border.b(i, k));
+    for(int l = 0; l <= k; ++l)
+      entries.emplace_back(static_cast<int>(a.rows()) + k, static_cast<int>(a.rows()) + l,
+                           border.d(k, l));
+  }
+  all.setFromTriplets(entries.begin(), entries.end());
+  const Rows y(first.begin() + static_cast<std::ptrdiff_t>(n), first.end());
+  CHECK_AT_MOST(relative_residual(all, b, y), 1e-10);
+}
+
+// the bits are not compared of a factor in one piece
+void test_blocks()
+{
+  test_case() = "blocks";
+  const Sparse_matrix a = large_matrix();
+  const internal::Supernodal_cholesky cholesky(
+    a, internal::fill_reducing_order(a, Fill_reducing_ordering::minimum_degree));
+  CHECK(cholesky.structure().blocks().size() > 20);
+}
+
+template <typename Solver>
+void test_solver(const std::string& name, const Solver& solver)
+{
+  static_assert(internal::can_have_border<Solver>);
+  test_small(name, solver);
+  test_refusals(name, solver);
+}
+
+int main()
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  // as many threads as are asked for, and not only as many as there are cores
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
+#endif
+  test_blocks();
+  for(Fill_reducing_ordering ordering :
+      {Fill_reducing_ordering::minimum_degree, Fill_reducing_ordering::nested_dissection})
+  {
+    const std::string suffix =
+      ordering == Fill_reducing_ordering::minimum_degree ? "" : ", nested dissection";
+    test_solver("Eigen_cholesky_solver" + suffix, Eigen_cholesky_solver(ordering));
+    test_threads("Eigen_cholesky_solver" + suffix, Eigen_cholesky_solver(ordering));
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+    test_solver("Cholmod_solver" + suffix, Cholmod_solver(ordering));
+    test_threads("Cholmod_solver" + suffix, Cholmod_solver(ordering));
+#endif
+  }
+  return checks_result();
+}
