@@ -1,6 +1,6 @@
 # What makes programs that use this package faster, where it is found: the target
-# ARAP_deformation_accelerators has TBB (threads), CHOLMOD (a factorization) and METIS (an ordering
-# for smaller factors). Programs work without it too.
+# ARAP_deformation_accelerators has TBB (threads), and for programs that choose them CHOLMOD (another
+# factorization) and METIS (an ordering for smaller factors). Programs work without it too.
 if(NOT TARGET ARAP_deformation_accelerators)
   find_package(TBB QUIET)
   include(CGAL_TBB_support)
@@ -13,7 +13,7 @@ if(NOT TARGET ARAP_deformation_accelerators)
       set_property(TARGET ARAP_deformation_accelerators APPEND PROPERTY
                    INTERFACE_LINK_LIBRARIES CGAL::${library}_support)
     else()
-      message(STATUS "NOTICE: ${library} was not found; deformations will be slower.")
+      message(STATUS "NOTICE: ${library} was not found; see the README for what it is good for.")
     endif()
   endforeach()
 endif()

@@ -79,7 +79,7 @@ private:
                CGAL::ARAP::Clamped_cotangent_weight, CGAL::ARAP::Uniform_weight> m_weight;
 };
 
-using Traits = CGAL::ARAP_deformation_traits_3<CGAL::ARAP::Eigen_cholesky_solver, Chosen_weight>;
+using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Chosen_weight>;
 
 // what the command did, beyond what the deformation reports
 struct Result

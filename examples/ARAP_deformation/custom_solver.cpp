@@ -121,7 +121,7 @@ int main()
   using Gradients = CGAL::ARAP::Eigen_conjugate_gradient_solver;
   const Gradients gradients([](Gradients::Eigen_solver& s) { s.setTolerance(1e-10); });
 
-  const bool done = bend<CGAL::ARAP::Eigen_cholesky_solver>("the default") &&
+  const bool done = bend<CGAL::Default>("the default") &&
                     bend<CGAL_solver>("CGAL's Eigen_solver_traits") &&
                     bend("conjugate gradients", gradients) &&
                     bend<Band_solver>("a solver of one's own");

@@ -33,9 +33,8 @@ namespace CGAL {
 /// The objects may carry state: construct the traits with them. A deformation works on copies of
 /// what its traits hand out.
 ///
-/// \tparam SparseSolver a model of `ARAPSparseSolver`; by default `ARAP::Cholmod_solver` in a program
-///         that is linked with CHOLMOD (the macro `CGAL_LINKED_WITH_CHOLMOD`), otherwise
-///         `ARAP::Eigen_cholesky_solver`
+/// \tparam SparseSolver a model of `ARAPSparseSolver`, default
+///         `ARAP::Multifrontal_cholesky_solver`
 /// \tparam EdgeWeight a model of `ARAPEdgeWeight_3`, default `ARAP::Safe_cotangent_weight`
 /// \tparam ClosestRotation a model of `ARAPClosestRotation_3`, default
 ///         `ARAP::Newton_closest_rotation`

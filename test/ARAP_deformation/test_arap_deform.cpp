@@ -93,7 +93,7 @@ int main()
   mesh = rest;
   CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options,
                           params::weight_calculator(CGAL::ARAP::Uniform_weight())
-                            .sparse_linear_solver(CGAL::ARAP::Eigen_cholesky_solver())));
+                            .sparse_linear_solver(CGAL::ARAP::Multifrontal_cholesky_solver())));
   const CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight> uniform;
   CHECK(same_points(mesh, by_class(uniform, 12)));
 

@@ -13,7 +13,7 @@
 
 #include "include/check.h"
 
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
@@ -402,8 +402,8 @@ int main()
   {
     const std::string suffix =
       ordering == Fill_reducing_ordering::minimum_degree ? "" : ", nested dissection";
-    test_solver("Eigen_cholesky_solver" + suffix, Eigen_cholesky_solver(ordering));
-    test_threads("Eigen_cholesky_solver" + suffix, Eigen_cholesky_solver(ordering));
+    test_solver("Multifrontal_cholesky_solver" + suffix, Multifrontal_cholesky_solver(ordering));
+    test_threads("Multifrontal_cholesky_solver" + suffix, Multifrontal_cholesky_solver(ordering));
 #ifdef CGAL_LINKED_WITH_CHOLMOD
     test_solver("Cholmod_solver" + suffix, Cholmod_solver(ordering));
     test_threads("Cholmod_solver" + suffix, Cholmod_solver(ordering));

@@ -219,19 +219,19 @@ void test_matrices()
 }
 
 // a solver that fails where it is told to
-struct Failing_solver : CGAL::ARAP::Eigen_cholesky_solver
+struct Failing_solver : CGAL::ARAP::Multifrontal_cholesky_solver
 {
   static int solves_left;
   static bool can_factorize;
 
   bool factorize(const CGAL::ARAP::Sparse_matrix& a)
   {
-    return can_factorize && CGAL::ARAP::Eigen_cholesky_solver::factorize(a);
+    return can_factorize && CGAL::ARAP::Multifrontal_cholesky_solver::factorize(a);
   }
 
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
   {
-    return solves_left-- > 0 && CGAL::ARAP::Eigen_cholesky_solver::solve(n, x);
+    return solves_left-- > 0 && CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
   }
 };
 int Failing_solver::solves_left = 0;

@@ -17,7 +17,7 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -188,7 +188,7 @@ const Shape large_sheet()
 }
 
 using Triangles = std::vector<std::array<std::size_t, 3>>;
-using Solver = CGAL::ARAP::Eigen_cholesky_solver;
+using Solver = CGAL::ARAP::Multifrontal_cholesky_solver;
 
 void test_many_changes()
 {
@@ -279,7 +279,7 @@ void test_changed_matrix()
 
 int main()
 {
-  test_random_changes<Solver>("Eigen_cholesky_solver");
+  test_random_changes<Solver>("Multifrontal_cholesky_solver");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   test_random_changes<CGAL::ARAP::Cholmod_solver>("Cholmod_solver");
 #endif

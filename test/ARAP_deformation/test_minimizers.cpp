@@ -305,7 +305,7 @@ void test_inexact_solver()
 }
 
 // Solves as the default does, but for the given solution.
-class Failing_solver : public CGAL::ARAP::Eigen_cholesky_solver
+class Failing_solver : public CGAL::ARAP::Multifrontal_cholesky_solver
 {
 public:
   explicit Failing_solver(int good_solutions = 0, bool is_silent = false)
@@ -314,7 +314,7 @@ public:
   bool solve(std::size_t n, Coordinates* x)
   {
     if(m_good_solutions-- > 0)
-      return CGAL::ARAP::Eigen_cholesky_solver::solve(n, x);
+      return CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
     if(m_is_silent)
       std::fill_n(x, n, Coordinates{std::nan(""), 0, 0});
     return m_is_silent;

@@ -14,7 +14,7 @@
 
 #include "include/check.h"
 
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 
 #include <Eigen/Dense>
 
@@ -54,7 +54,7 @@ Sparse_matrix grid_laplacian(int side, double shift)
   return a;
 }
 
-void check_solution(CGAL::ARAP::Eigen_cholesky_solver& solver, const Sparse_matrix& a)
+void check_solution(CGAL::ARAP::Multifrontal_cholesky_solver& solver, const Sparse_matrix& a)
 {
   const auto n = std::size_t(a.rows());
   Eigen::MatrixXd b =
@@ -74,7 +74,7 @@ void check_solution(CGAL::ARAP::Eigen_cholesky_solver& solver, const Sparse_matr
 
 int main()
 {
-  CGAL::ARAP::Eigen_cholesky_solver solver;
+  CGAL::ARAP::Multifrontal_cholesky_solver solver;
   for(int side : {1, 2, 5, 17})
   {
     const Sparse_matrix a = grid_laplacian(side, 0.01), same_pattern = grid_laplacian(side, 0.5);
@@ -86,10 +86,10 @@ int main()
     check_solution(solver, same_pattern);
 
     // has no factor, and leaves this one alone
-    const CGAL::ARAP::Eigen_cholesky_solver copy(solver);
-    CGAL::ARAP::Eigen_cholesky_solver moved(std::move(solver));
+    const CGAL::ARAP::Multifrontal_cholesky_solver copy(solver);
+    CGAL::ARAP::Multifrontal_cholesky_solver moved(std::move(solver));
     check_solution(moved, same_pattern);
-    solver = CGAL::ARAP::Eigen_cholesky_solver(copy);
+    solver = CGAL::ARAP::Multifrontal_cholesky_solver(copy);
 
     CHECK(moved.analyze(a));
     CHECK(!moved.factorize(grid_laplacian(side, -1)));

@@ -16,6 +16,7 @@
 #include "include/conformance.h"
 
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/check_sparse_solver.h>
@@ -104,7 +105,7 @@ public:
   bool solve(std::size_t n, Coordinates* x) { return m_solver.solve(n, x); }
 
 protected:
-  Eigen_cholesky_solver m_solver;
+  Multifrontal_cholesky_solver m_solver;
 };
 
 struct Wrong_sign : Whole_solver
@@ -255,7 +256,7 @@ struct Loses_entries
           entry.valueRef() = 0;
     return a;
   }
-  Eigen_cholesky_solver m_solver;
+  Multifrontal_cholesky_solver m_solver;
 };
 
 struct Throws : Whole_solver
@@ -265,6 +266,7 @@ struct Throws : Whole_solver
 
 int main()
 {
+  CHECK_CONFORMS(check_sparse_solver(Multifrontal_cholesky_solver()));
   CHECK_CONFORMS(check_sparse_solver(Eigen_cholesky_solver()));
   CHECK_CONFORMS(check_sparse_solver(Whole_solver()));
   using LLT = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
@@ -313,7 +315,7 @@ int main()
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   for(double off_diagonal : {2.0, not_a_number})
   {
-    CHECK(refuses(Eigen_cholesky_solver(), off_diagonal));
+    CHECK(refuses(Multifrontal_cholesky_solver(), off_diagonal));
     CHECK(refuses(Eigen_LDLT_solver(), off_diagonal));
 #ifdef CGAL_LINKED_WITH_CHOLMOD
     CHECK(refuses(Cholmod_solver(), off_diagonal));

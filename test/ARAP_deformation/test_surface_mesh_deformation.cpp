@@ -507,7 +507,7 @@ void test_models()
     CGAL::Eigen_sparse_matrix<double>::EigenType, Eigen::COLAMDOrdering<int>>>;
   using SVD = CGAL::Deformation_Eigen_closest_rotation_traits_3;
   using Polar = CGAL::Deformation_Eigen_polar_closest_rotation_traits_3;
-  using CGAL::ARAP::Eigen_cholesky_solver;
+  using CGAL::ARAP::Multifrontal_cholesky_solver;
   using CGAL::ARAP::SVD_closest_rotation;
   const auto nothing = [](auto&) {};
   for(const Shape& shape : shapes())
@@ -520,7 +520,7 @@ void test_models()
                                              shape, nothing)), d);
     CHECK_AT_MOST(largest_distance(result, run<Our_class<Mesh, ORIGINAL_ARAP, Default, Default,
                                                          SVD>>(shape, nothing)), d);
-    CHECK(result == (run<Our_class<Mesh, ORIGINAL_ARAP, Default, Eigen_cholesky_solver,
+    CHECK(result == (run<Our_class<Mesh, ORIGINAL_ARAP, Default, Multifrontal_cholesky_solver,
                                    SVD_closest_rotation>>(shape, nothing)));
 
     // without smoothing

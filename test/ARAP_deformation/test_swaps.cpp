@@ -113,10 +113,11 @@ CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Rotation> with_rot
 int main()
 {
   Swaps swaps(20);
-  swaps("Eigen_cholesky_solver, SVD_closest_rotation (default)",
+  swaps("Multifrontal_cholesky_solver, Newton_closest_rotation (default)",
         CGAL::ARAP_deformation_traits_3<>(), 0);
 
   const double direct = 1e-8;
+  swaps("Eigen_cholesky_solver", with_solver<Eigen_cholesky_solver>(), direct);
   swaps("Eigen_sparse_solver<Eigen::SimplicialLLT>",
         with_solver<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>(), direct);
   swaps("Eigen_LDLT_solver", with_solver<Eigen_LDLT_solver>(), direct);
@@ -139,7 +140,7 @@ int main()
           with_solver(solver), 10 * tolerance);
   }
 
-  swaps("Newton_closest_rotation", with_rotation<Newton_closest_rotation>(), direct);
+  swaps("SVD_closest_rotation", with_rotation<SVD_closest_rotation>(), direct);
   swaps("CGAL::Deformation_Eigen_closest_rotation_traits_3",
         with_rotation<Closest_rotation_traits_adaptor<CGAL_svd>>(), direct);
   swaps("CGAL::Deformation_Eigen_polar_closest_rotation_traits_3",

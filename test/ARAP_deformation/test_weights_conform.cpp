@@ -97,7 +97,7 @@ struct Divides : Cotangent_weight
   double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return 1 / sum; }
 };
 
-struct Sparse_solver_that_refuses : Eigen_cholesky_solver
+struct Sparse_solver_that_refuses : Multifrontal_cholesky_solver
 {
   bool factorize(const Sparse_matrix&) { return false; }
 };

@@ -67,7 +67,7 @@ struct Weight_without_triangles
 
 struct Traits_without_rotation
 {
-  using Sparse_solver = Eigen_cholesky_solver;
+  using Sparse_solver = Multifrontal_cholesky_solver;
   using Edge_weight = Uniform_weight;
   Sparse_solver sparse_solver_object() const { return {}; }
   Edge_weight edge_weight_object() const { return {}; }

@@ -20,6 +20,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
@@ -85,6 +86,7 @@ private:
 template <typename Weight, typename Function>
 void for_each_solver(const Function& f)
 {
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Multifrontal_cholesky_solver, Weight>(), "default");
   f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver, Weight>(), "Eigen");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");

@@ -38,7 +38,7 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief CHOLMOD's supernodal Cholesky factorization.
 ///
-/// CHOLMOD computes the factor; the substitution is our own, as in `Eigen_cholesky_solver`, and reads
+/// CHOLMOD computes the factor; the substitution is our own, as in `Multifrontal_cholesky_solver`, and reads
 /// the factor where CHOLMOD has put it.
 ///
 /// Needs CHOLMOD, of SuiteSparse, and its library. It runs on the BLAS it is built with, whose

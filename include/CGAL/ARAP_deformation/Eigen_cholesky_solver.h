@@ -14,29 +14,28 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
-#include <CGAL/ARAP_deformation/internal/fill_reducing_order.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ with the orderings of Eigen, or of
-/// METIS where programs are linked with it.
+/// \brief Eigen's sparse Cholesky factorization \f$P A P^T = L L^T\f$ with the ordering AMD.
 ///
-/// The factorization goes over the dense blocks of the factor, its supernodes, and so does the
-/// substitution, for the three columns of the right-hand side together. Both are parallel over the
-/// subtrees of the elimination tree where programs are linked with TBB, and the result is the same to
-/// the last bit for any number of threads.
+/// Eigen computes the factor; the substitution is our own: one sweep forth and one back over the
+/// factor serve the three columns of the right-hand side together, where Eigen takes one of each
+/// per column. One thread. `Multifrontal_cholesky_solver` is faster; this one is a library's.
+///
+/// A copy has nothing analyzed; a move keeps the factor.
 ///
 /// \cgalModels{ARAPSparseSolver}
 class Eigen_cholesky_solver
@@ -45,73 +44,69 @@ public:
   /// constructs a solver that has nothing analyzed.
   Eigen_cholesky_solver() = default;
 
-  /// constructs a solver that has nothing analyzed, and orders as told.
-  explicit Eigen_cholesky_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
-
-  /// moves, with the factor.
-  Eigen_cholesky_solver(Eigen_cholesky_solver&&) = default;
-
-  /// moves, with the factor.
-  Eigen_cholesky_solver& operator=(Eigen_cholesky_solver&&) = default;
-
-  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Eigen_cholesky_solver(const Eigen_cholesky_solver&) = default;
-
-  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Eigen_cholesky_solver& operator=(const Eigen_cholesky_solver&) = default;
-
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   bool analyze(const Sparse_matrix& a)
   {
-    m_state.reset(); // its memory is of use
-    m_state = std::make_unique<State>(a, m_ordering);
-    return true;
+    m_cholesky = std::make_unique<Cholesky>();
+    m_cholesky->analyzePattern(a);
+    return m_cholesky->info() == Eigen::Success;
   }
 
   /// computes the factor; `a` has the pattern of the last `analyze()`. Returns `false` if `a` is
   /// not positive definite.
   bool factorize(const Sparse_matrix& a)
   {
-    m_state->substitution.remove_border();
-    return m_state->cholesky.factorize(a);
-  }
-
-  /// gives the matrix a border, or takes it away if `b` has no columns.
-  ///
-  /// What is solved from now on is the symmetric system
-  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
-  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
-  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
-  /// \param d a symmetric matrix, of which the lower triangle is read
-  /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
-  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
-  {
-    return m_state->substitution.set_border(m_state->cholesky.structure(),
-                                            m_state->cholesky.values(), b, d);
+    m_cholesky->factorize(a);
+    if(m_cholesky->info() != Eigen::Success)
+      return false;
+    // Eigen lets pivots pass that are not numbers
+    const auto& factor = m_cholesky->matrixL().nestedExpression();
+    for(int j = 0; j < factor.cols(); ++j)
+      if(!std::isfinite(factor.valuePtr()[factor.outerIndexPtr()[j]]))
+        return false;
+    return true;
   }
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the
-  /// factorized matrix, its border included. Time: two sweeps over the factor.
+  /// factorized matrix. Time: two sweeps over the factor.
   bool solve(std::size_t n, Coordinates* x)
   {
-    m_state->substitution.solve(m_state->cholesky.structure(), m_state->cholesky.values(), n, x);
+    const auto& factor = m_cholesky->matrixL().nestedExpression();
+    const int* begin = factor.outerIndexPtr();
+    const int* row = factor.innerIndexPtr();
+    const double* value = factor.valuePtr();
+    const int* position = m_cholesky->permutationP().indices().data();
+
+    m_permuted.resize(n);
+    for(std::size_t k = 0; k < n; ++k)
+      m_permuted[position[k]] = x[k];
+
+    // the first entry of each column is the diagonal
+    for(std::size_t j = 0; j < n; ++j)
+    {
+      const Coordinates y = internal::scaled(m_permuted[j], 1 / value[begin[j]]);
+      m_permuted[j] = y;
+      for(int k = begin[j] + 1; k < begin[j + 1]; ++k)
+        internal::add(m_permuted[row[k]], -value[k], y);
+    }
+    for(std::size_t j = n; j-- > 0;)
+    {
+      Coordinates y = m_permuted[j];
+      for(int k = begin[j] + 1; k < begin[j + 1]; ++k)
+        internal::add(y, -value[k], m_permuted[row[k]]);
+      m_permuted[j] = internal::scaled(y, 1 / value[begin[j]]);
+    }
+
+    for(std::size_t k = 0; k < n; ++k)
+      x[k] = m_permuted[position[k]];
     return true;
   }
 
 private:
-  struct State
-  {
-    State(const Sparse_matrix& a, Fill_reducing_ordering ordering)
-      : cholesky(a, internal::fill_reducing_order(a, ordering))
-    {}
+  using Cholesky = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
 
-    internal::Supernodal_cholesky cholesky;
-    internal::Bordered_substitution substitution;
-  };
-
-  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
-  internal::Unshared_ptr<State> m_state;
+  internal::Unshared_ptr<Cholesky> m_cholesky; // Eigen's solvers cannot be moved, nor copied
+  std::vector<Coordinates> m_permuted;
 };
 
 } // namespace ARAP

@@ -14,23 +14,14 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
-
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-#include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#else
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
-#endif
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-using Default_solver = Cholmod_solver;
-#else
-using Default_solver = Eigen_cholesky_solver;
-#endif
+using Default_solver = Multifrontal_cholesky_solver;
 
 using Default_closest_rotation = Newton_closest_rotation;
 
