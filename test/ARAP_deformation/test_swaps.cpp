@@ -18,8 +18,8 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
-#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation_traits_3.h>

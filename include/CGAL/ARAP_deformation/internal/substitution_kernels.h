@@ -39,15 +39,14 @@ struct Forward_columns
                                           const int* rows, int below, double* column,
                                           double* vector)
   {
-    Double4 minus[Width];
+    Double4 x[Width];
     for(int j = 0; j < Width; ++j)
     {
       Double4 sum = Double4::load(column + 4 * j);
       for(int i = 0; i < j; ++i)
-        sum = multiply_add(Double4::all(values[i * stride + j]), minus[i], sum);
-      sum = sum * Double4::all(values[j * stride + j]);
-      sum.store(column + 4 * j);
-      minus[j] = Double4::zero() - sum;
+        sum = negative_multiply_add(Double4::all(values[i * stride + j]), x[i], sum);
+      x[j] = sum * Double4::all(values[j * stride + j]);
+      x[j].store(column + 4 * j);
     }
     values += Width;
     column += 4 * Width;
@@ -55,7 +54,7 @@ struct Forward_columns
     {
       Double4 sum = Double4::load(column + 4 * k);
       for(int j = 0; j < Width; ++j)
-        sum = multiply_add(Double4::all(values[j * stride + k]), minus[j], sum);
+        sum = negative_multiply_add(Double4::all(values[j * stride + k]), x[j], sum);
       sum.store(column + 4 * k);
     }
     values += own;
@@ -64,7 +63,7 @@ struct Forward_columns
       double* const row = vector + 4 * std::ptrdiff_t(rows[k]);
       Double4 sum = Double4::load(row);
       for(int j = 0; j < Width; ++j)
-        sum = multiply_add(Double4::all(values[j * stride + k]), minus[j], sum);
+        sum = negative_multiply_add(Double4::all(values[j * stride + k]), x[j], sum);
       sum.store(row);
     }
   }
@@ -96,7 +95,8 @@ struct Backward_columns
     }
     for(int j = Width; j-- > 0;)
     {
-      const Double4 x = (Double4::load(column + 4 * j) - sum[j]) * Double4::all(values[j * stride + j]);
+      const Double4 x = (Double4::load(column + 4 * j) - sum[j])
+                      * Double4::all(values[j * stride + j]);
       x.store(column + 4 * j);
       for(int i = 0; i < j; ++i)
         sum[i] = multiply_add(Double4::all(values[i * stride + j]), x, sum[i]);
@@ -154,6 +154,22 @@ struct Backward_supernode
   }
 };
 
+// Has the values of a supernode, or its first ones, fetched from memory while others are worked on.
+CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
+                                      const double* values)
+{
+#if defined(__GNUC__)
+  constexpr std::size_t line = 8, most = 512; // numbers
+  const std::size_t size = Supernodal_structure::size(s);
+  const double* const begin = values + s.values;
+  for(std::size_t k = 0; k < size && k < most; k += line)
+    __builtin_prefetch(begin + k);
+#else
+  static_cast<void>(s);
+  static_cast<void>(values);
+#endif
+}
+
 // L y = x with all columns of a block
 struct Forward_block
 {
@@ -163,8 +179,12 @@ struct Forward_block
     const Supernodal_structure::Block& b = structure.blocks()[block];
     const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
     for(int k = b.supernodes_begin; k < b.supernodes_end; ++k)
+    {
+      if(k + 1 < b.supernodes_end)
+        prefetch(supernodes[k + 1], values);
       Forward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
                              values + supernodes[k].values, vector);
+    }
   }
 };
 
@@ -191,8 +211,12 @@ struct Backward_block
     const Supernodal_structure::Block& b = structure.blocks()[block];
     const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
     for(int k = b.supernodes_end; k-- > b.supernodes_begin;)
+    {
+      if(k > b.supernodes_begin)
+        prefetch(supernodes[k - 1], values);
       Backward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
                               values + supernodes[k].values, vector);
+    }
   }
 };
 

@@ -99,7 +99,13 @@ struct alignas(32) Double4
   { return a * b - c; }
 #endif
 
-  CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a) { return of(a, a, a, a); }
+  // by way of memory, from which g++ makes one instruction where it has one for that; of(a, a, a, a)
+  // is taken apart into halves before it is known what the caller is compiled for
+  CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a)
+  {
+    const double four[4] = {a, a, a, a};
+    return load(four);
+  }
 
   CGAL_ARAP_ALWAYS_INLINE static Double4 zero() { return all(0); }
 
