@@ -177,10 +177,10 @@ void test_crawl()
 {
   test_case() = "crawl";
   const double pi = std::acos(-1.0);
-  const Shape shape = grid("bar", 60, 12, [pi](double u, double v) {
-    return Eigen::Vector3d(10 * u, std::cos(2 * pi * v), std::sin(2 * pi * v));
+  const Shape shape = grid("bar", 120, 10, [pi](double u, double v) {
+    return Eigen::Vector3d(60 * u, std::cos(2 * pi * v), std::sin(2 * pi * v));
   }, false, true);
-  const Scenario s = scenario(shape, 1.2);
+  const Scenario s = scenario(shape, 1.5);
   Mesh mesh = make_mesh<Mesh>(shape);
   Deformation d(mesh);
   prepare(d, s, all_vertices(mesh));
