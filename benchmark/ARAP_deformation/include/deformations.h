@@ -108,9 +108,9 @@ void insert_vertices(const Scenario& scenario, Deformation& deformation)
     deformation.insert_control_vertex(v);
 }
 
-// Goes back to the rest shape with all targets set.
-template <typename Deformation>
-void restart(const Scenario& scenario, Deformation& deformation)
+// Goes back to the rest shape with all targets set, those of any kind of scenario.
+template <typename AnyScenario, typename Deformation>
+void restart(const AnyScenario& scenario, Deformation& deformation)
 {
   deformation.reset();
   for(const auto& [v, target] : scenario.targets)
