@@ -20,16 +20,11 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
 
-#ifdef CGAL_LINKED_WITH_METIS
-#if __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
-#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
-#define ARAP_DEFORMATION_BENCHMARK_ORDERINGS
-#endif
-#endif
 
 #include <CGAL/Surface_mesh_deformation.h>
 
@@ -89,7 +84,7 @@ void for_each_solver(const Function& f)
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif
-#ifdef ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+#ifdef CGAL_LINKED_WITH_METIS
   using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
   f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
       Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");
