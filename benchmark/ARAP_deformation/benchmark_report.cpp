@@ -81,7 +81,7 @@ Json make_summary(const Json& results)
       auto found = std::find_if(figures.begin(), figures.end(),
                                 [&](const Json& f) { return f["figure"] == figure; });
       if(found == figures.end())
-        found = figures.insert(found, {{"figure", figure}, {"ratio", 0.0}});
+        found = figures.insert(found, Json{{"figure", figure}, {"ratio", 0.0}});
       const double value = row[ratio].get<double>();
       if(value > (*found)["ratio"])
         found->update({{"other", row[other]}, {"ours", row[ours]}, {"ratio", value}});
@@ -142,12 +142,12 @@ public:
   Plot(const std::string& file, const std::string& x, const std::string& y)
   {
     m_head << "reset\n"
-           << "set terminal pngcairo size 900,560 font 'Sans,13' linewidth 1.5 background 'white'\n"
+           << "set terminal pngcairo size 800,600 font 'Sans,13' linewidth 1.5 background 'white'\n"
            << "set output '" << file << "'\n"
            << "set xlabel '" << x << "'\nset ylabel '" << y << "'\n"
            << "set grid xtics ytics linecolor rgb '#dddddd'\n"
            << "set border 3\nset tics nomirror\n"
-           << "set key outside right center spacing 1.3\n";
+           << "set key outside below center horizontal spacing 1.3\n";
   }
 
   Plot& set(const std::string& line)
@@ -270,7 +270,7 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
     return;
   const Json& section = results["global_step"];
   Plot plot(folder + "/arap_roofline.png", "size of the factor [MB]", "GB/s");
-  plot.set("logscale x").set("format x '%g'").set("yrange [0:]");
+  plot.set("logscale xy").set("format x '%g'").set("format y '%g'");
   for(unsigned int threads : thread_counts_of(results))
   {
     const std::string dashes = threads == 1 ? "dashtype 2 " : "";
@@ -343,7 +343,7 @@ int main(int argc, char** argv)
 {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::vector<std::pair<std::string, std::size_t>> forms = {
-    {"text", 2}, {"markdown", 2}, {"gnuplot", 3}, {"peak", 5}};
+    {"text", 2}, {"summary", 2}, {"markdown", 2}, {"gnuplot", 3}, {"peak", 5}};
   if(std::none_of(forms.begin(), forms.end(), [&](const auto& form) {
        return arguments.size() == form.second && arguments[1] == form.first;
      }))

@@ -49,22 +49,6 @@ void verify_solution(const Matrix& a, const Columns& x, const Columns& b, const 
 
 double least_seconds(const Settings& settings) { return settings.quick ? 0.2 : 1; }
 
-// The bytes of the factor: what the solver says, or an index and a number for each non-zero.
-template <typename Solver>
-auto factor_bytes(const Solver& solver, const Matrix&, int)
-  -> decltype(static_cast<double>(solver.factor_bytes()))
-{
-  return static_cast<double>(solver.factor_bytes());
-}
-
-template <typename Solver>
-double factor_bytes(const Solver&, const Matrix& a, long)
-{
-  const Eigen::SimplicialLLT<Matrix> cholesky(a);
-  return static_cast<double>(cholesky.matrixL().nestedExpression().nonZeros()) *
-         (sizeof(double) + sizeof(int));
-}
-
 template <typename Solver>
 Solve measure_ours(const std::string& name, Solver solver, const Matrix& a, const Columns& b,
                    const Settings& settings)
@@ -84,7 +68,7 @@ Solve measure_ours(const std::string& name, Solver solver, const Matrix& a, cons
     for(std::size_t c = 0; c < 3; ++c)
       solution(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = x[k][c];
   verify_solution(a, solution, b, name);
-  return {name, factor_bytes(solver, a, 0), seconds};
+  return {name, static_cast<double>(solver.factor_bytes()), seconds};
 }
 
 Solve measure_eigen(const Matrix& a, const Columns& b, const Settings& settings)

@@ -20,17 +20,12 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
 
-#ifdef CGAL_LINKED_WITH_METIS
-#if __has_include(<CGAL/ARAP_deformation/Fill_reducing_ordering.h>)
-#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
-#define ARAP_DEFORMATION_BENCHMARK_ORDERINGS
-#endif
-#endif
 
 #include <CGAL/Surface_mesh_deformation.h>
 
@@ -91,7 +86,7 @@ void for_each_solver(const Function& f)
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif
-#ifdef ARAP_DEFORMATION_BENCHMARK_ORDERINGS
+#ifdef CGAL_LINKED_WITH_METIS
   using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
   f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
       Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");
@@ -110,9 +105,9 @@ void insert_vertices(const Scenario& scenario, Deformation& deformation)
     deformation.insert_control_vertex(v);
 }
 
-// Goes back to the rest shape with all targets set.
-template <typename Deformation>
-void restart(const Scenario& scenario, Deformation& deformation)
+// Goes back to the rest shape with all targets set, those of any kind of scenario.
+template <typename AnyScenario, typename Deformation>
+void restart(const AnyScenario& scenario, Deformation& deformation)
 {
   deformation.reset();
   for(const auto& [v, target] : scenario.targets)

@@ -106,6 +106,9 @@ public:
     return true;
   }
 
+  /// returns the size of the factor, its indices included. Each solution reads it twice.
+  std::size_t factor_bytes() const { return m_state->structure.number_of_bytes(); }
+
 private:
   // what CHOLMOD owns, and the substitution that reads it
   struct State

@@ -102,6 +102,13 @@ public:
     return true;
   }
 
+  /// returns the size of the factor, its indices included. Each solution reads it twice.
+  std::size_t factor_bytes() const
+  {
+    const auto entries = m_cholesky->matrixL().nestedExpression().nonZeros();
+    return static_cast<std::size_t>(entries) * (sizeof(double) + sizeof(int));
+   }
+
 private:
   using Cholesky = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
 

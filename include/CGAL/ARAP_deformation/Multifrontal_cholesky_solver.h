@@ -99,6 +99,9 @@ public:
     return true;
   }
 
+  /// returns the size of the factor, its indices included. Each solution reads it twice.
+  std::size_t factor_bytes() const { return m_state->cholesky.structure().number_of_bytes(); }
+
 private:
   struct State
   {

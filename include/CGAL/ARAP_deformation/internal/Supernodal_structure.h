@@ -104,6 +104,21 @@ public:
   std::size_t number_of_columns() const { return m_order.size(); }
   const std::vector<Supernode>& supernodes() const { return m_supernodes; }
   const std::vector<Block>& blocks() const { return m_blocks; }
+
+  // the memory that a sweep over the factor has to read: what is on and below the diagonal, and the
+  // rows
+  std::size_t number_of_bytes() const
+  {
+    std::size_t bytes = 0;
+    for(const Supernode& s : m_supernodes)
+    {
+      const auto width = static_cast<std::size_t>(s.width);
+      const auto below = static_cast<std::size_t>(s.below);
+      bytes += (width * (width + 1) / 2 + width * below) * sizeof(double) + below * sizeof(int);
+    }
+    return bytes;
+  }
+
   // how many values a supernode has
   static std::size_t size(const Supernode& s)
   {
