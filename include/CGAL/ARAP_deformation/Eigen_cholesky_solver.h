@@ -107,7 +107,7 @@ public:
   {
     const auto entries = m_cholesky->matrixL().nestedExpression().nonZeros();
     return static_cast<std::size_t>(entries) * (sizeof(double) + sizeof(int));
-   }
+  }
 
 private:
   using Cholesky = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
