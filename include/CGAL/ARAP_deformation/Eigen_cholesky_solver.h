@@ -35,8 +35,8 @@ namespace ARAP {
 ///
 /// The factorization goes over the dense blocks of the factor, its supernodes, and so does the
 /// substitution, for the three columns of the right-hand side together. Both are parallel over the
-/// subtrees of the elimination tree where programs are linked with TBB, and the result is the same to
-/// the last bit for any number of threads.
+/// subtrees of the elimination tree where programs are linked with TBB, and the result is the same
+/// to the last bit for any number of threads.
 ///
 /// \cgalModels{ARAPSparseSolver}
 class Eigen_cholesky_solver
@@ -80,8 +80,9 @@ public:
   ///
   /// What is solved from now on is the symmetric system
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
-  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$.
+  /// Time: for each column of `b` the part of the factor that the elimination tree reaches from
+  /// its entries.
   /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
   /// \param d a symmetric matrix, of which the lower triangle is read
   /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
