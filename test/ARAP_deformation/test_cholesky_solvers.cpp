@@ -352,8 +352,8 @@ void test_threads(const std::string& name, Solver solver)
 
   const std::size_t n = static_cast<std::size_t>(a.rows());
   const Rows x(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(n));
-  CHECK_AT_MOST(relative_residual(a, Rows(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(n)), x),
-                1e-11);
+  const Rows b_above(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(n));
+  CHECK_AT_MOST(relative_residual(a, b_above, x), 1e-11);
   Sparse_matrix all(a.rows() + 17, a.rows() + 17);
   std::vector<Eigen::Triplet<double>> entries;
   for(int j = 0; j < a.cols(); ++j)
@@ -362,7 +362,8 @@ void test_threads(const std::string& name, Solver solver)
   for(int k = 0; k < 17; ++k)
   {
     for(int i = 0; i < a.rows(); ++i)
-      if(border.b(i, k) != 0) entries.emplace_back(static_cast<int>(a.rows()) + k, i, border.b(i, k));
+      if(border.b(i, k) != 0)
+        entries.emplace_back(static_cast<int>(a.rows()) + k, i, border.b(i, k));
     for(int l = 0; l <= k; ++l)
       entries.emplace_back(static_cast<int>(a.rows()) + k, static_cast<int>(a.rows()) + l,
                            border.d(k, l));

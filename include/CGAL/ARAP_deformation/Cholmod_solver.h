@@ -38,8 +38,8 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief CHOLMOD's supernodal Cholesky factorization.
 ///
-/// CHOLMOD computes the factor; the substitution is our own, as in `Multifrontal_cholesky_solver`, and reads
-/// the factor where CHOLMOD has put it.
+/// CHOLMOD computes the factor; the substitution is our own, that of
+/// `Multifrontal_cholesky_solver`, and reads the factor where CHOLMOD has put it.
 ///
 /// Needs CHOLMOD, of SuiteSparse, and its library. It runs on the BLAS it is built with, whose
 /// threads may make results differ in the last bits from run to run.
@@ -88,8 +88,9 @@ public:
   ///
   /// What is solved from now on is the symmetric system
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
-  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$.
+  /// Time: for each column of `b` the part of the factor that the elimination tree reaches from
+  /// its entries.
   /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
   /// \param d a symmetric matrix, of which the lower triangle is read
   /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.
@@ -168,8 +169,8 @@ private:
     {
       substitution.remove_border();
       if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK
-      || !internal::has_positive_diagonal(structure, values())) // numbers that are none pass CHOLMOD
-        return false;
+      || !internal::has_positive_diagonal(structure, values()))
+        return false; // CHOLMOD lets pivots pass that are not numbers
       internal::invert_diagonal(structure, values());
       return true;
     }

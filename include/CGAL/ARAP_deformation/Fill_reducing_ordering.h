@@ -17,8 +17,8 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief How a Cholesky factorization orders the rows of a matrix, on which it depends how large the
-/// factor is.
+/// \brief How a Cholesky factorization orders the rows of a matrix, on which it depends how large
+/// the factor is.
 enum class Fill_reducing_ordering
 {
   /// Approximate minimum degree. The default, since a program has its factor soonest.

@@ -82,8 +82,9 @@ private:
     }
     run_kernel<Factor_panel>(panel, s.width, s.width + s.below);
     if(below > 0)
-      run_kernel<Subtract_square>(update.data(), s.below, static_cast<const double*>(panel + s.width),
-                                  s.width, below + static_cast<std::size_t>(s.width));
+      run_kernel<Subtract_square>(update.data(), s.below,
+                                  static_cast<const double*>(panel + s.width), s.width,
+                                  below + static_cast<std::size_t>(s.width));
   }
 
   // The rows of `child` below among the rows of `s`. Both are in ascending order.

@@ -21,8 +21,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 namespace CGAL {
@@ -43,6 +46,9 @@ public:
                   ? 0 : supernodes.values_begin.back()
                         + Supernodal_structure::size(m_structure.supernodes()[
                             m_structure.numbers().back()]);
+    for(const Supernodal_structure::Supernode& s : m_structure.supernodes())
+      if(Supernodal_structure::size(s) > (std::numeric_limits<std::uint32_t>::max)())
+        throw std::length_error("a supernode of more than 32 GB"); // see Entry
     find_entries(a, supernodes, inverse_permutation(order));
   }
 
@@ -68,7 +74,7 @@ private:
   struct Entry
   {
     int index;
-    std::size_t place;
+    std::uint32_t place;
   };
 
   void find_entries(const Sparse_matrix& a, const Supernodes& supernodes,
@@ -77,37 +83,50 @@ private:
     const std::vector<int> supernode_of = supernode_of_columns(supernodes.columns);
     const int* const begin = a.outerIndexPtr();
     const int* const row = a.innerIndexPtr();
-    const auto supernode = [&](int i, int j) {
-      return supernode_of[(std::min)(position[i], position[j])];
-    };
     m_entries_begin.assign(supernodes.size() + 2, 0);
     for(int j = 0; j < a.cols(); ++j)
       for(int k = begin[j]; k < begin[j + 1]; ++k)
-        ++m_entries_begin[m_structure.numbers()[supernode(row[k], j)] + 2];
+      {
+        const int s = supernode_of[(std::min)(position[row[k]], position[j])];
+        ++m_entries_begin[m_structure.numbers()[s] + 2];
+      }
     std::partial_sum(m_entries_begin.begin(), m_entries_begin.end(), m_entries_begin.begin());
+    // of each of them first the column, from which its place follows
     m_entries.resize(m_entries_begin.back());
     for(int j = 0; j < a.cols(); ++j)
       for(int k = begin[j]; k < begin[j + 1]; ++k)
       {
-        const int s = supernode(row[k], j);
-        const auto [first, last] = std::minmax(position[row[k]], position[j]);
+        const int s = supernode_of[(std::min)(position[row[k]], position[j])];
         m_entries[m_entries_begin[m_structure.numbers()[s] + 1]++] =
-          {k, place(supernodes, s, last, first)};
+          {k, static_cast<std::uint32_t>(position[j])};
       }
     m_entries_begin.pop_back();
+    for_each_block(supernodes.size(), [&](std::size_t first, std::size_t last) {
+      for(std::size_t s = first; s < last; ++s)
+      {
+        const int number = m_structure.numbers()[s];
+        for(std::size_t k = m_entries_begin[number]; k < m_entries_begin[number + 1]; ++k)
+        {
+          Entry& entry = m_entries[k];
+          const auto [column, other] =
+            std::minmax({position[row[entry.index]], static_cast<int>(entry.place)});
+          entry.place = place(supernodes, s, other, column);
+        }
+      }
+    });
   }
 
   // where an entry of the lower triangle of the factor is among those of its supernode
-  static std::size_t place(const Supernodes& supernodes, int s, int row, int column)
+  static std::uint32_t place(const Supernodes& supernodes, std::size_t s, int row, int column)
   {
     const auto rows = supernodes.rows.begin();
     const auto begin = rows + static_cast<std::ptrdiff_t>(supernodes.rows_begin[s]);
     const auto end = rows + static_cast<std::ptrdiff_t>(supernodes.rows_begin[s + 1]);
     const int width = supernodes.width(s), first = supernodes.columns[s];
     const std::ptrdiff_t height = width + (end - begin);
-    const std::ptrdiff_t i = row < first + width ? row - first
-                                                 : width + (std::lower_bound(begin, end, row) - begin);
-    return static_cast<std::size_t>((column - first) * height + i);
+    const std::ptrdiff_t i = row < first + width
+                           ? row - first : width + (std::lower_bound(begin, end, row) - begin);
+    return static_cast<std::uint32_t>((column - first) * height + i);
   }
 
   Supernodal_structure m_structure;

@@ -29,7 +29,7 @@ namespace internal {
 // below their dense triangle. The columns are in a postorder of the elimination tree.
 struct Supernodes
 {
-  std::vector<int> columns;              // where the columns of each begin, and at last their number
+  std::vector<int> columns;              // where those of each begin, and at last their number
   std::vector<std::size_t> rows_begin;   // where the rows of each begin, and at last their number
   std::vector<int> rows;                 // below the triangle, ascending
   std::vector<std::size_t> values_begin; // where the values of each begin: column by column, each
@@ -194,7 +194,10 @@ private:
     std::vector<double> work(n); // of subtrees
     double total = 0;
     for(int s = 0; s < n; ++s)
-      total += work[s] = supernodes.width(s) * (0.5 * supernodes.width(s) + supernodes.below(s) + 8);
+    {
+      const int width = supernodes.width(s);
+      total += work[s] = width * (0.5 * width + supernodes.below(s) + 8);
+    }
     for(int s = 0; s < n; ++s)
       if(parent[s] >= 0)
         work[parent[s]] += work[s];
@@ -363,7 +366,8 @@ inline bool has_positive_diagonal(const Supernodal_structure& structure, const d
   for(const Supernodal_structure::Supernode& s : structure.supernodes())
     for(int j = 0; j < s.width; ++j)
     {
-      const double diagonal = values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
+      const double diagonal =
+        values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
       if(!(diagonal > 0 && std::isfinite(diagonal)))
         return false;
     }

@@ -32,8 +32,8 @@ namespace internal {
 class Supernodal_substitution
 {
 public:
-  // x := L^-1 P x, in the local vectors. The values are those of the factor, with the reciprocals of
-  // its diagonal.
+  // x := L^-1 P x, in the local vectors. The values are those of the factor, with the
+  // reciprocals of its diagonal.
   void forward(const Supernodal_structure& structure, const double* values, const Coordinates* x)
   {
     m_vectors.resize(4 * structure.vectors_size());

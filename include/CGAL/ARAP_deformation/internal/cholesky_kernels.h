@@ -82,8 +82,8 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::size_t c
     subtract_row_product<Columns>(c + i, c_stride, a + i, b, stride, depth);
 }
 
-// The first `Columns` columns of `panel` hold a symmetric matrix with `rows` more rows below; factors
-// them. In place of the diagonal its reciprocals are stored.
+// The first `Columns` columns of `panel` hold a symmetric matrix with `rows` more rows below;
+// factors them. In place of the diagonal its reciprocals are stored.
 template <int Columns>
 CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::size_t stride)
 {

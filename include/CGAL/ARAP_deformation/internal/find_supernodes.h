@@ -78,8 +78,8 @@ inline std::vector<int> elimination_tree(const Triangle_pattern& upper)
   return parent;
 }
 
-// A postorder in which the child with the largest subtree comes last, next to its parent, with which
-// it is likely to share a supernode.
+// A postorder in which the child with the largest subtree comes last, next to its parent, with
+// which it is likely to share a supernode.
 inline std::vector<int> postorder(const std::vector<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
@@ -261,7 +261,8 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, std::vector<int>& orde
     }
     std::sort(result.rows.begin() + static_cast<std::ptrdiff_t>(rows), result.rows.end());
     result.rows_begin.push_back(result.rows.size());
-    const std::size_t below = result.rows.size() - rows, width = static_cast<std::size_t>(end - begin);
+    const std::size_t below = result.rows.size() - rows;
+    const std::size_t width = static_cast<std::size_t>(end - begin);
     if(below > 0)
     {
       const int p = supernode_of[result.rows[rows]];

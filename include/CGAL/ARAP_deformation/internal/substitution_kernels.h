@@ -20,8 +20,9 @@
 
 // Substitution with the supernodes of one block, for four right-hand sides side by side. The values
 // of a supernode are read once, a few columns together, so that each row of the vector is read and
-// written once for all of them. Vectors are arrays of numbers, four for each row: an array of Double4
-// would have another alignment for the code that makes it than for the wide kernels. In place of the diagonal there are its reciprocals.
+// written once for all of them. Vectors are arrays of numbers, four for each row: an array of
+// Double4 would have another alignment for the code that makes it than for the wide kernels. In
+// place of the diagonal there are its reciprocals.
 
 namespace CGAL {
 namespace ARAP {
@@ -149,7 +150,8 @@ struct Backward_supernode
     {
       const int width = s.width - j < columns_at_once ? s.width - j : columns_at_once;
       run_columns<Backward_columns>(width, values + j * stride + j, stride, s.width - j - width,
-                                    rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j), vector);
+                                    rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j),
+                                    vector);
     }
   }
 };

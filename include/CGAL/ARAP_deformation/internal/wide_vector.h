@@ -99,8 +99,8 @@ struct alignas(32) Double4
   { return a * b - c; }
 #endif
 
-  // by way of memory, from which g++ makes one instruction where it has one for that; of(a, a, a, a)
-  // is taken apart into halves before it is known what the caller is compiled for
+  // by way of memory, of which g++ makes one instruction where there is one; of(a, a, a, a) is
+  // taken apart into halves before it is known what the caller is compiled for
   CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a)
   {
     const double four[4] = {a, a, a, a};
