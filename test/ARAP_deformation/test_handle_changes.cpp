@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Other control vertices, and another region, without another factorization: the result is that of a
-// solver that factorizes anew each time.
+// Other control vertices, and another region, without another factorization: the result is that of
+// a solver that factorizes anew each time.
 
 #include "include/check.h"
 #include "include/domains.h"

@@ -9,8 +9,9 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// What holds for every shape, cell scheme and minimizer, over a thousand iterations: the energy never rises,
-// rotations are rotations, held vertices keep their points, and rigid motions change nothing.
+// What holds for every shape, cell scheme and minimizer, over a thousand iterations: the energy
+// never rises, rotations are rotations, held vertices keep their points, and rigid motions change
+// nothing.
 
 #include "include/check.h"
 #include "include/shapes.h"

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The quasi-Newton minimizer against the one of the paper: the same minima with any solver, in fewer
-// iterations; what happens when its steps fail; and what the estimated gap is worth for both.
+// The quasi-Newton minimizer against the one of the paper: the same minima with any solver, in
+// fewer iterations; what happens when its steps fail; and what the estimated gap is worth for both.
 
 #include "include/check.h"
 #include "include/shapes.h"
@@ -418,8 +418,8 @@ void test_nothing_to_do()
 }
 
 // What a tolerance gives: with either minimizer the gap is seldom larger than asked for, and the
-// iterations are not many more than one would take who knows the minimum. Where that is zero, as for
-// the two strips, each of which is held at one end, it is reached up to rounding.
+// iterations are not many more than one would take who knows the minimum. Where that is zero, as
+// for the two strips, each of which is held at one end, it is reached up to rounding.
 void test_tolerance()
 {
   int number_of_runs = 0, number_of_larger_gaps = 0;

@@ -30,12 +30,12 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method, parallel
-/// over the subtrees of the elimination tree: the default.
+/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method,
+/// parallel over the subtrees of the elimination tree: the default.
 ///
 /// Factorization and substitution go over the dense blocks of the factor, its supernodes. The three
-/// columns of a right-hand side are solved for together. What can be done at the same time is, where
-/// programs are linked with TBB, and the result is the same to the last bit for any number of
+/// columns of a right-hand side are solved for together. What can be done at the same time is,
+/// where programs are linked with TBB, and the result is the same to the last bit for any number of
 /// threads. The ordering is Eigen's, or that of METIS (see `Fill_reducing_ordering`).
 ///
 /// \cgalModels{ARAPSparseSolver}
@@ -80,8 +80,9 @@ public:
   ///
   /// What is solved from now on is the symmetric system
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. Time: for
-  /// each column of `b` the part of the factor that the elimination tree reaches from its entries.
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$.
+  /// Time: for each column of `b` the part of the factor that the elimination tree reaches from
+  /// its entries.
   /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
   /// \param d a symmetric matrix, of which the lower triangle is read
   /// \return `false` if the bordered matrix cannot be solved safely; there is no border then.

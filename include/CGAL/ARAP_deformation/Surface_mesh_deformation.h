@@ -105,7 +105,8 @@ public:
   /// the solver: `ST`, or its default.
   using Sparse_linear_solver = typename Default::Get<ST, internal::Default_solver>::type;
   /// the rotation: `CR`, or its default.
-  using Closest_rotation_traits = typename Default::Get<CR, internal::Default_closest_rotation>::type;
+  using Closest_rotation_traits =
+    typename Default::Get<CR, internal::Default_closest_rotation>::type;
   using vertex_descriptor = typename Base_types::vertex_descriptor; ///< a vertex.
   using halfedge_descriptor = typename Base_types::halfedge_descriptor; ///< a halfedge.
   using Point = typename Base_types::Point; ///< a point.

@@ -75,9 +75,9 @@ struct Subtract_border
   }
 };
 
-// Substitution with the factor of A, and with that of A with a border, [A B; B^T D]. Of W =
-// L^-1 P B only those rows are stored that the elimination tree reaches from the entries of B. What is left
-// for the unknowns of the border is the dense system of D - W^T W.
+// Substitution with the factor of A, and with that of A with a border, [A B; B^T D]. Of W = L^-1 P
+// B only those rows are stored that the elimination tree reaches from the entries of B. What is
+// left for the unknowns of the border is the dense system of D - W^T W.
 class Bordered_substitution
 {
 public:

@@ -131,10 +131,9 @@ private:
       Scoped_seconds seconds(report.seconds.initial_guess);
       if(!m_laplacian_guess)
       {
-        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, weighted_simplices(m_weight, m_region),
-                                                     m_region),
-                                      m_region.rest, m_region.number_of_free_vertices,
-                                      m_prototype_solver);
+        const Simplices simplices = weighted_simplices(m_weight, m_region);
+        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, simplices, m_region), m_region.rest,
+                                      m_region.number_of_free_vertices, m_prototype_solver);
         if(!guess.is_factorized())
           return {Status::singular_matrix};
         m_laplacian_guess.emplace(std::move(guess));

@@ -32,7 +32,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The edge sets that are stars: the neighbours of each centre, and the weights of the edges to them.
+// The edge sets that are stars: the neighbours of each centre, and the weights of the edges to
+// them.
 struct Stars
 {
   Groups neighbours;
@@ -71,7 +72,8 @@ struct Simplices
   int size() const { return corners.size(); }
   int number_of_corners(int s) const { return corners.begin[s + 1] - corners.begin[s]; }
 
-  // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may change
+  // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may
+  // change
   template <typename Function>
   void for_each_edge(const Function& f) const { visit_edges(*this, f); }
   template <typename Function>

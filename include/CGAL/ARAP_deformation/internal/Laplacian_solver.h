@@ -35,19 +35,14 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-template <typename Solver>
-using Call_set_border = Requires_convertible<
-  decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
-                                              std::declval<const Eigen::MatrixXd&>())), bool>;
-
 // Solves for the free vertices, by a factor that may be that of other free vertices. Vertices that
 // are now held and were free when the factor was computed are kept where they are by multipliers,
 // and vertices that are now free and were held then are further unknowns. Both are a border of the
 // matrix A of the factor,
 //   [ A    B ] [ x ]   [ f ]
 //   [ B^T  D ] [ z ] = [ g ],
-// with a column of B that is a unit vector for each vertex that is now held, and one with the entries
-// of the Laplacian for each that is now free.
+// with a column of B that is a unit vector for each vertex that is now held, and one with the
+// entries of the Laplacian for each that is now free.
 template <typename Solver>
 class Laplacian_solver
 {
@@ -55,8 +50,8 @@ public:
   Laplacian_solver() = default;
 
   // Makes it solve for the free vertices of an energy, whose indices in the mesh are given. The
-  // factor there is serves if few vertices have changed and weights have not; otherwise a copy of the
-  // prototype factorizes.
+  // factor there is serves if few vertices have changed and weights have not; otherwise a copy of
+  // the prototype factorizes.
   Diagnosis prepare(const Rigidity_energy& energy, const std::vector<std::size_t>& indices,
                     const Solver& prototype)
   {
@@ -110,7 +105,7 @@ private:
 
   bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices)
   {
-    if constexpr(is_valid<Call_set_border, Solver>)
+    if constexpr(can_have_border<Solver>)
     {
       if(!m_solver)
         return false;

@@ -96,8 +96,8 @@ public:
     return m_energy <= before + energy_resolution(before, report.energy_scale);
   }
 
-  // Makes x the next iterate, reached by the given decrease of the energy, or the first one. Returns
-  // a status if the run is over.
+  // Makes x the next iterate, reached by the given decrease of the energy, or the first one.
+  // Returns a status if the run is over.
   std::optional<Status> next_iterate(double decrease = 0)
   {
     if(report.energy.empty())

@@ -278,9 +278,9 @@ private:
     if(m == 0)
       return c;
     // The ratio is that of the mix of modes that the last step was made of. The modes that converge
-    // last are softer, and to go somewhat too far in the others costs less than to go not far enough
-    // there: hence more than the ratio. After a run of local/global it is a hundred and more, and
-    // would let the stiff modes explode: hence a bound.
+    // last are softer, and to go somewhat too far in the others costs less than to go not far
+    // enough there: hence more than the ratio. After a run of local/global it is a hundred and
+    // more, and would let the stiff modes explode: hence a bound.
     const Slot& newest = m_slots[m_order[m - 1]];
     const double ratio = newest.sy[m_order[m - 1]] / newest.zy[m_order[m - 1]];
     c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * ratio));

@@ -31,8 +31,8 @@ inline double energy_resolution(double energy, double scale)
   return std::numeric_limits<double>::epsilon() * (std::abs(energy) + scale);
 }
 
-// Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to E*.
-// The decreases of the last tenth of the run and those of the tenth before it are taken for two
+// Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to
+// E*. The decreases of the last tenth of the run and those of the tenth before it are taken for two
 // terms of a geometric series, which is summed to its end. Two things keep the estimate from being
 // too small, which is worse than too large: terms are not believed to shrink to less than half, and
 // what counts is the largest of the sums that were found lately. A run often seems to be at its end

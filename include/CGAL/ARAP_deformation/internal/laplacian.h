@@ -30,8 +30,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Sorts pairs of a number and a value by the number, in place, adds the values of those that have the
-// same number up, and returns how many are left.
+// Sorts pairs of a number and a value by the number, in place, adds the values of those that have
+// the same number up, and returns how many are left.
 template <typename Iterator>
 int sort_and_add_up(Iterator begin, Iterator end)
 {
