@@ -92,7 +92,9 @@ inline boost::program_options::options_description described_options()
     ("iterations", value<int>()->default_value(static_cast<int>(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<double>()->default_value(defaults.tolerance, "0.001")->value_name("T"),
-     "stop when the energy is estimated to be within a fraction T of its minimum; 0: run all N");
+     "stop when the energy is estimated to be within a fraction T of its minimum; 0: run all N")
+    ("threads", value<int>()->default_value(static_cast<int>(defaults.threads))->value_name("N"),
+     "use at most N threads; 0: as many as there are processors. The result is the same");
   other.add_options()
     ("quiet", "print nothing but errors")
     ("help,h", "print this and exit");
@@ -193,6 +195,9 @@ inline Command_line parse_command_line(int argc, char** argv)
     if(values["iterations"].as<int>() < 0)
       throw Usage_error("--iterations must be 0 or larger");
     line.options.iterations = static_cast<unsigned int>(values["iterations"].as<int>());
+    if(values["threads"].as<int>() < 0)
+      throw Usage_error("--threads must be 0 or larger");
+    line.options.threads = static_cast<unsigned int>(values["threads"].as<int>());
     line.options.tolerance = values["tolerance"].as<double>();
     if(const Outcome checked = line.options.check(); !checked)
       throw Usage_error(checked.message);

@@ -376,6 +376,7 @@ void test_refusals()
   check_refused("in.off --initial_guess none" + rest, 2, "previous, laplacian");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
+  check_refused("in.off --threads -1" + rest, 2, "--threads");
   check_refused("in.off --tolerance -1" + rest, 2, "tolerance");
   check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
 }
@@ -387,7 +388,8 @@ void test_help()
   CHECK(help.exit_code == 0 && help.err.empty());
   for(const char* option :
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
-       "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--quiet"})
+       "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
+       "--quiet"})
     CHECK(help.out.find(option) != std::string::npos);
 }
 

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <cstddef>
@@ -37,10 +38,12 @@ Status minimize_local_global(Minimization<ClosestRotation, Solver>& run)
 {
   std::vector<Coordinates> step;
   const auto force_along_step = [&] {
-    double sum = 0;
-    for(std::size_t v = 0; v < step.size(); ++v)
-      sum += dot(run.force()[v], step[v]);
-    return sum;
+    return sum_over_blocks(step.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for(std::size_t v = begin; v < end; ++v)
+        sum += dot(run.force()[v], step[v]);
+      return sum;
+    });
   };
   run.evaluate();
   for(auto status = run.next_iterate();;)
@@ -53,8 +56,10 @@ Status minimize_local_global(Minimization<ClosestRotation, Solver>& run)
       if(!run.solve(step))
         return Status::solver_failed;
       force_before = force_along_step();
-      for(std::size_t v = 0; v < step.size(); ++v)
-        add(run.x[v], 1, step[v]);
+      for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
+        for(std::size_t v = begin; v < end; ++v)
+          add(run.x[v], 1, step[v]);
+      });
     }
     run.evaluate();
     status = run.next_iterate(run.decrease([&] { return force_before; }, force_along_step));
