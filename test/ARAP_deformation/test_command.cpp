@@ -197,6 +197,16 @@ void test_success()
     energies.insert(nlohmann::json::parse(content(folder / "r.json"))["energy"].dump());
   }
   CHECK(energies.size() == 6);
+
+  test_case() = "threads";
+  std::set<std::string> results;
+  for(const std::string threads : {"0", "1", "2"})
+  {
+    CHECK(run("in.off --selection in.sel --transform in.def -o out.off --threads " + threads)
+            .exit_code == 0);
+    results.insert(content(folder / "out.off"));
+  }
+  CHECK(results.size() == 1);
 }
 
 // A tube of quads with two octagons as lids: polygons are deformed, and stay what they are.
