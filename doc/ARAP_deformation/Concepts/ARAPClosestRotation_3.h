@@ -10,7 +10,8 @@ It is the local step of the iteration: the matrices are the covariances
 present ones.
 
 A model may hold data. `CGAL::ARAP_deformation` works on a copy of the object that its traits hand
-out, and calls it from one thread.
+out, and calls it for some hundred cells at a time, from several threads at once where programs are
+linked with TBB: it must not change what it holds.
 
 The function `CGAL::ARAP::check_closest_rotation()` tells which identities a model violates.
 

@@ -25,7 +25,8 @@ Stars are asked for in two cases: if the cells are `CGAL::ARAP::Cell_scheme::spo
 `CGAL::ARAP::Initial_guess::laplacian` whatever the cells.
 
 A model may hold data. `CGAL::ARAP_deformation` works on a copy of the object that its traits hand
-out, and calls it from one thread. `CGAL::ARAP::check_edge_weight()` tests a model.
+out, and calls it from several threads at once where programs are linked with TBB: it must not change
+what it holds. `CGAL::ARAP::check_edge_weight()` tests a model.
 
 \cgalRefines{CopyConstructible,Assignable}
 
