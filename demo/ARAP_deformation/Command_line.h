@@ -94,7 +94,8 @@ inline boost::program_options::options_description described_options()
     ("tolerance", value<double>()->default_value(defaults.tolerance, "0.001")->value_name("T"),
      "stop when the energy is estimated to be within a fraction T of its minimum; 0: run all N")
     ("threads", value<int>()->default_value(static_cast<int>(defaults.threads))->value_name("N"),
-     "use at most N threads; 0: as many as there are processors. The result is the same");
+     "use at most N threads; 0: as many as there are processors, or one if built without TBB. "
+     "The result is the same");
   other.add_options()
     ("quiet", "print nothing but errors")
     ("help,h", "print this and exit");

@@ -26,8 +26,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 using CGAL::ARAP::Coordinates;
@@ -237,31 +240,40 @@ void test_failure()
 // weights that change while the object lives, which it need not be told
 struct Changing_weight : CGAL::ARAP::Uniform_weight
 {
-  std::shared_ptr<double> factor = std::make_shared<double>(1);
+  using Function = std::function<double(std::size_t, std::size_t)>;
+
+  std::shared_ptr<Function> function = std::make_shared<Function>([](std::size_t, std::size_t) {
+    return 1.0;
+  });
 
   double edge_weight(CGAL::ARAP::Edge_set, std::size_t i, std::size_t j, double) const
   {
-    return (i + j) % 3 == 0 ? *factor : 1;
+    return (*function)((std::min)(i, j), (std::max)(i, j));
   }
 };
+
+// the large sheet with changing weights, of which the vertices given are held
+using Weighted_pair = Pair<2, Triangles, Solver, Changing_weight>;
+void hold(Weighted_pair& pair, const std::vector<std::size_t>& controls)
+{
+  pair.with_both([&](auto& d) {
+    for(std::size_t v = 0; v < pair.points.size(); ++v)
+      d.insert_roi_vertex(v);
+    d.clear_control_vertices();
+    d.insert_control_vertices(controls.begin(), controls.end());
+    CHECK(d.translate(controls.back(), Kernel::Vector_3(0, 0.1, 0.4)));
+  });
+}
 
 void test_changed_matrix()
 {
   test_case() = "another matrix";
   const Shape shape = large_sheet();
   const Changing_weight weight;
-  Pair<2, Triangles, Solver, Changing_weight> pair(shape.points, shape.triangles,
-                                                  Cell_scheme::spokes(), weight);
-  const std::size_t n = shape.points.size();
-  pair.with_both([n](auto& d) {
-    for(std::size_t v = 0; v < n; ++v)
-      d.insert_roi_vertex(v);
-    d.insert_control_vertex(0);
-    d.insert_control_vertex(n - 1);
-    CHECK(d.translate(n - 1, Kernel::Vector_3(0, 0, 1)));
-  });
+  Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), weight);
+  hold(pair, {0, shape.points.size() - 1});
   pair.deform_and_compare();
-  *weight.factor = 4;
+  *weight.function = [](std::size_t i, std::size_t j) { return (i + j) % 3 == 0 ? 4 : 1; };
   pair.with_both([](auto& d) { d.insert_control_vertex(300); });
   pair.deform_and_compare();
   CHECK(pair.factorizations() == 2);
@@ -277,6 +289,98 @@ void test_changed_matrix()
   CHECK(pair.factorizations() == count + 1);
 }
 
+// weights of which the sums at the vertices stay the same
+void test_changed_matrix_of_same_diagonal()
+{
+  test_case() = "another matrix with the same diagonal";
+  const Shape shape = large_sheet();
+  const Changing_weight weight;
+  Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), weight);
+  hold(pair, {0, shape.points.size() - 1});
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  // around one square of the grid, whose columns have 31 vertices
+  const std::size_t a = 310, b = a + 31, c = b + 1, d = a + 1;
+  *weight.function = [=](std::size_t i, std::size_t j) {
+    const bool is_more = (i == a && j == b) || (i == d && j == c);
+    const bool is_less = (i == b && j == c) || (i == a && j == d);
+    return is_more ? 1.9 : is_less ? 0.1 : 1;
+  };
+  hold(pair, {0, 500, shape.points.size() - 1});
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  CHECK(pair.factorizations() == 2);
+}
+
+// What a factorization refuses is refused with the factor of other free vertices too.
+void test_indefinite_matrix()
+{
+  test_case() = "an indefinite matrix";
+  const Shape shape = large_sheet();
+  const Changing_weight weight;
+  const std::size_t a = 400, b = a + 31, last = shape.points.size() - 1;
+  *weight.function = [=](std::size_t i, std::size_t j) {
+    return i == a && j == b ? -2.5 : 1;
+  };
+  Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), weight);
+  hold(pair, {0, a, b, last});
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  hold(pair, {0, last});
+  CHECK(pair.deform_and_compare() == Status::singular_matrix);
+  hold(pair, {0, b, a, last});
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  hold(pair, {a, b, last - 5});
+  const int count = pair.factorizations();
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  CHECK(pair.factorizations() == count);
+}
+
+// An exception, here of the weights, leaves an object that can go on.
+void test_exception()
+{
+  test_case() = "an exception";
+  const Shape shape = large_sheet();
+  const Changing_weight weight;
+  Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), weight);
+  const std::size_t last = shape.points.size() - 1;
+  hold(pair, {0, last});
+  CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  const Changing_weight::Function ones = *weight.function;
+  for(int repetition = 0; repetition < 2; ++repetition)
+  {
+    *weight.function = [](std::size_t, std::size_t) -> double { throw std::runtime_error("none"); };
+    hold(pair, {0, 300 + std::size_t(repetition), last});
+    const std::vector<Point> before = pair.points;
+    int caught = 0;
+    pair.with_both([&](auto& d) {
+      try { d.deform(); } catch(const std::runtime_error&) { ++caught; }
+    });
+    CHECK(caught == 2);
+    CHECK(pair.points == before);
+    *weight.function = ones;
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  }
+}
+
+// Other targets need no factorization, and neither do other options of a run.
+void test_targets()
+{
+  test_case() = "targets";
+  const Shape shape = large_sheet();
+  Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), Changing_weight());
+  hold(pair, {0, shape.points.size() - 1});
+  for(int step = 0; step < 5; ++step)
+  {
+    pair.with_both([&](auto& d) {
+      CHECK(d.translate(shape.points.size() - 1, Kernel::Vector_3(0.1, 0, 0.1)));
+      CGAL::ARAP::Options options = d.options();
+      options.iterations = 3 + step;
+      CHECK(d.set_options(options));
+    });
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  }
+  CHECK(pair.factorizations() == 1);
+  CHECK(pair.other_factorizations() == 1);
+}
+
 int main()
 {
   test_random_changes<Solver>("Multifrontal_cholesky_solver");
@@ -286,5 +390,9 @@ int main()
   test_many_changes();
   test_failure();
   test_changed_matrix();
+  test_changed_matrix_of_same_diagonal();
+  test_indefinite_matrix();
+  test_exception();
+  test_targets();
   return checks_result();
 }

@@ -15,6 +15,7 @@
 #include "include/domains.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 
@@ -34,7 +35,7 @@ std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
     region.rest.push_back({p.x(), p.y(), p.z()});
   }
   region.first_corner.push_back(region.number_of_vertices());
-  return CGAL::ARAP::internal::simplex_weights(Cotangent_weight(), region);
+  return CGAL::ARAP::internal::weighted_simplices(Cotangent_weight(), region).weights;
 }
 
 std::size_t pair_number(std::size_t n, std::size_t a, std::size_t b)

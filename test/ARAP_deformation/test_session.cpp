@@ -15,6 +15,7 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 
 #include <Eigen/Geometry>
 
@@ -304,6 +305,20 @@ struct Recording_rotation : CGAL::ARAP::SVD_closest_rotation
 };
 std::vector<CGAL::ARAP::Matrix_3x3> Recording_rotation::given, Recording_rotation::returned;
 
+// what a program gets that asks for nothing
+void test_defaults()
+{
+  test_case() = "defaults";
+  using Traits = CGAL::ARAP_deformation_traits_3<>;
+  static_assert(std::is_same_v<Traits::Sparse_solver, CGAL::ARAP::Multifrontal_cholesky_solver>);
+  static_assert(std::is_same_v<Traits::Closest_rotation, CGAL::ARAP::Newton_closest_rotation>);
+  static_assert(std::is_same_v<Traits::Edge_weight, CGAL::ARAP::Safe_cotangent_weight>);
+  const CGAL::ARAP::Options options;
+  CHECK(options.threads == 0);
+  CHECK(options.minimizer == CGAL::ARAP::Minimizer::automatic);
+  CHECK(options.check());
+}
+
 // Each fit starts from the rotations of the last one, over iterations and runs.
 void test_warm_start()
 {
@@ -364,6 +379,7 @@ int main()
   test_options();
   test_small_motions();
   test_change_of_sets();
+  test_defaults();
   test_warm_start();
   return checks_result();
 }

@@ -259,6 +259,31 @@ struct Loses_entries
   Multifrontal_cholesky_solver m_solver;
 };
 
+struct Border_of_wrong_sign : Multifrontal_cholesky_solver
+{
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    return Multifrontal_cholesky_solver::set_border(-b, d);
+  }
+};
+
+struct Keeps_border : Multifrontal_cholesky_solver
+{
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    return b.cols() == 0 || Multifrontal_cholesky_solver::set_border(b, d);
+  }
+};
+
+struct Sets_any_border : Multifrontal_cholesky_solver
+{
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    Multifrontal_cholesky_solver::set_border(b, d);
+    return true;
+  }
+};
+
 struct Throws : Whole_solver
 {
   bool factorize(const Sparse_matrix&) { throw std::runtime_error("no licence"); }
@@ -301,6 +326,9 @@ int main()
   CHECK_CAUGHT(check_sparse_solver(Hides_failures()), "nothing is refused");
   CHECK_CAUGHT(check_sparse_solver(Loses_entries()), "relative residual");
   CHECK_CAUGHT(check_sparse_solver(Throws()), "no licence");
+  CHECK_CAUGHT(check_sparse_solver(Border_of_wrong_sign()), "for a matrix with a border");
+  CHECK_CAUGHT(check_sparse_solver(Keeps_border()), "without the border");
+  CHECK_CAUGHT(check_sparse_solver(Sets_any_border()), "not positive definite");
 
   // what is not positive definite, or no number, is noticed by factorize() or solve() at the latest
   const auto refuses = [](auto solver, double off_diagonal) {

@@ -19,6 +19,7 @@
 
 #include <CGAL/Surface_mesh_deformation.h>
 
+#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Surface_mesh_deformation.h>
 
 #include "include/check.h"

@@ -24,8 +24,14 @@
 #endif
 
 #include <cmath>
+#include <cstddef>
 #include <iostream>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 // what is compared
@@ -81,6 +87,105 @@ void test(const std::string& name, const std::vector<Eigen::Vector3d>& points,
     }
 }
 
+// notes the threads that it is called in, and throws when it is told to
+struct Watching_rotation : CGAL::ARAP::Newton_closest_rotation
+{
+  struct Notes
+  {
+    std::mutex mutex;
+    std::set<std::thread::id> threads;
+    int calls = 0, throws_at = -1;
+  };
+  std::shared_ptr<Notes> notes = std::make_shared<Notes>();
+
+  void operator()(std::size_t n, const CGAL::ARAP::Matrix_3x3* covariances,
+                  CGAL::ARAP::Matrix_3x3* rotations) const
+  {
+    {
+      const std::lock_guard<std::mutex> lock(notes->mutex);
+      notes->threads.insert(std::this_thread::get_id());
+      if(notes->calls++ == notes->throws_at)
+        throw std::runtime_error("no rotation");
+    }
+    CGAL::ARAP::Newton_closest_rotation::operator()(n, covariances, rotations);
+  }
+};
+
+template <typename ConcurrencyTag>
+using Watching_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default,
+                                                        Watching_rotation, ConcurrencyTag>;
+
+template <typename ConcurrencyTag>
+Watching_traits<ConcurrencyTag> traits(const Watching_rotation& rotation)
+{
+  return Watching_traits<ConcurrencyTag>({}, {}, rotation);
+}
+
+template <typename ConcurrencyTag>
+using Watched = CGAL::ARAP_deformation<
+  CGAL::ARAP::Simplex_soup_domain<2, std::vector<Point>, decltype(Shape::triangles)>,
+  Watching_traits<ConcurrencyTag>>;
+
+template <typename ConcurrencyTag>
+std::size_t number_of_threads(const Shape& shape, unsigned int threads)
+{
+  const Watching_rotation rotation;
+  std::vector<Point> points = points_of(shape.points);
+  Watched<ConcurrencyTag> deformation({points, shape.triangles}, traits<ConcurrencyTag>(rotation));
+  CGAL::ARAP::Options options;
+  options.threads = threads;
+  CHECK(deformation.set_options(options));
+  prepare(deformation, scenario(shape), numbers(points.size()));
+  CHECK(deformation.deform(20, 0));
+  return rotation.notes->threads.size();
+}
+
+// no more threads than allowed, and more than one where that is possible
+void test_number_of_threads(const Shape& shape)
+{
+  test_case() = "the number of threads";
+  CHECK(number_of_threads<CGAL::Sequential_tag>(shape, 0) == 1);
+  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 1) == 1);
+  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 2) <= 2);
+#ifdef CGAL_LINKED_WITH_TBB
+  std::size_t most = 1;
+  for(int attempt = 0; attempt < 100 && most == 1; ++attempt) // the machine may be busy
+    most = number_of_threads<CGAL::Parallel_if_available_tag>(shape, 0);
+  CHECK(most > 1);
+#else
+  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 0) == 1);
+#endif
+}
+
+// An exception of another thread arrives here, and nothing has changed.
+void test_exception(const Shape& shape)
+{
+  test_case() = "an exception in a thread";
+  const Watching_rotation rotation;
+  std::vector<Point> points = points_of(shape.points);
+  Watched<CGAL::Parallel_if_available_tag> deformation({points, shape.triangles},
+                                                       traits<CGAL::Parallel_if_available_tag>(rotation));
+  prepare(deformation, scenario(shape), numbers(points.size()));
+  CHECK(deformation.preprocess());
+  const std::vector<Point> before = points;
+  for(int calls : {0, 3, 17})
+  {
+    rotation.notes->calls = 0;
+    rotation.notes->throws_at = calls;
+    bool is_caught = false;
+    try { deformation.deform(20, 0); } catch(const std::runtime_error&) { is_caught = true; }
+    CHECK(is_caught);
+    CHECK(points == before);
+  }
+  rotation.notes->throws_at = -1;
+  CHECK(deformation.deform(3, 0));
+  std::vector<Point> other_points = before;
+  Watched<CGAL::Parallel_if_available_tag> other({other_points, shape.triangles});
+  prepare(other, scenario(shape), numbers(points.size()));
+  CHECK(other.deform(3, 0));
+  CHECK(points == other_points);
+}
+
 int main()
 {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -93,6 +198,8 @@ int main()
     return Eigen::Vector3d(3 * u, 2 * v, 0.2 * std::sin(9 * u) * std::cos(7 * v));
   });
   test<2>("triangles", sheet.points, sheet.triangles);
+  test_number_of_threads(sheet);
+  test_exception(sheet);
   Polygons polygons;
   const Shape pipe = tube(polygons);
   test<2>("polygons", pipe.points, polygons);

@@ -218,6 +218,11 @@ void test_gap()
   estimate.add(0);
   CHECK(estimate(1000) == 0);
 
+  Gap_estimate rising; // weights that are negative, or rounding
+  for(int k = 0; k < 20; ++k)
+    rising.add(-1);
+  CHECK(std::isinf(rising(1000)));
+
   Gap_estimate pausing;
   for(int k = 0; k < 20; ++k)
     pausing.add(std::pow(0.5, k));

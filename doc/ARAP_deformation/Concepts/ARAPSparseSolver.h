@@ -8,8 +8,9 @@ matrices and right-hand sides of three columns.
 The solver may be direct or iterative. What it solves for are corrections, so that the result does
 not depend on its accuracy; how many iterations it takes may.
 
-The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times. They
-come from one thread.
+The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times, and
+`set_border()` between them where there is one. No two calls of one solver overlap; they may come from
+different threads one after the other.
 
 `CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each matrix that it
 factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
@@ -71,6 +72,9 @@ public:
   /// = \begin{pmatrix} f \\ g \end{pmatrix}. \f]
   /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts.
   ///
-  /// Returns whether the bordered system can be solved safely. If not, there is no border.
+  /// The rows of the border whose diagonal entry in `d` is zero are those of multipliers, which hold
+  /// unknowns where they are; on the others the matrix is to be positive definite.
+  ///
+  /// Returns whether it is and the bordered system can be solved safely. If not, there is no border.
   bool set_border(const CGAL::ARAP::Sparse_matrix& b, const Eigen::MatrixXd& d);
 };

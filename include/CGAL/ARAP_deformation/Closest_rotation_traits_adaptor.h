@@ -37,7 +37,8 @@ namespace ARAP {
 /// 10^{-7}\f$. Any other result is passed on as it is.
 ///
 /// \tparam ClosestRotationTraits a model of `DeformationClosestRotationTraits_3`. One object of it
-///         is made for each batch.
+///         is made for each batch; where programs are linked with TBB, several may be in use at the
+///         same time, in different threads.
 ///
 /// \cgalModels{ARAPClosestRotation_3}
 template <typename ClosestRotationTraits>

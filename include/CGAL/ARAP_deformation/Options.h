@@ -43,8 +43,7 @@ enum class Minimizer
   local_global, ///< the iteration of the paper: the most for the first few iterations of a frame,
                 ///< and needs the least memory
   quasi_newton  ///< L-BFGS in the metric of the Laplacian: many times fewer iterations to the
-                ///< minimum. It takes about 200 bytes more for
-                ///< each free vertex.
+                ///< minimum. It takes about 200 bytes more for each free vertex.
 };
 
 /// \ingroup PkgARAPDeformationOptions

@@ -9,7 +9,6 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 #ifndef CGAL_ARAP_DEFORMATION_CHECK_CLOSEST_ROTATION_H
 #define CGAL_ARAP_DEFORMATION_CHECK_CLOSEST_ROTATION_H
 

@@ -9,7 +9,6 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 #ifndef CGAL_ARAP_DEFORMATION_CHECK_SPARSE_SOLVER_H
 #define CGAL_ARAP_DEFORMATION_CHECK_SPARSE_SOLVER_H
 
@@ -55,6 +54,8 @@ public:
                    [this] { return grid(12, 11, 0.1, 0.3); });
       check_family("an ill-conditioned grid", [this] { return grid(14, 14, 1e-5); });
       check_copies_and_moves();
+      if constexpr(can_have_border<SparseSolver>)
+        check_borders();
       check_refusals();
     });
     return m_violations.sentences();
@@ -250,6 +251,73 @@ private:
                    "a grid after the solver was assigned by a move with its factor");
   }
 
+  // A border with multipliers and with further unknowns, taken away and given again.
+  void check_borders()
+  {
+    const Sparse_matrix a = grid(9, 8, 0.3);
+    const int n = static_cast<int>(a.rows()), size = 7, number_of_multipliers = 3;
+    const Sparse_matrix none(n, 0);
+    SparseSolver solver(m_prototype);
+    if(!prepare(solver, a, "a grid that gets a border"))
+      return;
+    const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
+      const bool is_set = solver.set_border(b, d);
+      m_violations.check(is_set, "set_border() returns false for ", b.cols(), " columns");
+      return is_set;
+    };
+    for(int repetition = 0; repetition < 2; ++repetition)
+    {
+      std::vector<Eigen::Triplet<double, int>> entries;
+      Eigen::MatrixXd d = Eigen::MatrixXd::Zero(size, size);
+      for(int k = 0; k < number_of_multipliers; ++k)
+        entries.emplace_back(11 * k + repetition, k, 1);
+      for(int k = number_of_multipliers; k < size; ++k)
+      {
+        d(k, k) = 20;
+        for(int j = 0; j < 3; ++j)
+          entries.emplace_back((17 * k + 5 * j + repetition) % n, k, -random(0.5, 1));
+      }
+      d(size - 1, size - 2) = -0.5;
+      Sparse_matrix b(n, size);
+      b.setFromTriplets(entries.begin(), entries.end());
+      if(!set_border(b, d))
+        return;
+      const Sparse_matrix whole = bordered(a, b, d);
+      check_solution(solver, whole, random_rows(whole), "a matrix with a border");
+
+      d(size - 1, size - 1) = -1;
+      m_violations.check(!solver.set_border(b, d), "set_border() returns true for a matrix that is "
+                         "not positive definite");
+      check_solution(solver, a, random_rows(a), "a matrix after a border was refused");
+      d(size - 1, size - 1) = 20;
+      if(set_border(b, d) && set_border(none, Eigen::MatrixXd()))
+        check_solution(solver, a, random_rows(a), "a matrix without the border that it had");
+      if(set_border(b, d) && factorize(solver, a, "a grid that had a border"))
+        check_solution(solver, a, random_rows(a), "a matrix that is factorized with a border");
+    }
+  }
+
+  // the lower triangle
+  static Sparse_matrix bordered(const Sparse_matrix& a, const Sparse_matrix& b,
+                                const Eigen::MatrixXd& d)
+  {
+    std::vector<Eigen::Triplet<double, int>> entries;
+    const int n = static_cast<int>(a.rows()), size = static_cast<int>(b.cols());
+    for(int column = 0; column < n; ++column)
+      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+        entries.emplace_back(entry.row(), column, entry.value());
+    for(int column = 0; column < size; ++column)
+    {
+      for(Sparse_matrix::InnerIterator entry(b, column); entry; ++entry)
+        entries.emplace_back(n + column, entry.row(), entry.value());
+      for(int row = column; row < size; ++row)
+        entries.emplace_back(n + row, n + column, d(row, column));
+    }
+    Sparse_matrix result(n + size, n + size);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
   // What is not positive definite is refused, or else the solution is right.
   void check_refusals()
   {
@@ -300,7 +368,8 @@ private:
 ///
 /// Small positive definite matrices are factorized, explicit zeros and others of the same pattern
 /// among them, and the residuals of all three columns computed. Copies must be independent, moves
-/// keep the factor, and what is not positive definite must be refused or solved right.
+/// keep the factor, and what is not positive definite must be refused or solved right. Borders are
+/// set, refused and removed where the model has them.
 /// Milliseconds.
 ///
 /// \param solver the model; its copies are used

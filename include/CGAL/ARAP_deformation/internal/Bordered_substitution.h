@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_BORDERED_SUBSTITUTION_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_BORDERED_SUBSTITUTION_H
 
@@ -16,13 +17,15 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_substitution.h>
+#include <CGAL/ARAP_deformation/internal/border_kernels.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
 #include <CGAL/ARAP_deformation/internal/substitution_kernels.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -30,50 +33,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// Rows of four columns of the border's W = L^-1 P B, and of what goes with them.
-struct Border_rows
-{
-  const double* border;
-  double* other;
-  int size;
-};
-
-// sums[l] := the sum of border[l] * other, row by row
-struct Multiply_border
-{
-  CGAL_ARAP_ALWAYS_INLINE static void run(const std::vector<Border_rows>& rows, double* sums)
-  {
-    Double4 sum[4] = {Double4::zero(), Double4::zero(), Double4::zero(), Double4::zero()};
-    for(const Border_rows& r : rows)
-      for(int k = 0; k < r.size; ++k)
-      {
-        const Double4 other = Double4::load(r.other + 4 * k);
-        for(int l = 0; l < 4; ++l)
-          sum[l] = multiply_add(Double4::all(r.border[4 * k + l]), other, sum[l]);
-      }
-    for(int l = 0; l < 4; ++l)
-      sum[l].store(sums + 4 * l);
-  }
-};
-
-// other := other - the sum of border[l] * factors[l], row by row
-struct Subtract_border
-{
-  CGAL_ARAP_ALWAYS_INLINE static void run(const std::vector<Border_rows>& rows,
-                                          const double* factors)
-  {
-    for(const Border_rows& r : rows)
-      for(int k = 0; k < r.size; ++k)
-      {
-        Double4 other = Double4::load(r.other + 4 * k);
-        for(int l = 0; l < 4; ++l)
-          other = negative_multiply_add(Double4::all(r.border[4 * k + l]),
-                                        Double4::load(factors + 4 * l), other);
-        other.store(r.other + 4 * k);
-      }
-  }
-};
 
 // Substitution with the factor of A, and with that of A with a border, [A B; B^T D]. Of W = L^-1 P
 // B only those rows are stored that the elimination tree reaches from the entries of B. What is
@@ -208,11 +167,8 @@ private:
       const int index = structure.block_of(path[k]);
       const Block& block = blocks[index];
       double* const vector = vectors.data() + begin[index];
-      const std::size_t first = k;
-      while(k < path.size() && structure.block_of(path[k]) == index)
-        ++k;
-      run_kernel<Forward_supernodes>(structure, path.data() + first, path.data() + k, values,
-                                     vector);
+      for(; k < path.size() && structure.block_of(path[k]) == index; ++k)
+        run_forward(structure, path[k], path[k] + 1, values, vector);
       for(int j = 0; j < block.boundary; ++j)
         for(std::size_t l = 0; l < 4; ++l)
           vectors[begin[block.parent] + 4 * structure.to_parent(block)[j] + l] +=
@@ -257,8 +213,13 @@ private:
     if(!remainder.allFinite())
       return false;
     m_remainder.compute(remainder);
-    // a refactorization is the better answer long before digits run out
-    return m_remainder.rcond() > 1e-11;
+    // Another factorization of A is the better answer long before digits run out. The signs of the
+    // pivots are those of the eigenvalues: a bordered matrix with more negative ones than
+    // multipliers does not come from a minimum.
+    const Eigen::ArrayXd pivots = m_remainder.vectorD();
+    return m_remainder.info() == Eigen::Success &&
+           pivots.abs().minCoeff() > 1e-11 * pivots.abs().maxCoeff() &&
+           (pivots < 0).count() == (d.diagonal().array() == 0).count();
   }
 
   // The rows that are stored for both groups; the supernodes of both are in one order.
@@ -282,7 +243,8 @@ private:
   // z := (D - W^T W)^-1 (g - W^T y), and y := y - W z in the local vectors.
   void solve_border(const Supernodal_structure& structure, Coordinates* x)
   {
-    Eigen::MatrixXd z(border_size(), 3);
+    std::array<Eigen::VectorXd, 3> z;
+    z.fill(Eigen::VectorXd(border_size()));
     std::vector<std::vector<Border_rows>> rows(m_groups.size());
     for_each_task(m_groups.size(), [&](std::size_t g) {
       Group& group = m_groups[g];
@@ -297,15 +259,16 @@ private:
       run_kernel<Multiply_border>(rows[g], +products);
       for(std::size_t l = 0; l < group.columns.size(); ++l)
         for(int c = 0; c < 3; ++c)
-          z(group.columns[l], c) = x[group.columns[l]][c] - products[4 * l + c];
+          z[c][group.columns[l]] = x[group.columns[l]][c] - products[4 * l + c];
     });
-    z = m_scale.asDiagonal() * m_remainder.solve(m_scale.asDiagonal() * z).eval();
+    for(Eigen::VectorXd& column : z)
+      column = m_scale.cwiseProduct(m_remainder.solve(m_scale.cwiseProduct(column)));
     for(std::size_t g = 0; g < m_groups.size(); ++g)
     {
       double factors[16] = {};
       for(std::size_t l = 0; l < m_groups[g].columns.size(); ++l)
         for(int c = 0; c < 3; ++c)
-          factors[4 * l + c] = x[m_groups[g].columns[l]][c] = z(m_groups[g].columns[l], c);
+          factors[4 * l + c] = x[m_groups[g].columns[l]][c] = z[c][m_groups[g].columns[l]];
       run_kernel<Subtract_border>(rows[g], static_cast<const double*>(factors));
     }
   }
@@ -314,7 +277,7 @@ private:
   std::vector<Group> m_groups;
   std::size_t m_border_size = 0;
   Eigen::VectorXd m_scale;
-  Eigen::PartialPivLU<Eigen::MatrixXd> m_remainder;
+  Eigen::LDLT<Eigen::MatrixXd> m_remainder;
 };
 
 } // namespace internal

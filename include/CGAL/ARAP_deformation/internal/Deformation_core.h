@@ -32,7 +32,6 @@
 
 #include <CGAL/tags.h>
 
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -81,7 +80,7 @@ public:
   const Region& region() const { return m_region; }
 
   // the solver, of which there is no further use here
-  Laplacian_solver<Solver> take_solver() { return std::move(m_solver); }
+  Laplacian_solver<Solver> take_solver() { return std::exchange(m_solver, {}); }
 
   // for each cell; identities before the first run
   const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }

@@ -24,6 +24,8 @@ namespace internal {
 // processor does those of one while the other waits.
 struct Double8
 {
+  static constexpr int size = 8;
+
   Double4 low, high;
 
   CGAL_ARAP_ALWAYS_INLINE static Double8 all(double a)

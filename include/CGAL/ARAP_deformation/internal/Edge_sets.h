@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -161,20 +162,11 @@ Stars star_edge_sets(const EdgeWeight& weight, const Simplices& simplices, const
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
     {
-      const auto begin_of_star = neighbours.begin() + first[i];
-      const auto end_of_star = neighbours.begin() + first[i + 1];
-      std::sort(begin_of_star, end_of_star);
-      auto last = begin_of_star;
-      for(auto it = begin_of_star; it != end_of_star;)
-      {
-        Neighbour sum(it->first, 0);
-        for(; it != end_of_star && it->first == sum.first; ++it)
-          sum.second += it->second;
-        sum.second = weight.edge_weight(Edge_set::star, region.indices[i],
-                                        region.indices[sum.first], sum.second);
-        *last++ = sum;
-      }
-      sizes[i] = static_cast<int>(last - begin_of_star);
+      Neighbour* const star = neighbours.data() + first[i];
+      sizes[i] = sort_and_add_up(star, neighbours.data() + first[i + 1]);
+      for(int k = 0; k < sizes[i]; ++k)
+        star[k].second = weight.edge_weight(Edge_set::star, region.indices[i],
+                                            region.indices[star[k].first], star[k].second);
     }
   });
 

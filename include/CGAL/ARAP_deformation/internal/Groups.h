@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -59,6 +60,23 @@ inline Groups lists_with(const Groups& groups, int n)
 inline Groups places_of(const Groups& groups, int n)
 {
   return inverse(groups, n, [](int, int place) { return place; });
+}
+
+// Sorts pairs of a number and a value, in place, adds the values of those that have the same number
+// up, and returns how many are left. The sums do not depend on the order.
+template <typename Iterator>
+int sort_and_add_up(Iterator begin, Iterator end)
+{
+  std::sort(begin, end);
+  Iterator last = begin;
+  for(Iterator it = begin; it != end;)
+  {
+    auto sum = *it;
+    for(++it; it != end && it->first == sum.first; ++it)
+      sum.second += it->second;
+    *last++ = sum;
+  }
+  return static_cast<int>(last - begin);
 }
 
 } // namespace internal

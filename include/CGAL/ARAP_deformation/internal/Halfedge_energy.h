@@ -17,9 +17,9 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Deformed_region.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/Groups.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_weights.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -51,18 +51,26 @@ public:
       m_centres[numbers[k]] = region.vertices[k];
   }
 
-  // for each cell its edges, each with the weight of the halfedge to the centre
+  // for each cell its edges, each with the weight of the halfedge to the centre, or the sum of them
+  // where there is more than one to the same vertex
   Rigidity_energy spokes() const
   {
     Stars stars;
     stars.weights.reserve(6 * m_region.vertices.size()); // what a closed mesh needs
     stars.neighbours.items.reserve(6 * m_region.vertices.size());
+    std::vector<std::pair<int, double>> star;
     for(int cell = 0; cell < m_region.number_of_cells; ++cell)
     {
+      star.clear();
       for_each_halfedge_to(m_centres[cell], m_mesh, [&](auto h) {
-        stars.neighbours.items.push_back(number(source(h, m_mesh)));
-        stars.weights.push_back(m_weights[h]);
+        star.emplace_back(number(source(h, m_mesh)), m_weights[h]);
       });
+      star.resize(sort_and_add_up(star.begin(), star.end()));
+      for(const auto& [neighbour, weight] : star)
+      {
+        stars.neighbours.items.push_back(neighbour);
+        stars.weights.push_back(weight);
+      }
       stars.neighbours.begin.push_back(static_cast<int>(stars.neighbours.items.size()));
     }
     return Rigidity_energy(Star_energy(std::move(stars), m_number_of_free_vertices), m_rest,

@@ -57,8 +57,11 @@ public:
   {
     const Sparse_matrix laplacian = free_laplacian(energy);
     Diagnosis diagnosis = find_fault(energy, laplacian);
-    if(diagnosis.status == Status::success && !border_factor(laplacian, indices) &&
-       !factorize(laplacian, indices, prototype))
+    if(diagnosis.status != Status::success)
+      return diagnosis;
+    std::vector<Row_sums> sums = row_sums(energy, indices);
+    if(!border_factor(laplacian, indices, sums) &&
+       !factorize(laplacian, indices, std::move(sums), prototype))
       diagnosis.status = Status::singular_matrix;
     return diagnosis;
   }
@@ -82,20 +85,50 @@ private:
   // beyond this a factorization costs less than a border
   static constexpr std::size_t largest_border = 256;
 
+  // What tells whether the weights at a vertex are the same, whatever is free around it: the sum of
+  // the weights, and their sum with a factor for each neighbour.
+  struct Row_sums
+  {
+    double plain = 0, weighted = 0;
+
+    bool is_about(const Row_sums& other) const
+    {
+      const double tolerance = 1e-12 * std::abs(plain);
+      return std::abs(plain - other.plain) <= tolerance &&
+             std::abs(weighted - other.weighted) <= tolerance;
+    }
+  };
+
+  static std::vector<Row_sums> row_sums(const Rigidity_energy& energy,
+                                        const std::vector<std::size_t>& indices)
+  {
+    const int n = energy.number_of_free_vertices();
+    std::vector<Row_sums> sums(n);
+    const auto add = [&](int i, int neighbour, double weight) {
+      if(i >= n)
+        return;
+      const double golden = 0.6180339887498949;
+      sums[i].plain += weight;
+      sums[i].weighted += weight * std::fmod(golden * static_cast<double>(indices[neighbour]), 1);
+    };
+    energy.for_each_edge([&](int i, int j, double weight) {
+      add(i, j, weight);
+      add(j, i, weight);
+    });
+    return sums;
+  }
+
   bool factorize(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
-                 const Solver& prototype)
+                 std::vector<Row_sums> sums, const Solver& prototype)
   {
     m_solver.reset();
     m_rows.clear();
     m_base_rows = Paged_index_map();
-    m_base_diagonal.resize(laplacian.rows());
-    if(m_base_diagonal.empty())
+    m_base_sums = std::move(sums);
+    if(m_base_sums.empty())
       return true;
     for(int v = 0; v < base_size(); ++v)
-    {
       m_base_rows.set(indices[v], v);
-      m_base_diagonal[v] = diagonal_entry(laplacian, v);
-    }
     Solver solver(prototype);
     if(!solver.analyze(laplacian) || !solver.factorize(laplacian))
       return false;
@@ -103,7 +136,8 @@ private:
     return true;
   }
 
-  bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices)
+  bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
+                     const std::vector<Row_sums>& sums)
   {
     if constexpr(can_have_border<Solver>)
     {
@@ -119,9 +153,7 @@ private:
         rows[v] = row != Paged_index_map::none ? row : number_of_rows++;
         if(row == Paged_index_map::none)
           continue;
-        // all edges of a vertex are in its diagonal entry, whatever is free around it
-        const double old_diagonal = m_base_diagonal[row], diagonal = diagonal_entry(laplacian, v);
-        if(std::abs(diagonal - old_diagonal) > 1e-12 * std::abs(diagonal))
+        if(!sums[v].is_about(m_base_sums[row]))
           return false;
         is_free[row] = true;
       }
@@ -160,11 +192,11 @@ private:
   }
 
   // the number of rows of the factor
-  int base_size() const { return static_cast<int>(m_base_diagonal.size()); }
+  int base_size() const { return static_cast<int>(m_base_sums.size()); }
 
   std::optional<Solver> m_solver;      // if something is factorized
   Paged_index_map m_base_rows;         // from the indices in the mesh to the rows of the factor
-  std::vector<double> m_base_diagonal; // of the matrix that is factorized
+  std::vector<Row_sums> m_base_sums;   // of the matrix that is factorized
   std::vector<int> m_rows;             // for each free vertex its row; empty if they are the same
   std::size_t m_number_of_rows = 0;    // with the border
   std::vector<Coordinates> m_bordered; // scratch

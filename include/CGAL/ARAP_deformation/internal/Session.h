@@ -128,7 +128,8 @@ public:
       return outcome(Status::non_finite_point, name(region.vertices[v]));
 
     std::optional<Core> core;
-    core.emplace(m_traits, std::move(region.flat), m_options, std::move(m_idle_solver));
+    core.emplace(m_traits, std::move(region.flat), m_options,
+                 std::exchange(m_idle_solver, {}));
     if(core->diagnosis().status != Status::success)
     {
       m_idle_solver = core->take_solver();

@@ -20,8 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/wide_matrix.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
-#include <CGAL/assertions.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SUPERNODAL_SUBSTITUTION_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_SUPERNODAL_SUBSTITUTION_H
 
@@ -19,7 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -49,7 +49,7 @@ public:
       std::fill(vector + 4 * b.own, vector + 4 * (b.own + b.boundary), 0);
       for(int c = b.children_begin; c < b.children_end; ++c)
         add_contribution(structure, structure.blocks()[c], vector);
-      run_kernel<Forward_block>(structure, k, values, vector);
+      run_forward(structure, b.supernodes_begin, b.supernodes_end, values, vector);
     });
   }
 
@@ -66,7 +66,7 @@ public:
         for(int j = 0; j < b.boundary; ++j)
           Double4::load(above + 4 * place[j]).store(vector + 4 * (b.own + j));
       }
-      run_kernel<Backward_block>(structure, k, values, vector);
+      run_backward(structure, b.supernodes_begin, b.supernodes_end, values, vector);
       const int* const order = structure.order().data() + b.columns;
       for(int j = 0; j < b.own; ++j)
         std::copy_n(vector + 4 * j, 3, x[order[j]].begin());

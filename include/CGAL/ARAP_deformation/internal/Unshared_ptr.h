@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_UNSHARED_PTR_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_UNSHARED_PTR_H
 

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_KERNELS_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_KERNELS_H
 
@@ -28,8 +29,8 @@ namespace internal {
 // C := C - A B^T for a tile of C in registers: 4 `Fours` rows, `Columns` columns. A and B have
 // `depth` columns and one stride.
 template <int Fours, int Columns>
-CGAL_ARAP_ALWAYS_INLINE void subtract_product(double* c, std::size_t c_stride, const double* a,
-                                              const double* b, std::size_t stride, int depth)
+CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::size_t c_stride, const double* a,
+                                           const double* b, std::size_t stride, int depth)
 {
   Double4 sum[Columns][Fours];
   for(int j = 0; j < Columns; ++j)
@@ -75,9 +76,9 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::size_t c
 {
   int i = 0;
   for(; i + 8 <= rows; i += 8)
-    subtract_product<2, Columns>(c + i, c_stride, a + i, b, stride, depth);
+    subtract_tile<2, Columns>(c + i, c_stride, a + i, b, stride, depth);
   for(; i + 4 <= rows; i += 4)
-    subtract_product<1, Columns>(c + i, c_stride, a + i, b, stride, depth);
+    subtract_tile<1, Columns>(c + i, c_stride, a + i, b, stride, depth);
   for(; i < rows; ++i)
     subtract_row_product<Columns>(c + i, c_stride, a + i, b, stride, depth);
 }
@@ -172,8 +173,8 @@ struct Subtract_square
         for(int j = 0; j < end; j += 4)
         {
           const int begin = i < j ? j : i;
-          run_columns(n - j, end - begin, u + j * u_stride + begin, u_stride,
-                      a + k * stride + begin, a + k * stride + j, stride, depth);
+          subtract_up_to_four_columns(n - j, end - begin, u + j * u_stride + begin, u_stride,
+                                      a + k * stride + begin, a + k * stride + j, stride, depth);
         }
       }
     }
@@ -181,9 +182,9 @@ struct Subtract_square
 
 private:
   // with as many columns as there are, but not more than four
-  CGAL_ARAP_ALWAYS_INLINE static void run_columns(int columns, int rows, double* u,
-                                                  std::size_t u_stride, const double* a,
-                                                  const double* b, std::size_t stride, int depth)
+  CGAL_ARAP_ALWAYS_INLINE static void
+  subtract_up_to_four_columns(int columns, int rows, double* u, std::size_t u_stride,
+                              const double* a, const double* b, std::size_t stride, int depth)
   {
     switch(columns)
     {

@@ -8,13 +8,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_FIND_SUPERNODES_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_FIND_SUPERNODES_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/Supernodes.h>
 
 #include <algorithm>
 #include <cstddef>

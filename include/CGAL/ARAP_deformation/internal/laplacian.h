@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Groups.h>
 #include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
 
@@ -29,23 +30,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// Sorts pairs of a number and a value by the number, in place, adds the values of those that have
-// the same number up, and returns how many are left.
-template <typename Iterator>
-int sort_and_add_up(Iterator begin, Iterator end)
-{
-  std::stable_sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
-  Iterator last = begin;
-  for(Iterator it = begin; it != end;)
-  {
-    auto sum = *it;
-    for(++it; it != end && it->first == sum.first; ++it)
-      sum.second += it->second;
-    *last++ = sum;
-  }
-  return static_cast<int>(last - begin);
-}
 
 // Half the Hessian of the energy with its rotations fixed, for the free vertices: the matrix of
 // Equation (9) of the paper, from which the held vertices' rows and columns are left out, so that

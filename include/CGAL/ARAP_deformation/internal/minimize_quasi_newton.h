@@ -9,7 +9,6 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZE_QUASI_NEWTON_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZE_QUASI_NEWTON_H
 
@@ -23,7 +22,6 @@
 #include <CGAL/ARAP_deformation/internal/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 

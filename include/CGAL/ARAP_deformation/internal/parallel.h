@@ -22,7 +22,6 @@
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -34,20 +33,51 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+#ifdef CGAL_LINKED_WITH_TBB
+// A reference to a function object of a type that is forgotten: TBB's templates are instantiated
+// for this one, and not for each piece of parallel work, which would take seconds to compile.
+class Task_reference
+{
+public:
+  template <typename Function>
+  explicit Task_reference(const Function& f) : m_function(&f), m_call(&call<Function>) {}
+
+  void operator()(std::size_t k) const { m_call(m_function, k); }
+
+private:
+  template <typename Function>
+  static void call(const void* f, std::size_t k)
+  {
+    (*static_cast<const Function*>(f))(k);
+  }
+
+  const void* m_function;
+  void (*m_call)(const void*, std::size_t);
+};
+
+inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_reference& f)
+{
+  const std::size_t available =
+    tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  tbb::task_arena arena(static_cast<int>((std::min<std::size_t>)(number_of_threads, available)));
+  arena.execute([&] { f(0); });
+}
+
+inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
+{
+  tbb::parallel_for(std::size_t(0), n, f);
+}
+#endif
+
 // Calls f() with at most `number_of_threads` threads at work on what it runs in parallel; 0 for as
 // many as TBB takes by itself.
 template <typename Function>
 void run_with_threads(unsigned int number_of_threads, const Function& f)
 {
 #ifdef CGAL_LINKED_WITH_TBB
+  const auto task = [&](std::size_t) { f(); };
   if(number_of_threads > 0)
-  {
-    const std::size_t available =
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    tbb::task_arena arena(static_cast<int>((std::min<std::size_t>)(number_of_threads, available)));
-    arena.execute(f);
-    return;
-  }
+    return run_with_tbb_threads(number_of_threads, Task_reference(task));
 #endif
   static_cast<void>(number_of_threads);
   f();
@@ -59,25 +89,10 @@ void for_each_task(std::size_t n, const Function& f)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   if(n > 1)
-  {
-    tbb::parallel_for(std::size_t(0), n, f);
-    return;
-  }
+    return for_each_tbb_task(n, Task_reference(f));
 #endif
   for(std::size_t k = 0; k < n; ++k)
     f(k);
-}
-
-// Calls f() and g(), in any order.
-template <typename F, typename G>
-void run_both(const F& f, const G& g)
-{
-#ifdef CGAL_LINKED_WITH_TBB
-  tbb::parallel_invoke(f, g);
-#else
-  f();
-  g();
-#endif
 }
 
 // large enough to make the cost of a task negligible where each element costs ten nanoseconds

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
 //
 // Author(s)     : The ARAP_deformation authors
+
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SUBSTITUTION_KERNELS_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_SUBSTITUTION_KERNELS_H
 
@@ -27,9 +28,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// as many columns as leave registers for the rest
-constexpr int columns_at_once = 8;
 
 // `Width` columns, whose first is that of the vector: solves with their triangle and subtracts
 // their multiples from `own` rows that follow and from those listed.
@@ -105,56 +103,27 @@ struct Backward_columns
   }
 };
 
-// Columns<width>::run(arguments...)
-template <template <int> class Columns, typename... Arguments>
+// Columns<width>::run(arguments...) for a width of at most `most`, which is 4 or 8
+template <template <int> class Columns, int most, typename... Arguments>
 CGAL_ARAP_ALWAYS_INLINE void run_columns(int width, Arguments... arguments)
 {
-  static_assert(columns_at_once == 8, "a case for each width");
+  static_assert(most == 4 || most == 8, "a case for each width");
+  if constexpr(most == 8)
+    switch(width)
+    {
+    case 5: return Columns<5>::run(arguments...);
+    case 6: return Columns<6>::run(arguments...);
+    case 7: return Columns<7>::run(arguments...);
+    case 8: return Columns<8>::run(arguments...);
+    }
   switch(width)
   {
   case 1: return Columns<1>::run(arguments...);
   case 2: return Columns<2>::run(arguments...);
   case 3: return Columns<3>::run(arguments...);
-  case 4: return Columns<4>::run(arguments...);
-  case 5: return Columns<5>::run(arguments...);
-  case 6: return Columns<6>::run(arguments...);
-  case 7: return Columns<7>::run(arguments...);
-  default: return Columns<8>::run(arguments...);
+  default: return Columns<4>::run(arguments...);
   }
 }
-
-// L y = x with the columns of one supernode
-struct Forward_supernode
-{
-  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure::Supernode& s,
-                                          const int* rows, const double* values, double* vector)
-  {
-    const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
-    for(int j = 0; j < s.width; j += columns_at_once)
-    {
-      const int width = s.width - j < columns_at_once ? s.width - j : columns_at_once;
-      run_columns<Forward_columns>(width, values + j * stride + j, stride, s.width - j - width,
-                                   rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j), vector);
-    }
-  }
-};
-
-// L^T x = y with the columns of one supernode
-struct Backward_supernode
-{
-  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure::Supernode& s,
-                                          const int* rows, const double* values, double* vector)
-  {
-    const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
-    for(int j = (s.width - 1) / columns_at_once * columns_at_once; j >= 0; j -= columns_at_once)
-    {
-      const int width = s.width - j < columns_at_once ? s.width - j : columns_at_once;
-      run_columns<Backward_columns>(width, values + j * stride + j, stride, s.width - j - width,
-                                    rows, s.below, vector + 4 * std::ptrdiff_t(s.first + j),
-                                    vector);
-    }
-  }
-};
 
 // Has the values of a supernode, or its first ones, fetched from memory while others are worked on.
 CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
@@ -172,55 +141,68 @@ CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
 #endif
 }
 
-// L y = x with all columns of a block
-struct Forward_block
-{
-  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, int block,
-                                          const double* values, double* vector)
-  {
-    const Supernodal_structure::Block& b = structure.blocks()[block];
-    const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
-    for(int k = b.supernodes_begin; k < b.supernodes_end; ++k)
-    {
-      if(k + 1 < b.supernodes_end)
-        prefetch(supernodes[k + 1], values);
-      Forward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
-                             values + supernodes[k].values, vector);
-    }
-  }
-};
-
-// L y = x with some of the supernodes of a block
+// L y = x with the columns of some supernodes of one block, `most` columns at a time
+template <int most>
 struct Forward_supernodes
 {
-  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, const int* begin,
-                                          const int* end, const double* values, double* vector)
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure& structure, int begin, int end,
+                                          const double* values, double* vector)
   {
-    for(; begin != end; ++begin)
+    for(int k = begin; k < end; ++k)
     {
-      const Supernodal_structure::Supernode& s = structure.supernodes()[*begin];
-      Forward_supernode::run(s, structure.rows(s), values + s.values, vector);
+      const Supernodal_structure::Supernode& s = structure.supernodes()[k];
+      if(k + 1 < end)
+        prefetch(structure.supernodes()[k + 1], values);
+      const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+      const double* const first = values + s.values;
+      for(int j = 0; j < s.width; j += most)
+      {
+        const int width = s.width - j < most ? s.width - j : most;
+        run_columns<Forward_columns, most>(width, first + j * stride + j, stride,
+                                           s.width - j - width, structure.rows(s), s.below,
+                                           vector + 4 * std::ptrdiff_t(s.first + j), vector);
+      }
     }
   }
 };
 
-// L^T x = y with all columns of a block
-struct Backward_block
+// L^T x = y with the same
+template <int most>
+struct Backward_supernodes
 {
-  static CGAL_ARAP_ALWAYS_INLINE void run(const Supernodal_structure& structure, int block,
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure& structure, int begin, int end,
                                           const double* values, double* vector)
   {
-    const Supernodal_structure::Block& b = structure.blocks()[block];
-    const Supernodal_structure::Supernode* const supernodes = structure.supernodes().data();
-    for(int k = b.supernodes_end; k-- > b.supernodes_begin;)
+    for(int k = end; k-- > begin;)
     {
-      if(k > b.supernodes_begin)
-        prefetch(supernodes[k - 1], values);
-      Backward_supernode::run(supernodes[k], structure.rows(supernodes[k]),
-                              values + supernodes[k].values, vector);
+      const Supernodal_structure::Supernode& s = structure.supernodes()[k];
+      if(k > begin)
+        prefetch(structure.supernodes()[k - 1], values);
+      const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+      const double* const first = values + s.values;
+      for(int j = (s.width - 1) / most * most; j >= 0; j -= most)
+      {
+        const int width = s.width - j < most ? s.width - j : most;
+        run_columns<Backward_columns, most>(width, first + j * stride + j, stride,
+                                            s.width - j - width, structure.rows(s), s.below,
+                                            vector + 4 * std::ptrdiff_t(s.first + j), vector);
+      }
     }
   }
 };
+
+// As many columns at a time as leave registers for the rest: eight with AVX2.
+inline void run_forward(const Supernodal_structure& structure, int begin, int end,
+                        const double* values, double* vector)
+{
+  run_kernel<Forward_supernodes<8>, Forward_supernodes<4>>(structure, begin, end, values, vector);
+}
+
+inline void run_backward(const Supernodal_structure& structure, int begin, int end,
+                         const double* values, double* vector)
+{
+  run_kernel<Backward_supernodes<8>, Backward_supernodes<4>>(structure, begin, end, values, vector);
+}
 
 } // namespace internal
 } // namespace ARAP

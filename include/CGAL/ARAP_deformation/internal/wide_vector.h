@@ -19,14 +19,16 @@
 
 // Code that the compiler is to put into its caller whatever it thinks of that: only so is it
 // compiled for the instruction set of the caller.
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(CGAL_ARAP_NO_VECTOR_EXTENSIONS) // a test does without
+#define CGAL_ARAP_HAS_VECTOR_EXTENSIONS
 #define CGAL_ARAP_ALWAYS_INLINE __attribute__((always_inline)) inline
 #else
 #define CGAL_ARAP_ALWAYS_INLINE inline
 #endif
 
 // Whether there is something to choose at run time: x86 that is not compiled for AVX2 anyway.
-#if defined(__GNUC__) && defined(__x86_64__) && \
+// (On Windows, g++ does not align the stack for it.)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__x86_64__) && !defined(_WIN32) && \
     !(defined(__AVX2__) && defined(__FMA__))
 #define CGAL_ARAP_HAS_DISPATCH
 #endif
@@ -40,7 +42,9 @@ namespace internal {
 // g++ aligns by what the program is compiled for, which is not enough for what is chosen later.)
 struct alignas(32) Double4
 {
-#if defined(__GNUC__)
+  static constexpr int size = 4;
+
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   using Lanes = double __attribute__((vector_size(32)));
   Lanes lanes;
 
@@ -120,7 +124,7 @@ struct alignas(32) Double4
   // four numbers in single precision
   CGAL_ARAP_ALWAYS_INLINE static Double4 load(const float* p)
   {
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
     float __attribute__((vector_size(16))) single;
     std::memcpy(&single, p, sizeof(single));
     return {__builtin_convertvector(single, Lanes)};
@@ -137,7 +141,7 @@ struct alignas(32) Double4
 // Four truth values side by side: what comparisons return.
 struct alignas(32) Bool4
 {
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   using Lanes = long long __attribute__((vector_size(32))); // all bits set, or none
   Lanes lanes;
 
@@ -168,7 +172,7 @@ struct alignas(32) Bool4
 
 CGAL_ARAP_ALWAYS_INLINE Bool4 operator<(const Double4& a, const Double4& b)
 {
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   return {reinterpret_cast<Bool4::Lanes>(a.lanes < b.lanes)};
 #else
   Bool4 result;
@@ -181,7 +185,7 @@ CGAL_ARAP_ALWAYS_INLINE Bool4 operator<(const Double4& a, const Double4& b)
 // in each lane a where the condition holds, b elsewhere
 CGAL_ARAP_ALWAYS_INLINE Double4 select(const Bool4& condition, const Double4& a, const Double4& b)
 {
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   return {condition.lanes ? a.lanes : b.lanes};
 #else
   Double4 result;
@@ -194,7 +198,7 @@ CGAL_ARAP_ALWAYS_INLINE Double4 select(const Bool4& condition, const Double4& a,
 // The absolute values.
 CGAL_ARAP_ALWAYS_INLINE Double4 abs(const Double4& a)
 {
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   const long long magnitude = 0x7fffffffffffffff;
   const Bool4::Lanes mask = {magnitude, magnitude, magnitude, magnitude};
   return {reinterpret_cast<Double4::Lanes>(reinterpret_cast<Bool4::Lanes>(a.lanes) & mask)};
@@ -211,7 +215,7 @@ CGAL_ARAP_ALWAYS_INLINE Double4 abs(const Double4& a)
 CGAL_ARAP_ALWAYS_INLINE Double4 scale_to_one(const Double4& a)
 {
   const long long exponent_bits = 0x7ff0000000000000, twice_the_bias = 0x7fe0000000000000;
-#if defined(__GNUC__)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   const Bool4::Lanes mask = {exponent_bits, exponent_bits, exponent_bits, exponent_bits};
   const Bool4::Lanes bias = {twice_the_bias, twice_the_bias, twice_the_bias, twice_the_bias};
   const Bool4::Lanes exponents = reinterpret_cast<Bool4::Lanes>(a.lanes) & mask;
@@ -231,9 +235,9 @@ CGAL_ARAP_ALWAYS_INLINE Double4 scale_to_one(const Double4& a)
 template <int i, int j, int k, int l>
 CGAL_ARAP_ALWAYS_INLINE Double4 shuffle(const Double4& a, const Double4& b)
 {
-#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && (defined(__clang__) || __GNUC__ >= 12)
   return {__builtin_shufflevector(a.lanes, b.lanes, i, j, k, l)};
-#elif defined(__GNUC__)
+#elif defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
   return {__builtin_shuffle(a.lanes, b.lanes, Bool4::Lanes{i, j, k, l})};
 #else
   return Double4::of(i < 4 ? a[i % 4] : b[i % 4], j < 4 ? a[j % 4] : b[j % 4],
@@ -267,16 +271,18 @@ __attribute__((target("avx2,fma"))) void run_with_avx2(const Arguments&... argum
 #endif
 
 // Calls Kernel::run(arguments...) in a version for the widest registers of this processor that are
-// of use. Kernel::run() is static and void, and like all that it calls CGAL_ARAP_ALWAYS_INLINE;
-// lambda expressions would not be.
-template <typename Kernel, typename... Arguments>
+// of use; Plain_kernel without them. Kernel::run() is static and void, and like all that it calls
+// CGAL_ARAP_ALWAYS_INLINE; lambda expressions would not be.
+template <typename Kernel, typename Plain_kernel = Kernel, typename... Arguments>
 void run_kernel(const Arguments&... arguments)
 {
 #ifdef CGAL_ARAP_HAS_DISPATCH
   if(has_avx2())
     return run_with_avx2<Kernel>(arguments...);
+#elif defined(__AVX2__)
+  return Kernel::run(arguments...);
 #endif
-  Kernel::run(arguments...);
+  Plain_kernel::run(arguments...);
 }
 
 } // namespace internal
