@@ -278,8 +278,7 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
              "lines " + dashes + "linecolor rgb '#404040' ",
              section["streaming_of_" + std::to_string(threads)]);
     for(const auto& [solver, style] :
-        {std::pair<std::string, std::string>{"Eigen", "pointtype 11 linecolor rgb '#60a0d0' "},
-         {"CHOLMOD", "pointtype 9 " + our_colour},
+        {std::pair<std::string, std::string>{"default", "pointtype 9 " + our_colour},
          {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
       plot.add("this package, " + solver + ", " + threads_name(results, threads),
                "linespoints " + dashes + style,

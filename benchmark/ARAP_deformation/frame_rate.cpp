@@ -61,12 +61,12 @@ private:
   Eigen::Vector3d m_center = Eigen::Vector3d::Zero();
 };
 
-// the seconds of each frame: targets and three iterations
+// adds the seconds of each frame: targets and three iterations
 template <typename Deformation>
-std::vector<double> measure_frames(const Drag& drag, Deformation& deformation, unsigned int frames)
+void measure_frames(const Drag& drag, Deformation& deformation, unsigned int frames,
+                    std::vector<double>& seconds)
 {
   deformation.deformation().reset();
-  std::vector<double> seconds;
   for(unsigned int frame = 0; frame < frames; ++frame)
   {
     const Stopwatch stopwatch;
@@ -74,7 +74,6 @@ std::vector<double> measure_frames(const Drag& drag, Deformation& deformation, u
     deformation.proceed(3);
     seconds.push_back(stopwatch.seconds());
   }
-  return seconds;
 }
 
 // The iterates of the two classes differ, as their steps come in another order. After a drag both
@@ -114,17 +113,29 @@ Json run(const Settings& settings)
     {{"vertices", "vertices"}, {"deformation", "class"}, {"threads", "threads"},
      {"frames", "frames"}, {"frames_per_second", "frames / s"}, {"median_ms", "median [ms]"},
      {"p99_ms", "99% [ms]"}, {"p99_ratio", "99% / median"}, {"ratio", "CGAL / ours"}});
-  const unsigned int frames = settings.quick ? 200 : 1000;
+  const unsigned int rounds = 4, frames = settings.quick ? 50 : 250;
+  const std::vector<unsigned int> threads = thread_counts();
   Cgal_deformation<CGAL::ORIGINAL_ARAP> cgal(scenario);
-  const std::vector<double> cgal_seconds = measure_frames(drag, cgal, frames / 4);
-  const auto add = [&](const std::string& name, unsigned int threads,
+  std::vector<double> cgal_seconds;
+  std::vector<std::vector<double>> our_seconds(threads.size());
+  for(unsigned int round = 0; round < rounds; ++round)
+  {
+    measure_frames(drag, cgal, frames / 4, cgal_seconds);
+    for(std::size_t k = 0; k < threads.size(); ++k)
+    {
+      const Thread_limit limit(threads[k]);
+      Our_deformation<Default_traits> ours(scenario);
+      measure_frames(drag, ours, frames, our_seconds[k]);
+    }
+  }
+  const auto add = [&](const std::string& name, unsigned int number_of_threads,
                        const std::vector<double>& seconds) {
     double total = 0;
     for(double s : seconds)
       total += s;
     section["rows"].push_back({{"vertices", scenario.number_of_vertices()},
                                {"deformation", name},
-                               {"threads", threads},
+                               {"threads", number_of_threads},
                                {"frames", seconds.size()},
                                {"frames_per_second", static_cast<double>(seconds.size()) / total},
                                {"median_ms", 1e3 * median(seconds)},
@@ -132,12 +143,8 @@ Json run(const Settings& settings)
                                {"p99_ratio", quantile(seconds, 0.99) / median(seconds)},
                                {"ratio", median(cgal_seconds) / median(seconds)}});
   };
-  for(unsigned int threads : thread_counts())
-  {
-    const Thread_limit limit(threads);
-    Our_deformation<Default_traits> ours(scenario);
-    add("ours", threads, measure_frames(drag, ours, frames));
-  }
+  for(std::size_t k = 0; k < threads.size(); ++k)
+    add("ours", threads[k], our_seconds[k]);
   add("CGAL", 1, cgal_seconds);
   return section;
 }

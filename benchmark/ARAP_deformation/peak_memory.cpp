@@ -80,7 +80,7 @@ void deform_with(const std::string& name, Scenario& scenario)
     if(name == "ours")
       deform_by_traits(Default_traits());
     else
-      deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Multifrontal_cholesky_solver,
+      deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver,
                                                        Clamped_angle_weight>());
   }
   else if(name == "cgal")
