@@ -96,7 +96,7 @@ bool bend(const char* name, const Solver& solver = Solver())
   }, true);
   const Mesh rest = mesh;
 
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver>; // further parameters defaulted
+  using Traits = CGAL::ARAP_deformation_traits_3<Solver>; // the rest is the default
   CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, Traits(solver));
   for(Mesh::Vertex_index v : mesh.vertices())
   {
@@ -121,7 +121,7 @@ int main()
   using Gradients = CGAL::ARAP::Eigen_conjugate_gradient_solver;
   const Gradients gradients([](Gradients::Eigen_solver& s) { s.setTolerance(1e-10); });
 
-  const bool done = bend<CGAL::Default>("the default") &&
+  const bool done = bend<CGAL::ARAP::Multifrontal_cholesky_solver>("the default") &&
                     bend<CGAL_solver>("CGAL's Eigen_solver_traits") &&
                     bend("conjugate gradients", gradients) &&
                     bend<Band_solver>("a solver of one's own");

@@ -19,7 +19,7 @@
 
 #include <CGAL/Surface_mesh_deformation.h>
 
-#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Surface_mesh_deformation.h>
 
 #include "include/check.h"
@@ -509,7 +509,7 @@ void test_models()
   using SVD = CGAL::Deformation_Eigen_closest_rotation_traits_3;
   using Polar = CGAL::Deformation_Eigen_polar_closest_rotation_traits_3;
   using CGAL::ARAP::Multifrontal_cholesky_solver;
-  using CGAL::ARAP::SVD_closest_rotation;
+  using CGAL::ARAP::Newton_closest_rotation;
   const auto nothing = [](auto&) {};
   for(const Shape& shape : shapes())
   {
@@ -522,7 +522,7 @@ void test_models()
     CHECK_AT_MOST(largest_distance(result, run<Our_class<Mesh, ORIGINAL_ARAP, Default, Default,
                                                          SVD>>(shape, nothing)), d);
     CHECK(result == (run<Our_class<Mesh, ORIGINAL_ARAP, Default, Multifrontal_cholesky_solver,
-                                   SVD_closest_rotation>>(shape, nothing)));
+                                   Newton_closest_rotation>>(shape, nothing)));
 
     // without smoothing
     const auto no_smoothing = [](auto& deformation) { deformation.set_sre_arap_alpha(0); };

@@ -77,7 +77,7 @@ struct Traits_with_a_wrong_solver
 {
   using Sparse_solver = Solver_without_solve;
   using Edge_weight = Uniform_weight;
-  using Closest_rotation = SVD_closest_rotation;
+  using Closest_rotation = Newton_closest_rotation;
   Sparse_solver sparse_solver_object() const { return {}; }
   Edge_weight edge_weight_object() const { return {}; }
   Closest_rotation closest_rotation_object() const { return {}; }

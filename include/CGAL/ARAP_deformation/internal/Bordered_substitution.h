@@ -184,7 +184,10 @@ private:
     group.values.shrink_to_fit();
   }
 
-  // the factorization of D - W^T W, with its diagonal scaled to ones
+  // The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
+  // multipliers, whose diagonal entries of D are zero, is negative definite, and with them
+  // eliminated the rest is positive definite: so they are the first pivots, and no others are
+  // needed. LDLT takes pivots by the size of the diagonal, which is scaled to one and a quarter.
   bool factorize_remainder(const Eigen::MatrixXd& d)
   {
     Eigen::MatrixXd remainder = d;
@@ -206,7 +209,11 @@ private:
           }
       }
     });
+    const Eigen::Array<bool, Eigen::Dynamic, 1> is_multiplier = d.diagonal().array() == 0;
     m_scale = remainder.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    for(Eigen::Index k = 0; k < m_scale.size(); ++k)
+      if(!is_multiplier[k])
+        m_scale[k] *= 0.5;
     if(!m_scale.allFinite())
       return false;
     remainder = m_scale.asDiagonal() * remainder * m_scale.asDiagonal();
@@ -219,7 +226,7 @@ private:
     const Eigen::ArrayXd pivots = m_remainder.vectorD();
     return m_remainder.info() == Eigen::Success &&
            pivots.abs().minCoeff() > 1e-11 * pivots.abs().maxCoeff() &&
-           (pivots < 0).count() == (d.diagonal().array() == 0).count();
+           (pivots < 0).count() == is_multiplier.count();
   }
 
   // The rows that are stored for both groups; the supernodes of both are in one order.
