@@ -82,15 +82,24 @@ public:
   // the solver, of which there is no further use here
   Laplacian_solver<Solver> take_solver() { return std::exchange(m_solver, {}); }
 
-  // for each cell; identities before the first run
-  const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }
+  // the rotation of a cell; the identity before the first run
+  Matrix_3x3 rotation(int cell) const
+  {
+    return m_rotations.empty() ? identity_matrix() : m_rotations[cell];
+  }
+
+  // the rotations of all cells
+  std::vector<Matrix_3x3> rotations() const
+  {
+    return m_rotations.empty()
+         ? std::vector<Matrix_3x3>(m_energy.number_of_cells(), identity_matrix()) : m_rotations;
+  }
 
   void set_rotations(std::vector<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
 
-  void reset_rotations()
-  {
-    m_rotations.assign(m_energy.number_of_cells(), identity_matrix());
-  }
+  void reset_rotations() { m_rotations = std::vector<Matrix_3x3>(); }
+
+  int number_of_cells() const { return m_energy.number_of_cells(); }
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
   // rotations. The core's own state does not change.
@@ -170,9 +179,7 @@ private:
     if(const int s = find_non_finite_simplex(simplices); s >= 0)
       return {Status::non_finite_weight, -1, s};
     m_energy = make_rigidity_energy(m_weight, std::move(simplices), scheme, m_region);
-    const Diagnosis diagnosis = m_solver.prepare(m_energy, m_region.indices, m_prototype_solver);
-    reset_rotations();
-    return diagnosis;
+    return m_solver.prepare(m_energy, m_region.indices, m_prototype_solver);
   }
 
   Region m_region;
@@ -182,7 +189,7 @@ private:
   Laplacian_solver<Solver> m_solver;
   Rigidity_energy m_energy;
   std::optional<Laplacian_guess<Solver>> m_laplacian_guess;
-  std::vector<Matrix_3x3> m_rotations;
+  std::vector<Matrix_3x3> m_rotations; // empty before the first run
   Diagnosis m_diagnosis;
 };
 

@@ -66,6 +66,7 @@ struct Domain_region
     if(!collect_simplices(domain, flat.number_of_free_vertices, flat.number_of_centres))
       return false;
     first_simplex.push_back(static_cast<int>(simplices.size()));
+    shrink();
     return true;
   }
 
@@ -147,6 +148,16 @@ private:
         return false;
     }
     return true;
+  }
+
+  void shrink()
+  {
+    flat.indices.shrink_to_fit();
+    flat.first_corner.shrink_to_fit();
+    flat.corners.shrink_to_fit();
+    vertices.shrink_to_fit();
+    simplices.shrink_to_fit();
+    first_simplex.shrink_to_fit();
   }
 
   int m_number_of_found = 0; // free vertices that have a number

@@ -73,6 +73,14 @@ struct Simplices
   int size() const { return corners.size(); }
   int number_of_corners(int s) const { return corners.begin[s + 1] - corners.begin[s]; }
 
+  // the weight of the edge between two corners of s, given by their places in corners.items
+  double weight(int s, int place, int other) const
+  {
+    const int n = number_of_corners(s);
+    const auto [a, b] = std::minmax({place - corners.begin[s], other - corners.begin[s]});
+    return weights[first_weight[s] + a * (2 * n - a - 1) / 2 + b - a - 1];
+  }
+
   // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may
   // change
   template <typename Function>
@@ -141,48 +149,51 @@ Simplices simplex_edge_sets(const EdgeWeight& weight, Simplices simplices, const
 template <typename EdgeWeight>
 Stars star_edge_sets(const EdgeWeight& weight, const Simplices& simplices, const Region& region)
 {
-  // first the neighbours of each centre with one weight for each simplex at the edge
   const int n = region.number_of_centres;
-  using Neighbour = std::pair<int, double>;
-  std::vector<int> first(n + 1, 0);
-  for(int s = 0; s < simplices.size(); ++s)
-    for(int k = simplices.corners.begin[s]; k < simplices.corners.begin[s + 1]; ++k)
-      if(const int i = simplices.corners.items[k]; i < n)
-        first[i + 1] += simplices.number_of_corners(s) - 1;
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Neighbour> neighbours(first.back());
-  std::vector<int> next(first.begin(), first.end() - 1);
-  simplices.for_each_edge([&](int, int i, int j, double w) {
-    if(i < n) neighbours[next[i]++] = {j, w};
-    if(j < n) neighbours[next[j]++] = {i, w};
-  });
+  const Groups places = places_of(simplices.corners, n); // the corners at each centre
+  const std::vector<int> simplex_of_place = list_of_each(simplices.corners);
 
-  // then one for all of them: of centre i there are sizes[i]
-  std::vector<int>& sizes = next;
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t i = begin; i < end; ++i)
+  // the neighbours of centre i, with the sum of the weights of all simplices at the edge
+  using Neighbour = std::pair<int, double>;
+  const auto find_star = [&](std::size_t i, std::vector<Neighbour>& star) {
+    star.clear();
+    for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
     {
-      Neighbour* const star = neighbours.data() + first[i];
-      sizes[i] = sort_and_add_up(star, neighbours.data() + first[i + 1]);
-      for(int k = 0; k < sizes[i]; ++k)
-        star[k].second = weight.edge_weight(Edge_set::star, region.indices[i],
-                                            region.indices[star[k].first], star[k].second);
+      const int place = places.items[k], s = simplex_of_place[place];
+      for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
+        if(other != place)
+          star.emplace_back(simplices.corners.items[other], simplices.weight(s, place, other));
     }
-  });
+    star.resize(sort_and_add_up(star.begin(), star.end()));
+  };
 
   Stars stars;
   stars.neighbours.begin.resize(n + 1);
-  std::partial_sum(sizes.begin(), sizes.end(), stars.neighbours.begin.begin() + 1);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> star;
+    for(std::size_t i = begin; i < end; ++i)
+    {
+      find_star(i, star);
+      stars.neighbours.begin[i + 1] = static_cast<int>(star.size());
+    }
+  });
+  std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
+                   stars.neighbours.begin.begin());
   stars.neighbours.items.resize(stars.neighbours.begin.back());
   stars.weights.resize(stars.neighbours.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbour> star;
     for(std::size_t i = begin; i < end; ++i)
-      for(int k = 0; k < sizes[i]; ++k)
+    {
+      find_star(i, star);
+      int e = stars.neighbours.begin[i];
+      for(const auto& [j, w] : star)
       {
-        const Neighbour& neighbour = neighbours[first[i] + k];
-        stars.neighbours.items[stars.neighbours.begin[i] + k] = neighbour.first;
-        stars.weights[stars.neighbours.begin[i] + k] = neighbour.second;
+        stars.neighbours.items[e] = j;
+        stars.weights[e++] =
+          weight.edge_weight(Edge_set::star, region.indices[i], region.indices[j], w);
       }
+    }
   });
   return stars;
 }

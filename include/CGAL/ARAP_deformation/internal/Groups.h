@@ -50,6 +50,15 @@ Groups inverse(const Groups& groups, int n, const Naming& name)
   return result;
 }
 
+// for each place in `items` its list
+inline std::vector<int> list_of_each(const Groups& groups)
+{
+  std::vector<int> lists(groups.items.size());
+  for(int k = 0; k < groups.size(); ++k)
+    std::fill(lists.begin() + groups.begin[k], lists.begin() + groups.begin[k + 1], k);
+  return lists;
+}
+
 // for each number below n the lists that have it
 inline Groups lists_with(const Groups& groups, int n)
 {

@@ -77,7 +77,7 @@ public:
   // the target of a control vertex, the point of any other
   Point target(vertex_descriptor v) const
   {
-    return m_vertices.is_control(v) ? m_vertices.find(v)->target : m_vertices.present(v);
+    return m_vertices.is_control(v) ? m_vertices.target(*m_vertices.find(v)) : m_vertices.present(v);
   }
 
   // changes the region: f(vertices) returns whether it did; then all that follows from it is stale
@@ -96,7 +96,8 @@ public:
     auto* entry = m_vertices.find_control(v);
     if(entry == nullptr)
       return outcome(Status::not_a_control_vertex, name(v));
-    entry->target = f(entry->target);
+    Point& target = m_vertices.target(*entry);
+    target = f(target);
     return Outcome(Status::success, std::string());
   }
 
@@ -118,6 +119,8 @@ public:
       return outcome(Status::not_a_simplex, name(region.refused_vertex()));
 
     std::vector<Coordinates> positions;
+    positions.reserve(region.vertices.size());
+    region.flat.rest.reserve(region.vertices.size());
     for(vertex_descriptor v : region.vertices)
     {
       positions.push_back(Domain::coordinates(m_vertices.present(v)));
@@ -159,7 +162,11 @@ public:
     for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
     for(auto& entry : m_vertices.entries())
-      entry.target = entry.present = entry.rest;
+    {
+      entry.present = entry.rest;
+      if(entry.is_control)
+        m_vertices.target(entry) = entry.rest;
+    }
     for(std::size_t k = 0; k < m_positions.size(); ++k)
       m_positions[k] = Domain::coordinates(m_vertices.present(m_region.vertices[k]));
     if(m_core)
@@ -268,7 +275,7 @@ private:
     {
       if(!entry.is_control)
         continue;
-      const Coordinates target = Domain::coordinates(entry.target);
+      const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(!is_finite(target))
         return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
       if(const int v = m_region.find_vertex(domain(), entry.vertex); v >= 0)
@@ -311,7 +318,7 @@ private:
       points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
     for(const auto& entry : m_vertices.entries())
       if(entry.is_control)
-        points.emplace_back(entry.vertex, entry.target);
+        points.emplace_back(entry.vertex, m_vertices.target(entry));
       else if(entry.is_roi && m_region.find_vertex(domain(), entry.vertex) < 0)
         points.emplace_back(entry.vertex, entry.present);
     return points;
@@ -319,8 +326,8 @@ private:
 
   Matrix_3x3 rotation_of_cell(int cell) const
   {
-    return cell >= 0 && cell < static_cast<int>(m_core->rotations().size())
-         ? m_core->rotations()[cell] : identity_matrix();
+    return cell >= 0 && cell < m_core->number_of_cells() ? m_core->rotation(cell)
+                                                         : identity_matrix();
   }
 
   Vertices m_vertices;

@@ -37,9 +37,9 @@ public:
   struct Entry
   {
     vertex_descriptor vertex;
+    int target; // its place in m_targets, if it was ever a control vertex
     Point rest;
     Point present;
-    Point target; // of a control vertex
     bool is_roi = false;
     bool is_control = false;
   };
@@ -47,6 +47,10 @@ public:
   explicit Session_vertices(Domain domain) : m_domain(std::move(domain)) {}
 
   const Domain& domain() const { return m_domain; }
+
+  // the target of a control vertex
+  Point& target(const Entry& entry) { return m_targets[entry.target]; }
+  const Point& target(const Entry& entry) const { return m_targets[entry.target]; }
   std::vector<Entry>& entries() { return m_entries; }
   const std::vector<Entry>& entries() const { return m_entries; }
 
@@ -99,7 +103,13 @@ public:
     Entry& entry = find_or_insert(v);
     if(entry.is_control)
       return false;
-    entry.target = entry.present;
+    if(entry.target == no_target)
+    {
+      m_targets.push_back(entry.present);
+      entry.target = static_cast<int>(m_targets.size()) - 1;
+    }
+    else
+      m_targets[entry.target] = entry.present;
     entry.is_roi = entry.is_control = true;
     return true;
   }
@@ -150,6 +160,8 @@ public:
   }
 
 private:
+  static constexpr int no_target = -1;
+
   Entry& find_or_insert(vertex_descriptor v)
   {
     const std::size_t index = m_domain.index(v);
@@ -159,7 +171,7 @@ private:
       slot = static_cast<int>(m_entries.size());
       const Point point = m_domain.point(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
-      m_entries.push_back({v, point, point, point});
+      m_entries.push_back({v, no_target, point, point});
       m_slots.set(index, slot);
     }
     return m_entries[slot];
@@ -168,6 +180,7 @@ private:
   Domain m_domain;
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   std::vector<Entry> m_entries;
+  std::vector<Point> m_targets;
 };
 
 } // namespace internal
