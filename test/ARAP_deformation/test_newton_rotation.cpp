@@ -75,7 +75,8 @@ struct Plain_newton
 {
   void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
   {
-    CGAL::ARAP::internal::Wide_rotation_kernel<CGAL::ARAP::internal::Double4>::run(n, covariances, rotations);
+    using CGAL::ARAP::internal::Double4;
+    CGAL::ARAP::internal::Wide_rotation_kernel<Double4>::run(n, covariances, rotations);
   }
 };
 

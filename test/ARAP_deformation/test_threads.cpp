@@ -34,6 +34,8 @@
 #include <thread>
 #include <vector>
 
+using Parallel_tag = CGAL::Parallel_if_available_tag;
+
 // what is compared
 struct Bits
 {
@@ -79,8 +81,7 @@ void test(const std::string& name, const std::vector<Eigen::Vector3d>& points,
       const Bits one = run<Dimension, CGAL::Sequential_tag>(points, simplices, options, 0);
       for(unsigned int threads : {0u, 1u, 2u, 3u, 8u})
       {
-        const Bits many = run<Dimension, CGAL::Parallel_if_available_tag>(points, simplices,
-                                                                          options, threads);
+        const Bits many = run<Dimension, Parallel_tag>(points, simplices, options, threads);
         CHECK(many.energy == one.energy);
         CHECK(many.points == one.points);
       }
@@ -145,15 +146,15 @@ void test_number_of_threads(const Shape& shape)
 {
   test_case() = "the number of threads";
   CHECK(number_of_threads<CGAL::Sequential_tag>(shape, 0) == 1);
-  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 1) == 1);
-  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 2) <= 2);
+  CHECK(number_of_threads<Parallel_tag>(shape, 1) == 1);
+  CHECK(number_of_threads<Parallel_tag>(shape, 2) <= 2);
 #ifdef CGAL_LINKED_WITH_TBB
   std::size_t most = 1;
   for(int attempt = 0; attempt < 100 && most == 1; ++attempt) // the machine may be busy
-    most = number_of_threads<CGAL::Parallel_if_available_tag>(shape, 0);
+    most = number_of_threads<Parallel_tag>(shape, 0);
   CHECK(most > 1);
 #else
-  CHECK(number_of_threads<CGAL::Parallel_if_available_tag>(shape, 0) == 1);
+  CHECK(number_of_threads<Parallel_tag>(shape, 0) == 1);
 #endif
 }
 
@@ -163,8 +164,7 @@ void test_exception(const Shape& shape)
   test_case() = "an exception in a thread";
   const Watching_rotation rotation;
   std::vector<Point> points = points_of(shape.points);
-  Watched<CGAL::Parallel_if_available_tag> deformation({points, shape.triangles},
-                                                       traits<CGAL::Parallel_if_available_tag>(rotation));
+  Watched<Parallel_tag> deformation({points, shape.triangles}, traits<Parallel_tag>(rotation));
   prepare(deformation, scenario(shape), numbers(points.size()));
   CHECK(deformation.preprocess());
   const std::vector<Point> before = points;
@@ -180,7 +180,7 @@ void test_exception(const Shape& shape)
   rotation.notes->throws_at = -1;
   CHECK(deformation.deform(3, 0));
   std::vector<Point> other_points = before;
-  Watched<CGAL::Parallel_if_available_tag> other({other_points, shape.triangles});
+  Watched<Parallel_tag> other({other_points, shape.triangles});
   prepare(other, scenario(shape), numbers(points.size()));
   CHECK(other.deform(3, 0));
   CHECK(points == other_points);

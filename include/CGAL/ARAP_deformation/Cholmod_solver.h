@@ -93,8 +93,8 @@ public:
   /// its entries.
   /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
   /// \param d a symmetric matrix, of which the lower triangle is read
-  /// \return `false` if the bordered matrix cannot be solved safely, or has more negative eigenvalues
-  /// than `d` has zeros on its diagonal; there is no border then.
+  /// \return `false` if the bordered matrix cannot be solved safely, or has more negative
+  /// eigenvalues than `d` has zeros on its diagonal; there is no border then.
   bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
   {
     return m_state->substitution.set_border(m_state->structure, m_state->values(), b, d);

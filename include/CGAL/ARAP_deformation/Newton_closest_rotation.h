@@ -49,7 +49,7 @@ public:
   void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
   {
     using Kernel = internal::Wide_rotation_kernel<internal::Double8>;
-    using Plain_kernel = internal::Wide_rotation_kernel<internal::Double4>; // compiles in half the time
+    using Plain_kernel = internal::Wide_rotation_kernel<internal::Double4>; // compiles faster
     internal::run_kernel<Kernel, Plain_kernel>(n, covariances, rotations);
   }
 };

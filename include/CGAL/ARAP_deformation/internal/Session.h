@@ -77,7 +77,8 @@ public:
   // the target of a control vertex, the point of any other
   Point target(vertex_descriptor v) const
   {
-    return m_vertices.is_control(v) ? m_vertices.target(*m_vertices.find(v)) : m_vertices.present(v);
+    return m_vertices.is_control(v) ? m_vertices.target(*m_vertices.find(v))
+                                    : m_vertices.present(v);
   }
 
   // changes the region: f(vertices) returns whether it did; then all that follows from it is stale

@@ -26,7 +26,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rotations closest to matrices C, four or eight at a time, from rotations R that are about right.
+// The rotations closest to matrices C, four or eight at a time, from rotations R that are about
+// right.
 //
 // The closest rotation is Q R, with Q that closest to M = C R^T: the Q for which Q^T M is symmetric
 // with the largest trace. With the Gibbs vector x of Q (the axis, times the tangent of half the
