@@ -104,7 +104,6 @@ struct Seconds
   {
     full.push_back(deformation.preprocess_seconds());
     change.push_back(exchange(deformation, sets.first, sets.second));
-    change.push_back(exchange(deformation, sets.second, sets.first));
   }
 };
 

@@ -14,7 +14,7 @@ different threads one after the other.
 
 `CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each matrix that it
 factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
-need not have it too. A move, on the other hand, keeps the factor, and does not throw.
+need not have it too. A move, on the other hand, keeps the factor and its border, and does not throw.
 
 The function `CGAL::ARAP::check_sparse_solver()` tells which of these identities a model violates.
 
@@ -73,7 +73,8 @@ public:
   /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts.
   ///
   /// The rows of the border whose diagonal entry in `d` is zero are those of multipliers, which hold
-  /// unknowns where they are; on the others the matrix is to be positive definite.
+  /// unknowns where they are; the matrix is to be positive definite on all vectors
+  /// in which these unknowns are zero.
   ///
   /// Returns whether it is and the bordered system can be solved safely. If not, there is no border.
   bool set_border(const CGAL::ARAP::Sparse_matrix& b, const Eigen::MatrixXd& d);

@@ -284,6 +284,9 @@ private:
         return;
       const Sparse_matrix whole = bordered(a, b, d);
       check_solution(solver, whole, random_rows(whole), "a matrix with a border");
+      SparseSolver moved(std::move(solver));
+      check_solution(moved, whole, random_rows(whole), "a matrix with a border after a move");
+      solver = std::move(moved);
 
       d(size - 1, size - 1) = -1;
       m_violations.check(!solver.set_border(b, d), "set_border() returns true for a matrix that is "

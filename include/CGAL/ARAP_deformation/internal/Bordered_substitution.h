@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -55,11 +56,20 @@ public:
     remove_border();
     if(b.cols() == 0)
       return true;
-    group_columns(b, inverse_permutation(structure.order()));
-    for_each_task(m_groups.size(), [&](std::size_t g) {
-      substitute_columns(structure, values, b, m_groups[g]);
-    });
-    const bool is_solvable = factorize_remainder(d);
+    bool is_solvable = false;
+    try
+    {
+      group_columns(b, inverse_permutation(structure.order()));
+      for_each_task(m_groups.size(), [&](std::size_t g) {
+        substitute_columns(structure, values, b, m_groups[g]);
+      });
+      is_solvable = factorize_remainder(d);
+    }
+    catch(...)
+    {
+      remove_border();
+      throw;
+    }
     if(!is_solvable)
       remove_border();
     return is_solvable;
@@ -187,7 +197,8 @@ private:
   // The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
   // multipliers, whose diagonal entries of D are zero, is negative definite, and with them
   // eliminated the rest is positive definite: so they are the first pivots, and no others are
-  // needed. LDLT takes pivots by the size of the diagonal, which is scaled to one and a quarter.
+  // needed. LDLT takes pivots by the size of the diagonal, which is scaled to one for multipliers,
+  // and to at most a quarter for the others: what W takes from them may be all that D has.
   bool factorize_remainder(const Eigen::MatrixXd& d)
   {
     Eigen::MatrixXd remainder = d;
@@ -210,10 +221,10 @@ private:
       }
     });
     const Eigen::Array<bool, Eigen::Dynamic, 1> is_multiplier = d.diagonal().array() == 0;
-    m_scale = remainder.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    m_scale.resize(d.rows());
     for(Eigen::Index k = 0; k < m_scale.size(); ++k)
-      if(!is_multiplier[k])
-        m_scale[k] *= 0.5;
+      m_scale[k] = is_multiplier[k] ? 1 / std::sqrt(std::abs(remainder(k, k)))
+                                    : 0.5 / std::sqrt(std::abs(d(k, k)));
     if(!m_scale.allFinite())
       return false;
     remainder = m_scale.asDiagonal() * remainder * m_scale.asDiagonal();

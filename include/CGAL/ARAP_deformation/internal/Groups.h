@@ -15,6 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -72,11 +74,16 @@ inline Groups places_of(const Groups& groups, int n)
 }
 
 // Sorts pairs of a number and a value, in place, adds the values of those that have the same number
-// up, and returns how many are left. The sums do not depend on the order.
+// up, and returns how many are left. The sums do not depend on the order. Values may be no numbers.
 template <typename Iterator>
 int sort_and_add_up(Iterator begin, Iterator end)
 {
-  std::sort(begin, end);
+  const auto value = [](const auto& pair) {
+    return std::isnan(pair.second) ? std::numeric_limits<double>::infinity() : pair.second;
+  };
+  std::sort(begin, end, [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : value(a) < value(b);
+  });
   Iterator last = begin;
   for(Iterator it = begin; it != end;)
   {

@@ -66,7 +66,7 @@ public:
     Outcome checked = options.check();
     if(checked)
     {
-      note_change(options.cells != m_options.cells);
+      note_change(options.cells != m_options.cells, false);
       m_options = options;
     }
     return checked;
@@ -188,7 +188,7 @@ public:
       for(std::size_t k = 0; k < points.size(); ++k)
         m_vertices.entries()[k].present = std::move(points[k]);
     }
-    note_change(true);
+    note_change(true, false);
     for(auto& entry : m_vertices.entries())
       entry.rest = entry.present;
   }
@@ -226,12 +226,15 @@ private:
     return m_is_in_a_run;
   }
 
-  bool note_change(bool is_change)
+  // A factor may be of use for other free vertices, but not for other weights.
+  bool note_change(bool is_change, bool are_weights_the_same = true)
   {
     if(is_change)
     {
-      if(m_core)
-        m_idle_solver = m_core->take_solver(); // a factor may be of use for other free vertices
+      if(!are_weights_the_same)
+        m_idle_solver = {};
+      else if(m_core)
+        m_idle_solver = m_core->take_solver();
       m_core.reset();
       m_energy = not_a_number;
     }

@@ -63,6 +63,12 @@ inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_refe
   arena.execute([&] { f(0); });
 }
 
+// A thread that waits for others here takes no work of the caller's own parallel loops meanwhile.
+inline void run_in_isolation(const Task_reference& f)
+{
+  tbb::this_task_arena::isolate([&] { f(0); });
+}
+
 inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
 {
   tbb::parallel_for(std::size_t(0), n, f);
@@ -77,10 +83,13 @@ void run_with_threads(unsigned int number_of_threads, const Function& f)
 #ifdef CGAL_LINKED_WITH_TBB
   const auto task = [&](std::size_t) { f(); };
   if(number_of_threads > 0)
-    return run_with_tbb_threads(number_of_threads, Task_reference(task));
-#endif
+    run_with_tbb_threads(number_of_threads, Task_reference(task));
+  else
+    run_in_isolation(Task_reference(task));
+#else
   static_cast<void>(number_of_threads);
   f();
+#endif
 }
 
 // Calls f(k) for k in [0, n), in any order.

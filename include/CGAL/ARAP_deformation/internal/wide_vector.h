@@ -279,10 +279,12 @@ void run_kernel(const Arguments&... arguments)
 #ifdef CGAL_ARAP_HAS_DISPATCH
   if(has_avx2())
     return run_with_avx2<Kernel>(arguments...);
-#elif defined(__AVX2__)
-  return Kernel::run(arguments...);
 #endif
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__AVX2__)
+  Kernel::run(arguments...);
+#else
   Plain_kernel::run(arguments...);
+#endif
 }
 
 } // namespace internal
