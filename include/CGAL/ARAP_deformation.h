@@ -261,7 +261,8 @@ public:
   /// @{
 
   /// collects the region, computes weights and matrix, and factorizes it or takes the last factor
-  /// where few vertices have changed, unless that is up to date. `deform()` does so where needed. Which failures there are is said at `ARAP::Status`.
+  /// where few vertices have changed, unless that is up to date. `deform()` does so where needed.
+  /// Which failures there are is said at `ARAP::Status`.
   ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
   /// moves the control vertices to their targets and the free vertices after them, with the
