@@ -141,6 +141,7 @@ Json run(const Settings& settings)
                                {"median_ms", 1e3 * median(seconds)},
                                {"p99_ms", 1e3 * quantile(seconds, 0.99)},
                                {"p99_ratio", quantile(seconds, 0.99) / median(seconds)},
+                               {"cgal_median_ms", 1e3 * median(cgal_seconds)},
                                {"ratio", median(cgal_seconds) / median(seconds)}});
   };
   for(std::size_t k = 0; k < threads.size(); ++k)
