@@ -236,7 +236,8 @@ void plot_iteration_time(std::ostream& out, const Json& results, const std::stri
   for(unsigned int threads : thread_counts_of(results))
   {
     const auto is_wanted = [&](const Json& row) {
-      return row["threads"] == threads && (!row.contains("cells") || spokes(row));
+      return row["threads"] == threads && (!row.contains("cells") || spokes(row)) &&
+             row.value("solver", "default") == "default";
     };
     Json points = points_of(rows, "vertices", "iteration_ms", is_wanted);
     if(results.contains("growth"))
