@@ -64,8 +64,8 @@ Json make_summary(const Json& results)
                               {{"figure", "figure"}, {"other", "CGAL (tetrahedra: libigl)"},
                                {"ours", "ours"}, {"ratio", "ratio"},
                                {"one_thread_ratio", "ratio, one thread"}});
-  // Rows of a section with the same value of `key` are one figure: those of the default solver, with
-  // one thread and with all.
+  // Rows of a section with the same value of `key` are one figure: those of the default solver,
+  // with one thread and with all.
   const unsigned int threads = results["machine"]["threads"];
   const auto add = [&](const std::string& section, const std::string& key, const std::string& title,
                        const std::string& other, const std::string& ours,
@@ -280,21 +280,24 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
     plot.add("reading, " + threads_name(results, threads),
              "lines " + dashes + "linecolor rgb '#404040' ",
              section["streaming_of_" + std::to_string(threads)]);
-    for(const auto& [solver, style] :
+    for(const auto& solver_and_style :
         {std::pair<std::string, std::string>{"default", "pointtype 9 " + our_colour},
          {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
+    {
+      const std::string& solver = solver_and_style.first;
       plot.add("this package, " + solver + ", " + threads_name(results, threads),
-               "linespoints " + dashes + style,
+               "linespoints " + dashes + solver_and_style.second,
                points_of(section["rows"], "factor_mb", "gb_per_second", [&](const Json& row) {
                  return row["solver"] == "ours, " + solver && row["threads"] == threads;
                }));
+    }
   }
-  for(const auto& [solver, colour] :
+  for(const auto& solver_and_colour :
       {std::pair<std::string, std::string>{"Eigen LDLT", libigl_colour},
        {"CHOLMOD simplicial", other_colour}, {"CHOLMOD supernodal", cgal_colour}})
-    plot.add(solver, "linespoints pointtype 6 " + colour,
+    plot.add(solver_and_colour.first, "linespoints pointtype 6 " + solver_and_colour.second,
              points_of(section["rows"], "factor_mb", "gb_per_second",
-                       [&](const Json& row) { return row["solver"] == solver; }));
+                       [&](const Json& row) { return row["solver"] == solver_and_colour.first; }));
   plot.print(out);
 }
 
