@@ -118,8 +118,8 @@ void add_peak(const std::string& file, const std::string& name, double vertices,
     results["peak_memory"] = make_section(
       "Peak memory", "Megabytes of a process that deforms a mesh, the mesh included.",
       {{"vertices", "vertices"}, {"mesh_mb", "the mesh alone"}, {"ours_mb", "ours"},
-       {"ours_eigen_mb", "ours, Eigen"}, {"cgal_mb", "CGAL"},
-       {"libigl_mb", "libigl"}, {"ratio", "CGAL / ours"}});
+       {"ours_single_mb", "ours, single precision"}, {"ours_eigen_mb", "ours, Eigen"},
+       {"cgal_mb", "CGAL"}, {"libigl_mb", "libigl"}, {"ratio", "CGAL / ours"}});
   Json& rows = results["peak_memory"]["rows"];
   auto row = std::find_if(rows.begin(), rows.end(),
                           [&](const Json& r) { return r["vertices"] == vertices; });
@@ -282,6 +282,7 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
              section["streaming_of_" + std::to_string(threads)]);
     for(const auto& solver_and_style :
         {std::pair<std::string, std::string>{"default", "pointtype 9 " + our_colour},
+         {"single precision", "pointtype 5 linecolor rgb '#60a8e0' "},
          {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
     {
       const std::string& solver = solver_and_style.first;

@@ -67,7 +67,7 @@ void deform(Scenario& scenario, Deformation& deformation, const Preprocess& prep
 
 void deform_with(const std::string& name, Scenario& scenario)
 {
-  if(name == "ours" || name == "ours_eigen")
+  if(name == "ours" || name == "ours_single" || name == "ours_eigen")
   {
     const auto deform_by_traits = [&scenario](const auto& traits) {
       CGAL::ARAP_deformation<Mesh, std::decay_t<decltype(traits)>> deformation(scenario.mesh,
@@ -79,6 +79,9 @@ void deform_with(const std::string& name, Scenario& scenario)
     };
     if(name == "ours")
       deform_by_traits(Default_traits());
+    else if(name == "ours_single")
+      deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Single_precision_cholesky_solver,
+                                                       Clamped_angle_weight>());
     else
       deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver,
                                                        Clamped_angle_weight>());
@@ -112,8 +115,8 @@ int main(int argc, char** argv)
   if(argc < 3 || argc > 4)
   {
     std::cerr << "usage: peak_memory CLASS PARTS [MESH]\n"
-                 "  CLASS  ours, ours_eigen (Eigen's factor), cgal, libigl, or mesh, to read\n"
-                 "         it only\n"
+                 "  CLASS  ours, ours_single (a factor in single precision), ours_eigen (Eigen's\n"
+                 "         factor), cgal, libigl, or mesh, to read it only\n"
                  "  PARTS  each edge is cut into so many\n"
                  "Prints the number of vertices and the peak memory in megabytes.\n";
     return 2;

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -129,7 +130,8 @@ int main()
   swaps("CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT>",
         with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>(), direct);
 
-  // the errors of an iterative solver are corrections that come an iteration later
+  // the errors of these are corrections that come an iteration later
+  swaps("Single_precision_cholesky_solver", with_solver<Single_precision_cholesky_solver>(), 1e-6);
   swaps("Eigen_conjugate_gradient_solver", with_solver<Eigen_conjugate_gradient_solver>(), 1e-8);
   for(double tolerance : {1e-8, 1e-4})
   {

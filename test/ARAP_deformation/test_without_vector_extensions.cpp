@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/check_sparse_solver.h>
 
@@ -54,6 +55,8 @@ int main()
 {
   CHECK_CONFORMS(CGAL::ARAP::check_closest_rotation(CGAL::ARAP::Newton_closest_rotation()));
   CHECK_CONFORMS(CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Multifrontal_cholesky_solver()));
+  CHECK_CONFORMS(
+    CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Single_precision_cholesky_solver(), 2e-2));
   test_deformation();
   return checks_result();
 }

@@ -22,10 +22,10 @@
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
-
 
 #include <CGAL/Surface_mesh_deformation.h>
 
@@ -82,6 +82,8 @@ template <typename Weight, typename Function>
 void for_each_solver(const Function& f)
 {
   f(CGAL::ARAP_deformation_traits_3<ARAP::Multifrontal_cholesky_solver, Weight>(), "default");
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Single_precision_cholesky_solver, Weight>(),
+    "single precision");
   f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver, Weight>(), "Eigen");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");

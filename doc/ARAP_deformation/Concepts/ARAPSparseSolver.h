@@ -24,6 +24,7 @@ A call may throw, for example `std::bad_alloc`; the deformation is then as it wa
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Multifrontal_cholesky_solver}
+\cgalHasModels{CGAL::ARAP::Single_precision_cholesky_solver}
 \cgalHasModels{CGAL::ARAP::Cholmod_solver}
 \cgalHasModels{CGAL::ARAP::Eigen_cholesky_solver}
 \cgalHasModels{CGAL::ARAP::Eigen_sparse_solver<EigenSolver>}

@@ -73,7 +73,7 @@ public:
   bool factorize(const Sparse_matrix& a)
   {
     m_state->substitution.remove_border();
-    return m_state->cholesky.factorize(a);
+    return m_state->cholesky.factorize(a, m_state->values);
   }
 
   /// gives the matrix a border, or takes it away if `b` has no columns.
@@ -89,15 +89,15 @@ public:
   /// eigenvalues than `d` has zeros on its diagonal; there is no border then.
   bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
   {
-    return m_state->substitution.set_border(m_state->cholesky.structure(),
-                                            m_state->cholesky.values(), b, d);
+    return m_state->substitution.set_border(m_state->cholesky.structure(), m_state->values.get(), b,
+                                            d);
   }
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the
   /// factorized matrix, its border included. Time: two sweeps over the factor.
   bool solve(std::size_t n, Coordinates* x)
   {
-    m_state->substitution.solve(m_state->cholesky.structure(), m_state->cholesky.values(), n, x);
+    m_state->substitution.solve(m_state->cholesky.structure(), m_state->values.get(), n, x);
     return true;
   }
 
@@ -112,6 +112,7 @@ private:
     {}
 
     internal::Supernodal_cholesky cholesky;
+    std::unique_ptr<double[]> values;
     internal::Bordered_substitution substitution;
   };
 

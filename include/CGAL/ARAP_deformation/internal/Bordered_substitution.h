@@ -291,7 +291,7 @@ private:
     }
   }
 
-  Supernodal_substitution m_substitution;
+  Supernodal_substitution<double> m_substitution;
   std::vector<Group> m_groups;
   std::size_t m_border_size = 0;
   Eigen::VectorXd m_scale;

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -28,11 +29,13 @@ namespace internal {
 
 // The numeric factorization. Each supernode leaves to its parent what its columns subtract from the
 // rows below, as a dense matrix; so subtrees are independent, and all arithmetic is dense. See Liu,
-// The multifrontal method for sparse matrix solution: theory and practice.
+// The multifrontal method for sparse matrix solution: theory and practice. All is computed in
+// double, whatever numbers the factor is stored in.
+template <typename Number>
 class Multifrontal_cholesky
 {
 public:
-  Multifrontal_cholesky(const Supernodal_structure& structure, double* values)
+  Multifrontal_cholesky(const Supernodal_structure& structure, Number* values)
     : m_structure(structure), m_values(values), m_updates(structure.supernodes().size()),
       m_first_child(structure.supernodes().size(), -1),
       m_next_child(structure.supernodes().size(), -1)
@@ -54,13 +57,19 @@ public:
     m_structure.for_each_block_upwards([&](int k) {
       const Block& b = m_structure.blocks()[k];
       std::vector<int> places;
+      std::vector<double> columns; // of a supernode, if they are not computed where they are stored
       for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
       {
         const Supernode& supernode = m_structure.supernodes()[s];
-        double* const panel = m_values + supernode.values;
-        std::fill_n(panel, m_structure.size(supernode), 0);
+        const std::size_t size = m_structure.size(supernode);
+        Number* const stored = m_values + supernode.values;
+        double* const panel = place_of_panel(stored, size, columns);
+        std::fill_n(panel, size, 0);
         assemble(s, panel);
         factorize_supernode(k, s, panel, places);
+        if constexpr(!std::is_same_v<Number, double>)
+          std::transform(panel, panel + size, stored,
+                         [](double value) { return static_cast<Number>(value); });
       }
     });
   }
@@ -68,6 +77,17 @@ public:
 private:
   using Supernode = Supernodal_structure::Supernode;
   using Block = Supernodal_structure::Block;
+
+  static double* place_of_panel(Number* stored, std::size_t size, std::vector<double>& columns)
+  {
+    if constexpr(std::is_same_v<Number, double>)
+      return stored;
+    else
+    {
+      columns.resize((std::max)(columns.size(), size));
+      return columns.data();
+    }
+  }
 
   void factorize_supernode(int block, int index, double* panel, std::vector<int>& places)
   {
@@ -130,7 +150,7 @@ private:
   }
 
   const Supernodal_structure& m_structure;
-  double* m_values;
+  Number* m_values;
   std::vector<std::vector<double>> m_updates; // of supernodes whose parent is not factorized yet
   std::vector<int> m_first_child, m_next_child;
 };

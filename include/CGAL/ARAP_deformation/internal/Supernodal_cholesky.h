@@ -33,7 +33,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Sparse Cholesky factorization, for a given ordering.
+// Sparse Cholesky factorization for a given ordering, with the symbolic part done once.
 class Supernodal_cholesky
 {
 public:
@@ -55,19 +55,18 @@ public:
 
   const Supernodal_structure& structure() const { return m_structure; }
 
-  // the factor, with the reciprocals of its diagonal
-  const double* values() const { return m_values.get(); }
-
-  // Computes the factor of `a`. Returns `false` if `a` is not positive definite.
-  bool factorize(const Sparse_matrix& a)
+  // Computes the factor of `a`, with the reciprocals of its diagonal. The array is allocated if it
+  // is null. Returns `false` if `a` is not positive definite, or if the numbers do not reach.
+  template <typename Number>
+  bool factorize(const Sparse_matrix& a, std::unique_ptr<Number[]>& values) const
   {
-    if(!m_values)
-      m_values.reset(new double[m_values_size]); // the pages are first touched by the threads
-    Multifrontal_cholesky(m_structure, m_values.get()).factorize([&](int s, double* panel) {
+    if(!values)
+      values.reset(new Number[m_values_size]); // the pages are first touched by the threads
+    Multifrontal_cholesky<Number>(m_structure, values.get()).factorize([&](int s, double* panel) {
       for(std::size_t k = m_entries_begin[s]; k < m_entries_begin[s + 1]; ++k)
         panel[m_entries[k].place] += a.valuePtr()[m_entries[k].index];
     });
-    return has_positive_diagonal(m_structure, m_values.get());
+    return has_positive_diagonal(m_structure, values.get());
   }
 
 private:
@@ -133,7 +132,6 @@ private:
   Supernodal_structure m_structure;
   std::vector<std::size_t> m_entries_begin; // for each supernode
   std::vector<Entry> m_entries;
-  std::unique_ptr<double[]> m_values;
   std::size_t m_values_size = 0;
 };
 

@@ -74,16 +74,16 @@ public:
   const std::vector<Supernode>& supernodes() const { return m_supernodes; }
   const std::vector<Block>& blocks() const { return m_blocks; }
 
-  // the memory that a sweep over the factor has to read: what is on and below the diagonal, and the
-  // rows
-  std::size_t number_of_bytes() const
+  // the memory that a sweep over a factor of numbers of that size has to read: what is on and below
+  // the diagonal, and the rows
+  std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
   {
     std::size_t bytes = 0;
     for(const Supernode& s : m_supernodes)
     {
       const auto width = static_cast<std::size_t>(s.width);
       const auto below = static_cast<std::size_t>(s.below);
-      bytes += (width * (width + 1) / 2 + width * below) * sizeof(double) + below * sizeof(int);
+      bytes += (width * (width + 1) / 2 + width * below) * size_of_number + below * sizeof(int);
     }
     return bytes;
   }
@@ -330,12 +330,13 @@ private:
 };
 
 // whether the diagonal of a factor has only numbers that are positive and finite
-inline bool has_positive_diagonal(const Supernodal_structure& structure, const double* values)
+template <typename Number>
+bool has_positive_diagonal(const Supernodal_structure& structure, const Number* values)
 {
   for(const Supernodal_structure::Supernode& s : structure.supernodes())
     for(int j = 0; j < s.width; ++j)
     {
-      const double diagonal =
+      const Number diagonal =
         values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
       if(!(diagonal > 0 && std::isfinite(diagonal)))
         return false;

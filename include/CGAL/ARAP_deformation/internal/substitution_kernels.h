@@ -22,7 +22,7 @@
 // Substitution with the supernodes of one block, for four right-hand sides side by side. The values
 // of a supernode are read once, a few columns together, so that each row of the vector is read and
 // written once for all of them. Vectors are arrays of numbers, four for each row: an array of
-// Double4 would have another alignment for the code that makes it than for the wide kernels. In
+// Vector4 would have another alignment for the code that makes it than for the wide kernels. In
 // place of the diagonal there are its reciprocals.
 
 namespace CGAL {
@@ -34,35 +34,37 @@ namespace internal {
 template <int Width>
 struct Forward_columns
 {
-  CGAL_ARAP_ALWAYS_INLINE static void run(const double* values, std::size_t stride, int own,
-                                          const int* rows, int below, double* column,
-                                          double* vector)
+  template <typename Number>
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::size_t stride, int own,
+                                          const int* rows, int below, Number* column,
+                                          Number* vector)
   {
-    Double4 x[Width];
+    using Row = Vector4<Number>;
+    Row x[Width];
     for(int j = 0; j < Width; ++j)
     {
-      Double4 sum = Double4::load(column + 4 * j);
+      Row sum = Row::load(column + 4 * j);
       for(int i = 0; i < j; ++i)
-        sum = negative_multiply_add(Double4::all(values[i * stride + j]), x[i], sum);
-      x[j] = sum * Double4::all(values[j * stride + j]);
+        sum = negative_multiply_add(Row::all(values[i * stride + j]), x[i], sum);
+      x[j] = sum * Row::all(values[j * stride + j]);
       x[j].store(column + 4 * j);
     }
     values += Width;
     column += 4 * Width;
     for(int k = 0; k < own; ++k)
     {
-      Double4 sum = Double4::load(column + 4 * k);
+      Row sum = Row::load(column + 4 * k);
       for(int j = 0; j < Width; ++j)
-        sum = negative_multiply_add(Double4::all(values[j * stride + k]), x[j], sum);
+        sum = negative_multiply_add(Row::all(values[j * stride + k]), x[j], sum);
       sum.store(column + 4 * k);
     }
     values += own;
     for(int k = 0; k < below; ++k)
     {
-      double* const row = vector + 4 * std::ptrdiff_t(rows[k]);
-      Double4 sum = Double4::load(row);
+      Number* const row = vector + 4 * std::ptrdiff_t(rows[k]);
+      Row sum = Row::load(row);
       for(int j = 0; j < Width; ++j)
-        sum = negative_multiply_add(Double4::all(values[j * stride + k]), x[j], sum);
+        sum = negative_multiply_add(Row::all(values[j * stride + k]), x[j], sum);
       sum.store(row);
     }
   }
@@ -72,33 +74,35 @@ struct Forward_columns
 template <int Width>
 struct Backward_columns
 {
-  CGAL_ARAP_ALWAYS_INLINE static void run(const double* values, std::size_t stride, int own,
-                                          const int* rows, int below, double* column,
-                                          double* vector)
+  template <typename Number>
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::size_t stride, int own,
+                                          const int* rows, int below, Number* column,
+                                          Number* vector)
   {
-    Double4 sum[Width];
+    using Row = Vector4<Number>;
+    Row sum[Width];
     for(int j = 0; j < Width; ++j)
-      sum[j] = Double4::zero();
-    const double* const lower = values + Width + own;
+      sum[j] = Row::zero();
+    const Number* const lower = values + Width + own;
     for(int k = 0; k < below; ++k)
     {
-      const Double4 x = Double4::load(vector + 4 * std::ptrdiff_t(rows[k]));
+      const Row x = Row::load(vector + 4 * std::ptrdiff_t(rows[k]));
       for(int j = 0; j < Width; ++j)
-        sum[j] = multiply_add(Double4::all(lower[j * stride + k]), x, sum[j]);
+        sum[j] = multiply_add(Row::all(lower[j * stride + k]), x, sum[j]);
     }
     for(int k = 0; k < own; ++k)
     {
-      const Double4 x = Double4::load(column + 4 * (Width + k));
+      const Row x = Row::load(column + 4 * (Width + k));
       for(int j = 0; j < Width; ++j)
-        sum[j] = multiply_add(Double4::all(values[j * stride + Width + k]), x, sum[j]);
+        sum[j] = multiply_add(Row::all(values[j * stride + Width + k]), x, sum[j]);
     }
     for(int j = Width; j-- > 0;)
     {
-      const Double4 x = (Double4::load(column + 4 * j) - sum[j])
-                      * Double4::all(values[j * stride + j]);
+      const Row x = (Row::load(column + 4 * j) - sum[j])
+                      * Row::all(values[j * stride + j]);
       x.store(column + 4 * j);
       for(int i = 0; i < j; ++i)
-        sum[i] = multiply_add(Double4::all(values[i * stride + j]), x, sum[i]);
+        sum[i] = multiply_add(Row::all(values[i * stride + j]), x, sum[i]);
     }
   }
 };
@@ -126,13 +130,14 @@ CGAL_ARAP_ALWAYS_INLINE void run_columns(int width, Arguments... arguments)
 }
 
 // Has the values of a supernode, or its first ones, fetched from memory while others are worked on.
+template <typename Number>
 CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
-                                      const double* values)
+                                      const Number* values)
 {
 #if defined(__GNUC__)
-  constexpr std::size_t line = 8, most = 512; // numbers
+  constexpr std::size_t line = 64 / sizeof(Number), most = 64 * line;
   const std::size_t size = Supernodal_structure::size(s);
-  const double* const begin = values + s.values;
+  const Number* const begin = values + s.values;
   for(std::size_t k = 0; k < size && k < most; k += line)
     __builtin_prefetch(begin + k);
 #else
@@ -145,8 +150,9 @@ CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
 template <int most>
 struct Forward_supernodes
 {
+  template <typename Number>
   CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure& structure, int begin, int end,
-                                          const double* values, double* vector)
+                                          const Number* values, Number* vector)
   {
     for(int k = begin; k < end; ++k)
     {
@@ -154,7 +160,7 @@ struct Forward_supernodes
       if(k + 1 < end)
         prefetch(structure.supernodes()[k + 1], values);
       const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
-      const double* const first = values + s.values;
+      const Number* const first = values + s.values;
       for(int j = 0; j < s.width; j += most)
       {
         const int width = s.width - j < most ? s.width - j : most;
@@ -170,8 +176,9 @@ struct Forward_supernodes
 template <int most>
 struct Backward_supernodes
 {
+  template <typename Number>
   CGAL_ARAP_ALWAYS_INLINE static void run(const Supernodal_structure& structure, int begin, int end,
-                                          const double* values, double* vector)
+                                          const Number* values, Number* vector)
   {
     for(int k = end; k-- > begin;)
     {
@@ -179,7 +186,7 @@ struct Backward_supernodes
       if(k > begin)
         prefetch(structure.supernodes()[k - 1], values);
       const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
-      const double* const first = values + s.values;
+      const Number* const first = values + s.values;
       for(int j = (s.width - 1) / most * most; j >= 0; j -= most)
       {
         const int width = s.width - j < most ? s.width - j : most;
@@ -192,14 +199,16 @@ struct Backward_supernodes
 };
 
 // As many columns at a time as leave registers for the rest: eight with AVX2.
-inline void run_forward(const Supernodal_structure& structure, int begin, int end,
-                        const double* values, double* vector)
+template <typename Number>
+void run_forward(const Supernodal_structure& structure, int begin, int end, const Number* values,
+                 Number* vector)
 {
   run_kernel<Forward_supernodes<8>, Forward_supernodes<4>>(structure, begin, end, values, vector);
 }
 
-inline void run_backward(const Supernodal_structure& structure, int begin, int end,
-                         const double* values, double* vector)
+template <typename Number>
+void run_backward(const Supernodal_structure& structure, int begin, int end, const Number* values,
+                  Number* vector)
 {
   run_kernel<Backward_supernodes<8>, Backward_supernodes<4>>(structure, begin, end, values, vector);
 }

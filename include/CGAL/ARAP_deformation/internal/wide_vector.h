@@ -37,106 +37,115 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
+template <typename Number>
+struct Lanes_of;
+
+template <>
+struct Lanes_of<double> { using type = double __attribute__((vector_size(32))); };
+
+template <>
+struct Lanes_of<float> { using type = float __attribute__((vector_size(16))); };
+#endif
+
 // Four numbers side by side, on which the operations are done at once. The compilers make of it
-// what the processor has: one register of AVX, two of SSE2, NEON or WebAssembly. (Without alignas()
-// g++ aligns by what the program is compiled for, which is not enough for what is chosen later.)
-struct alignas(32) Double4
+// what the processor has: for double one register of AVX, two of SSE2, NEON or WebAssembly.
+// (Without alignas() g++ aligns by what the program is compiled for, which is not enough for what
+// is chosen later.)
+template <typename Number>
+struct alignas(4 * sizeof(Number)) Vector4
 {
   static constexpr int size = 4;
 
 #if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
-  using Lanes = double __attribute__((vector_size(32)));
+  using Lanes = typename Lanes_of<Number>::type;
   Lanes lanes;
 
-  CGAL_ARAP_ALWAYS_INLINE static Double4 of(double a, double b, double c, double d = 0)
+  CGAL_ARAP_ALWAYS_INLINE static Vector4 of(Number a, Number b, Number c, Number d = 0)
   { return {Lanes{a, b, c, d}}; }
 
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 operator+(const Double4& a, const Double4& b)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 operator+(const Vector4& a, const Vector4& b)
   { return {a.lanes + b.lanes}; }
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 operator-(const Double4& a, const Double4& b)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 operator-(const Vector4& a, const Vector4& b)
   { return {a.lanes - b.lanes}; }
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 operator*(const Double4& a, const Double4& b)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 operator*(const Vector4& a, const Vector4& b)
   { return {a.lanes * b.lanes}; }
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 operator/(const Double4& a, const Double4& b)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 operator/(const Vector4& a, const Vector4& b)
   { return {a.lanes / b.lanes}; }
 
   // a b + c, fused where the processor can: in one expression, or clang does not fuse it
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 multiply_add(const Double4& a, const Double4& b,
-                                                      const Double4& c)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 multiply_add(const Vector4& a, const Vector4& b,
+                                                      const Vector4& c)
   { return {a.lanes * b.lanes + c.lanes}; }
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 negative_multiply_add(const Double4& a, const Double4& b,
-                                                               const Double4& c)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 negative_multiply_add(const Vector4& a, const Vector4& b,
+                                                               const Vector4& c)
   { return {c.lanes - a.lanes * b.lanes}; }
-  friend CGAL_ARAP_ALWAYS_INLINE Double4 multiply_subtract(const Double4& a, const Double4& b,
-                                                           const Double4& c)
+  friend CGAL_ARAP_ALWAYS_INLINE Vector4 multiply_subtract(const Vector4& a, const Vector4& b,
+                                                           const Vector4& c)
   { return {a.lanes * b.lanes - c.lanes}; }
 #else
-  double lanes[4];
+  Number lanes[4];
 
-  static Double4 of(double a, double b, double c, double d = 0) { return {{a, b, c, d}}; }
+  static Vector4 of(Number a, Number b, Number c, Number d = 0) { return {{a, b, c, d}}; }
 
-  friend Double4 operator+(const Double4& a, const Double4& b)
+  friend Vector4 operator+(const Vector4& a, const Vector4& b)
   {
     return {{a.lanes[0] + b.lanes[0], a.lanes[1] + b.lanes[1],
              a.lanes[2] + b.lanes[2], a.lanes[3] + b.lanes[3]}};
   }
-  friend Double4 operator-(const Double4& a, const Double4& b)
+  friend Vector4 operator-(const Vector4& a, const Vector4& b)
   {
     return {{a.lanes[0] - b.lanes[0], a.lanes[1] - b.lanes[1],
              a.lanes[2] - b.lanes[2], a.lanes[3] - b.lanes[3]}};
   }
-  friend Double4 operator*(const Double4& a, const Double4& b)
+  friend Vector4 operator*(const Vector4& a, const Vector4& b)
   {
     return {{a.lanes[0] * b.lanes[0], a.lanes[1] * b.lanes[1],
              a.lanes[2] * b.lanes[2], a.lanes[3] * b.lanes[3]}};
   }
-  friend Double4 operator/(const Double4& a, const Double4& b)
+  friend Vector4 operator/(const Vector4& a, const Vector4& b)
   {
     return {{a.lanes[0] / b.lanes[0], a.lanes[1] / b.lanes[1],
              a.lanes[2] / b.lanes[2], a.lanes[3] / b.lanes[3]}};
   }
-  friend Double4 multiply_add(const Double4& a, const Double4& b, const Double4& c)
+  friend Vector4 multiply_add(const Vector4& a, const Vector4& b, const Vector4& c)
   { return a * b + c; }
-  friend Double4 negative_multiply_add(const Double4& a, const Double4& b, const Double4& c)
+  friend Vector4 negative_multiply_add(const Vector4& a, const Vector4& b, const Vector4& c)
   { return c - a * b; }
-  friend Double4 multiply_subtract(const Double4& a, const Double4& b, const Double4& c)
+  friend Vector4 multiply_subtract(const Vector4& a, const Vector4& b, const Vector4& c)
   { return a * b - c; }
 #endif
 
   // by way of memory, of which g++ makes one instruction where there is one; of(a, a, a, a) is
   // taken apart into halves before it is known what the caller is compiled for
-  CGAL_ARAP_ALWAYS_INLINE static Double4 all(double a)
+  CGAL_ARAP_ALWAYS_INLINE static Vector4 all(Number a)
   {
-    const double four[4] = {a, a, a, a};
+    const Number four[4] = {a, a, a, a};
     return load(four);
   }
 
-  CGAL_ARAP_ALWAYS_INLINE static Double4 zero() { return all(0); }
+  CGAL_ARAP_ALWAYS_INLINE static Vector4 zero() { return all(0); }
 
-  // four numbers in a row, at any address
-  CGAL_ARAP_ALWAYS_INLINE static Double4 load(const double* p)
-  {
-    Double4 a;
-    std::memcpy(&a.lanes, p, sizeof(a.lanes));
-    return a;
-  }
-
-  // four numbers in single precision
-  CGAL_ARAP_ALWAYS_INLINE static Double4 load(const float* p)
+  // four numbers in a row, at any address, which may be of another precision
+  template <typename Other>
+  CGAL_ARAP_ALWAYS_INLINE static Vector4 load(const Other* p)
   {
 #if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
-    float __attribute__((vector_size(16))) single;
-    std::memcpy(&single, p, sizeof(single));
-    return {__builtin_convertvector(single, Lanes)};
+    typename Lanes_of<Other>::type others;
+    std::memcpy(&others, p, sizeof(others));
+    return {__builtin_convertvector(others, Lanes)};
 #else
-    return {{p[0], p[1], p[2], p[3]}};
+    return {{static_cast<Number>(p[0]), static_cast<Number>(p[1]), static_cast<Number>(p[2]),
+             static_cast<Number>(p[3])}};
 #endif
   }
 
-  CGAL_ARAP_ALWAYS_INLINE void store(double* p) const { std::memcpy(p, &lanes, sizeof(lanes)); }
+  CGAL_ARAP_ALWAYS_INLINE void store(Number* p) const { std::memcpy(p, &lanes, sizeof(lanes)); }
 
-  CGAL_ARAP_ALWAYS_INLINE double operator[](int k) const { return lanes[k]; }
+  CGAL_ARAP_ALWAYS_INLINE Number operator[](int k) const { return lanes[k]; }
 };
+
+using Double4 = Vector4<double>;
 
 // Four truth values side by side: what comparisons return.
 struct alignas(32) Bool4

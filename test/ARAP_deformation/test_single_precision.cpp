@@ -1,0 +1,290 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The factor in single precision: what its solutions are worth, when it gives way to one in double
+// precision, and that the minimizers reach the same minimum with either.
+
+#include "include/check.h"
+#include "include/conformance.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/check_sparse_solver.h>
+#include <CGAL/ARAP_deformation/internal/parallel.h>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace CGAL::ARAP;
+
+using Rows = std::vector<Coordinates>;
+
+// the Laplacian of a grid that is held along one side by weights of the size `hold`
+Sparse_matrix grid_matrix(int columns, int rows, double hold, double factor = 1)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add_edge = [&](int i, int j, double weight) {
+    entries.emplace_back(i, i, factor * weight);
+    entries.emplace_back(j, j, factor * weight);
+    entries.emplace_back((std::max)(i, j), (std::min)(i, j), -factor * weight);
+  };
+  for(int i = 0; i < columns; ++i)
+    for(int j = 0; j < rows; ++j)
+    {
+      const double weight = 1 + 0.5 * std::sin(3 * i + 7 * j);
+      if(i + 1 < columns) add_edge(i * rows + j, (i + 1) * rows + j, weight);
+      if(j + 1 < rows) add_edge(i * rows + j, i * rows + j + 1, weight);
+      if(i == 0) entries.emplace_back(j, j, factor * hold);
+    }
+  Sparse_matrix a(columns * rows, columns * rows);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+Rows random_rows(std::size_t n, double size = 1)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-size, size);
+  Rows rows(n);
+  for(Coordinates& row : rows)
+    for(double& entry : row)
+      entry = number(random);
+  return rows;
+}
+
+template <typename Solver>
+Rows solution(Solver& solver, Rows b)
+{
+  CHECK(solver.solve(b.size(), b.data()));
+  return b;
+}
+
+// the largest difference relative to the largest entry of `expected`
+double relative_error(const Rows& x, const Rows& expected)
+{
+  double difference = 0, largest = 0;
+  for(std::size_t k = 0; k < x.size(); ++k)
+    for(int c = 0; c < 3; ++c)
+    {
+      difference = (std::max)(difference, std::abs(x[k][c] - expected[k][c]));
+      largest = (std::max)(largest, std::abs(expected[k][c]));
+      if(!std::isfinite(x[k][c]))
+        return std::numeric_limits<double>::infinity();
+    }
+  return difference / largest;
+}
+
+template <typename Solver>
+Solver factorized(const Sparse_matrix& a)
+{
+  Solver solver;
+  CHECK(solver.analyze(a));
+  CHECK(solver.factorize(a));
+  return solver;
+}
+
+void test_accuracy()
+{
+  test_case() = "accuracy";
+  const Sparse_matrix a = grid_matrix(80, 70, 1);
+  auto single = factorized<Single_precision_cholesky_solver>(a);
+  auto twice = factorized<Multifrontal_cholesky_solver>(a);
+  CHECK(single.is_single_precision());
+  CHECK(single.factor_bytes() < 0.6 * twice.factor_bytes());
+  const Rows b = random_rows(80 * 70), expected = solution(twice, b);
+  const double error = relative_error(solution(single, b), expected);
+  CHECK_AT_MOST(error, 1e-4);
+  CHECK(error > 1e-9); // it is in single precision
+
+  // in residual form it is as good as the other after few steps, as the minimizers need it
+  Rows x(b.size(), Coordinates{0, 0, 0});
+  for(int k = 0; k < 4; ++k)
+  {
+    Rows residual = b;
+    for(int column = 0; column < a.cols(); ++column)
+      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+        for(int c = 0; c < 3; ++c)
+        {
+          residual[entry.row()][c] -= entry.value() * x[column][c];
+          if(entry.row() != column)
+            residual[column][c] -= entry.value() * x[entry.row()][c];
+        }
+    const Rows step = solution(single, residual);
+    for(std::size_t v = 0; v < x.size(); ++v)
+      for(int c = 0; c < 3; ++c)
+        x[v][c] += step[v][c];
+  }
+  CHECK_AT_MOST(relative_error(x, expected), 1e-11);
+}
+
+// Neither right-hand sides nor matrices need be of the size of single precision's numbers.
+void test_range()
+{
+  for(double size : {1e-140, 1e-60, 1e60, 1e140})
+  {
+    test_case() = "a right-hand side of the size " + std::to_string(size);
+    const Sparse_matrix a = grid_matrix(20, 15, 1);
+    auto single = factorized<Single_precision_cholesky_solver>(a);
+    auto twice = factorized<Multifrontal_cholesky_solver>(a);
+    CHECK(single.is_single_precision());
+    const Rows b = random_rows(20 * 15, size);
+    CHECK_AT_MOST(relative_error(solution(single, b), solution(twice, b)), 1e-5);
+  }
+  for(double factor : {1e-200, 1e-100, 1e-60, 1e60, 1e100, 1e200})
+  {
+    test_case() = "a matrix of the size " + std::to_string(factor);
+    const Sparse_matrix a = grid_matrix(20, 15, 1, factor);
+    auto single = factorized<Single_precision_cholesky_solver>(a);
+    auto twice = factorized<Multifrontal_cholesky_solver>(a);
+    const Rows b = random_rows(20 * 15);
+    CHECK_AT_MOST(relative_error(solution(single, b), solution(twice, b)), 1e-5);
+  }
+  test_case() = "zeros";
+  auto single = factorized<Single_precision_cholesky_solver>(grid_matrix(20, 15, 1));
+  const Rows zeros(20 * 15, Coordinates{0, 0, 0});
+  CHECK(solution(single, zeros) == zeros);
+}
+
+// The worse a grid is held, the worse is the matrix conditioned. Where the factor gives way, its
+// solutions are those in double precision.
+void test_fallback()
+{
+  Single_precision_cholesky_solver solver;
+  CHECK(solver.analyze(grid_matrix(60, 30, 1)));
+  int number_of_singles = 0, number_of_doubles = 0;
+  for(double hold = 1; hold > 1e-13; hold /= 10)
+  {
+    test_case() = "held by " + std::to_string(hold);
+    const Sparse_matrix a = grid_matrix(60, 30, hold);
+    CHECK(solver.factorize(a));
+    auto twice = factorized<Multifrontal_cholesky_solver>(a);
+    const Rows b = random_rows(60 * 30), expected = solution(twice, b);
+    const double error = relative_error(solution(solver, b), expected);
+    if(solver.is_single_precision())
+    {
+      ++number_of_singles;
+      CHECK_AT_MOST(error, 2e-2);
+      CHECK(number_of_doubles == 0);
+    }
+    else
+    {
+      ++number_of_doubles;
+      CHECK(solver.factor_bytes() == twice.factor_bytes());
+      CHECK(solution(solver, b) == expected);
+    }
+  }
+  CHECK(number_of_singles > 2 && number_of_doubles > 2);
+  CHECK(solver.factorize(grid_matrix(60, 30, 1)));
+  CHECK(solver.is_single_precision()); // again
+}
+
+void test_threads()
+{
+  test_case() = "threads";
+  const Sparse_matrix a = grid_matrix(170, 110, 1);
+  const Rows b = random_rows(170 * 110);
+  Rows first;
+  for(unsigned int threads : {1u, 2u, 8u, 0u})
+    internal::run_with_threads(threads, [&] {
+      auto solver = factorized<Single_precision_cholesky_solver>(a);
+      const Rows x = solution(solver, b);
+      CHECK(solver.is_single_precision());
+      if(first.empty())
+        first = x;
+      CHECK(x == first);
+    });
+}
+
+struct Run
+{
+  Report report;
+  std::vector<Eigen::Vector3d> points;
+};
+
+template <typename Solver>
+Run run(const Shape& shape, const Options& options, unsigned int iterations, double tolerance)
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits_3<Solver>> deformation(mesh);
+  CHECK(deformation.set_options(options));
+  prepare(deformation, scenario(shape), all_vertices(mesh));
+  Run result;
+  result.report = deformation.deform(iterations, tolerance);
+  CHECK(succeeded(result.report.status));
+  for(auto v : mesh.vertices())
+    result.points.push_back(vector(mesh.point(v)));
+  for(std::size_t k = 1; k < result.report.energy.size(); ++k)
+    CHECK_AT_MOST(result.report.energy[k],
+                  result.report.energy[k - 1] + 1e-15 * result.report.energy_scale);
+  return result;
+}
+
+double largest_difference(const Run& a, const Run& b)
+{
+  double largest = 0;
+  for(std::size_t v = 0; v < a.points.size(); ++v)
+    largest = (std::max)(largest, (a.points[v] - b.points[v]).norm());
+  return largest;
+}
+
+// Each iterate to the accuracy of a solution, and the minimum exactly.
+void test_minima()
+{
+  for(const Shape& shape : shapes())
+    for(Cell_scheme cells :
+        {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+    {
+      test_case() = shape.name;
+      Options options;
+      options.cells = cells;
+      options.minimizer = Minimizer::local_global;
+      const Run few = run<Single_precision_cholesky_solver>(shape, options, 10, 0);
+      const Run few_expected = run<Multifrontal_cholesky_solver>(shape, options, 10, 0);
+      CHECK_AT_MOST(largest_difference(few, few_expected), 1e-5 * shape.diameter());
+
+      options.minimizer = Minimizer::quasi_newton;
+      const Run all = run<Single_precision_cholesky_solver>(shape, options, 2000, 1e-10);
+      const Run all_expected = run<Multifrontal_cholesky_solver>(shape, options, 2000, 1e-10);
+      CHECK(all.report.status == all_expected.report.status);
+      if(all.report.status == Status::iteration_limit)
+        continue; // a surface that may be folded in many ways, with energies close to each other
+      CHECK_AT_MOST(std::abs(all.report.energy.back() - all_expected.report.energy.back()),
+                    1e-9 * all_expected.report.energy.back() + 1e-15 * all.report.energy_scale);
+      CHECK_AT_MOST(all.report.iterations, 1.2 * all_expected.report.iterations + 10);
+    }
+}
+
+int main()
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  // as many threads as are asked for, and not only as many as there are cores
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
+#endif
+  CHECK_CONFORMS(check_sparse_solver(Single_precision_cholesky_solver(), 2e-2));
+  CHECK_CAUGHT(check_sparse_solver(Single_precision_cholesky_solver()), "relative residual");
+  test_accuracy();
+  test_range();
+  test_fallback();
+  test_threads();
+  test_minima();
+  return checks_result();
+}
