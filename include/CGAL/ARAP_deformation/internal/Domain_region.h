@@ -128,21 +128,21 @@ private:
       bool are_simplices = true;
       domain.for_each_incident_simplex(
         vertices[v], [&](simplex_descriptor s, const auto& corners) {
+          // what has a smaller corner was visited there, and all of its corners have numbers
           bool is_first_visit = true;
           for(vertex_descriptor corner : corners)
           {
             flat.corners.push_back(number(domain, corner));
-            is_first_visit &= flat.corners.back() >= v;
+            is_first_visit = flat.corners.back() >= v;
+            if(!is_first_visit)
+              break;
           }
+          if(!is_first_visit)
+            return flat.corners.resize(flat.first_corner.back());
           are_simplices &= is_simplex(flat.corners.begin() + flat.first_corner.back(),
                                       flat.corners.end());
-          if(is_first_visit)
-          {
-            simplices.push_back(s);
-            flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
-          }
-          else
-            flat.corners.resize(flat.first_corner.back());
+          simplices.push_back(s);
+          flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
         });
       if(!are_simplices)
         return false;

@@ -153,28 +153,26 @@ Stars star_edge_sets(const EdgeWeight& weight, const Simplices& simplices, const
   const Groups places = places_of(simplices.corners, n); // the corners at each centre
   const std::vector<int> simplex_of_place = list_of_each(simplices.corners);
 
-  // the neighbours of centre i, with the sum of the weights of all simplices at the edge
+  // the neighbours of the centres, with the sum of the weights of all simplices at the edge, block
+  // after block
   using Neighbour = std::pair<int, double>;
-  const auto find_star = [&](std::size_t i, std::vector<Neighbour>& star) {
-    star.clear();
-    for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
-    {
-      const int place = places.items[k], s = simplex_of_place[place];
-      for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
-        if(other != place)
-          star.emplace_back(simplices.corners.items[other], simplices.weight(s, place, other));
-    }
-    star.resize(sort_and_add_up(star.begin(), star.end()));
-  };
-
+  std::vector<std::vector<Neighbour>> blocks(n / default_block_size + 1);
   Stars stars;
   stars.neighbours.begin.resize(n + 1);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> star;
+    std::vector<Neighbour>& block = blocks[begin / default_block_size];
     for(std::size_t i = begin; i < end; ++i)
     {
-      find_star(i, star);
-      stars.neighbours.begin[i + 1] = static_cast<int>(star.size());
+      const auto size = static_cast<std::ptrdiff_t>(block.size());
+      for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
+      {
+        const int place = places.items[k], s = simplex_of_place[place];
+        for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
+          if(other != place)
+            block.emplace_back(simplices.corners.items[other], simplices.weight(s, place, other));
+      }
+      stars.neighbours.begin[i + 1] = sort_and_add_up(block.begin() + size, block.end());
+      block.resize(static_cast<std::size_t>(size + stars.neighbours.begin[i + 1]));
     }
   });
   std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
@@ -182,18 +180,16 @@ Stars star_edge_sets(const EdgeWeight& weight, const Simplices& simplices, const
   stars.neighbours.items.resize(stars.neighbours.begin.back());
   stars.weights.resize(stars.neighbours.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> star;
+    auto neighbour = blocks[begin / default_block_size].begin();
     for(std::size_t i = begin; i < end; ++i)
-    {
-      find_star(i, star);
-      int e = stars.neighbours.begin[i];
-      for(const auto& [j, w] : star)
+      for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e, ++neighbour)
       {
+        const auto& [j, w] = *neighbour;
         stars.neighbours.items[e] = j;
-        stars.weights[e++] =
+        stars.weights[e] =
           weight.edge_weight(Edge_set::star, region.indices[i], region.indices[j], w);
       }
-    }
+    std::vector<Neighbour>().swap(blocks[begin / default_block_size]);
   });
   return stars;
 }

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -102,15 +103,19 @@ private:
   static std::vector<Row_sums> row_sums(const Rigidity_energy& energy,
                                         const std::vector<std::size_t>& indices)
   {
+    // a number of [0, 1) for each vertex: multiples of the golden ratio, without the integer part
+    std::vector<double> factors(indices.size());
+    std::transform(indices.begin(), indices.end(), factors.begin(), [](std::size_t index) {
+      return std::ldexp(static_cast<double>(std::uint64_t(index) * 0x9e3779b97f4a7c15u >> 11), -53);
+    });
     const int n = energy.number_of_free_vertices();
     std::vector<Row_sums> sums(n);
     const auto add = [&](int i, int neighbour, double weight) {
       if(i >= n)
         return;
-      const double golden = 0.6180339887498949;
       sums[i].plain += weight;
       sums[i].absolute += std::abs(weight);
-      sums[i].weighted += weight * std::fmod(golden * static_cast<double>(indices[neighbour]), 1);
+      sums[i].weighted += weight * factors[neighbour];
     };
     energy.for_each_edge([&](int i, int j, double weight) {
       add(i, j, weight);
