@@ -17,13 +17,14 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/checks.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-using Deformation = CGAL::ARAP_deformation<Mesh>;
 using CGAL::ARAP::Cell_scheme;
 
 double largest_distance(const Mesh& mesh, const std::vector<Eigen::Vector3d>& x)
@@ -34,8 +35,11 @@ double largest_distance(const Mesh& mesh, const std::vector<Eigen::Vector3d>& x)
   return distance;
 }
 
-int main()
+template <typename Solver>
+void test()
 {
+  using Deformation =
+    CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits_3<Solver>>;
   for(const Shape& shape : shapes())
     for(Cell_scheme cells :
         {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
@@ -77,5 +81,11 @@ int main()
       CHECK_AT_MOST(std::abs(run.energy[0] - report.energy[0]),
                     1e-8 * report.energy[0] + 1e-14 * report.energy_scale);
     }
+}
+
+int main()
+{
+  test<CGAL::ARAP::Multifrontal_cholesky_solver>();
+  test<CGAL::ARAP::Single_precision_cholesky_solver>();
   return checks_result();
 }

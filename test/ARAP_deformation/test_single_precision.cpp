@@ -139,9 +139,10 @@ void test_accuracy()
 // Neither right-hand sides nor matrices need be of the size of single precision's numbers.
 void test_range()
 {
-  for(double size : {1e-140, 1e-60, 1e60, 1e140})
+  for(int exponent : {-250, -60, 60, 250})
   {
-    test_case() = "a right-hand side of the size " + std::to_string(size);
+    test_case() = "a right-hand side of the size 1e" + std::to_string(exponent);
+    const double size = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(20, 15, 1);
     auto single = factorized<Single_precision_cholesky_solver>(a);
     auto twice = factorized<Multifrontal_cholesky_solver>(a);
@@ -149,12 +150,14 @@ void test_range()
     const Rows b = random_rows(20 * 15, size);
     CHECK_AT_MOST(relative_error(solution(single, b), solution(twice, b)), 1e-5);
   }
-  for(double factor : {1e-200, 1e-100, 1e-60, 1e60, 1e100, 1e200})
+  for(int exponent : {-200, -100, -60, -12, 12, 60, 100, 200})
   {
-    test_case() = "a matrix of the size " + std::to_string(factor);
+    test_case() = "a matrix of the size 1e" + std::to_string(exponent);
+    const double factor = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(20, 15, 1, factor);
     auto single = factorized<Single_precision_cholesky_solver>(a);
     auto twice = factorized<Multifrontal_cholesky_solver>(a);
+    CHECK(single.is_single_precision() == (std::abs(exponent) < 40));
     const Rows b = random_rows(20 * 15);
     CHECK_AT_MOST(relative_error(solution(single, b), solution(twice, b)), 1e-5);
   }
@@ -171,9 +174,10 @@ void test_fallback()
   Single_precision_cholesky_solver solver;
   CHECK(solver.analyze(grid_matrix(60, 30, 1)));
   int number_of_singles = 0, number_of_doubles = 0;
-  for(double hold = 1; hold > 1e-13; hold /= 10)
+  for(int exponent = 0; exponent >= -15; --exponent)
   {
-    test_case() = "held by " + std::to_string(hold);
+    test_case() = "held by 1e" + std::to_string(exponent);
+    const double hold = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(60, 30, hold);
     CHECK(solver.factorize(a));
     auto twice = factorized<Multifrontal_cholesky_solver>(a);
@@ -195,6 +199,27 @@ void test_fallback()
   CHECK(number_of_singles > 2 && number_of_doubles > 2);
   CHECK(solver.factorize(grid_matrix(60, 30, 1)));
   CHECK(solver.is_single_precision()); // again
+}
+
+// The factor fails in a few rows only, of which the solution for most right-hand sides has little.
+void test_fallback_of_a_part()
+{
+  test_case() = "a small, stiff part that is hardly held";
+  const Sparse_matrix large = grid_matrix(100, 90, 1), small = grid_matrix(5, 5, 1e-12, 1e14);
+  for(const bool is_bad : {false, true})
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&entries](const Sparse_matrix& a, int first) {
+      for(int column = 0; column < a.cols(); ++column)
+        for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+          entries.emplace_back(first + entry.row(), first + column, entry.value());
+    };
+    add(large, 0);
+    add(is_bad ? small : grid_matrix(5, 5, 1, 1e14), 100 * 90);
+    Sparse_matrix a(100 * 90 + 25, 100 * 90 + 25);
+    a.setFromTriplets(entries.begin(), entries.end());
+    CHECK(factorized<Single_precision_cholesky_solver>(a).is_single_precision() == !is_bad);
+  }
 }
 
 void test_threads()
@@ -249,6 +274,7 @@ double largest_difference(const Run& a, const Run& b)
 // Each iterate to the accuracy of a solution, and the minimum exactly.
 void test_minima()
 {
+  int number_of_minima = 0, number_of_differences = 0;
   for(const Shape& shape : shapes())
     for(Cell_scheme cells :
         {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
@@ -259,7 +285,9 @@ void test_minima()
       options.minimizer = Minimizer::local_global;
       const Run few = run<Single_precision_cholesky_solver>(shape, options, 10, 0);
       const Run few_expected = run<Multifrontal_cholesky_solver>(shape, options, 10, 0);
-      CHECK_AT_MOST(largest_difference(few, few_expected), 1e-5 * shape.diameter());
+      const double difference = largest_difference(few, few_expected) / shape.diameter();
+      CHECK_AT_MOST(difference, 1e-5);
+      number_of_differences += difference > 1e-11;
 
       options.minimizer = Minimizer::quasi_newton;
       const Run all = run<Single_precision_cholesky_solver>(shape, options, 2000, 1e-10);
@@ -267,9 +295,37 @@ void test_minima()
       CHECK(all.report.status == all_expected.report.status);
       if(all.report.status == Status::iteration_limit)
         continue; // a surface that may be folded in many ways, with energies close to each other
+      ++number_of_minima;
       CHECK_AT_MOST(std::abs(all.report.energy.back() - all_expected.report.energy.back()),
                     1e-9 * all_expected.report.energy.back() + 1e-15 * all.report.energy_scale);
+      // some of the minima are that flat that rounding decides about the way there
       CHECK_AT_MOST(all.report.iterations, 2 * all_expected.report.iterations + 10);
+    }
+  CHECK(number_of_minima > 20);
+  CHECK(number_of_differences > 5); // else nothing was in single precision
+}
+
+// A long strip that is held at its ends, and one with triangles of all shapes, needles among them:
+// the energy does not rise (see run()), and the minimum is the same.
+void test_badly_conditioned_shapes()
+{
+  const auto strip = [](const std::string& name, double u_power, double height) {
+    return grid(name, 1500, 2, [=](double u, double v) {
+      return Eigen::Vector3d(40 * std::pow(u, u_power), height * v, 0.5 * std::sin(30 * u));
+    });
+  };
+  for(const Shape& shape : {strip("a long strip", 1, 0.1), strip("a strip of needles", 3, 0.1),
+                            strip("a narrow strip", 1, 1e-6)})
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      test_case() = shape.name;
+      Options options;
+      options.minimizer = minimizer;
+      const double tolerance = minimizer == Minimizer::quasi_newton ? 1e-8 : 0;
+      const Run single = run<Single_precision_cholesky_solver>(shape, options, 300, tolerance);
+      const Run expected = run<Multifrontal_cholesky_solver>(shape, options, 300, tolerance);
+      CHECK_AT_MOST(std::abs(single.report.energy.back() - expected.report.energy.back()),
+                    1e-6 * expected.report.energy.front());
     }
 }
 
@@ -284,7 +340,9 @@ int main()
   test_accuracy();
   test_range();
   test_fallback();
+  test_fallback_of_a_part();
   test_threads();
   test_minima();
+  test_badly_conditioned_shapes();
   return checks_result();
 }

@@ -229,12 +229,11 @@ private:
 };
 
 // Fails unless our iterates are those of CGAL's class: both solve the same problem by the same
-// steps. Returns the largest difference, relative to the bounding box.
-template <typename Weight, CGAL::Deformation_algorithm_tag Tag>
-double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells)
+// steps. Returns the largest difference, relative to the bounding box, which is at most `bound`.
+template <typename Weight, CGAL::Deformation_algorithm_tag Tag, typename Solver = CGAL::Default>
+double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells, double bound = 1e-8)
 {
-  using Traits =
-    CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight, Rotation_after_identity>;
+  using Traits = CGAL::ARAP_deformation_traits_3<Solver, Weight, Rotation_after_identity>;
   bool is_identity = true;
   Our_deformation<Traits> ours(scenario,
                                Traits(typename Traits::Sparse_solver(), Weight(),
@@ -247,7 +246,7 @@ double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells)
     cgal.run(iterations);
     largest = (std::max)(largest, largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal);
   }
-  verify_at_most(largest, 1e-8, "the largest difference of the iterates of our class and CGAL's, "
+  verify_at_most(largest, bound, "the largest difference of the iterates of our class and CGAL's, "
                                 "relative to the bounding box,");
   return largest;
 }

@@ -58,14 +58,25 @@ public:
   // Moves the free vertices of x. Returns false if the solver failed.
   bool operator()(std::vector<Coordinates>& x)
   {
-    // the condition number of L^T L is the square of that of L: a second pass refines the first
-    for(int pass = 0; pass < 2; ++pass)
+    // The condition number of L^T L is the square of that of L: further passes refine the first one,
+    // until they move nothing any more, or gain nothing.
+    double first = 0, last = 0;
+    for(int pass = 0; pass < 8; ++pass)
     {
       compute_right_hand_side(x);
       if(!m_solver.solve(m_step.size(), m_step.data()))
         return false;
+      double size = 0;
       for(std::size_t v = 0; v < m_step.size(); ++v)
+      {
         add(x[v], 1, m_step[v]);
+        size += dot(m_step[v], m_step[v]);
+      }
+      if(pass == 0)
+        first = size;
+      else if(size <= 1e-20 * first || (pass > 1 && size > 0.25 * last))
+        break;
+      last = size;
     }
     return true;
   }

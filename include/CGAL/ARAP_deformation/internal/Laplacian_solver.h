@@ -60,9 +60,15 @@ public:
     Diagnosis diagnosis = find_fault(energy, laplacian);
     if(diagnosis.status != Status::success)
       return diagnosis;
-    std::vector<Row_sums> sums = row_sums(energy, indices);
-    if(!border_factor(laplacian, indices, sums) &&
-       !factorize(laplacian, indices, std::move(sums), prototype))
+    bool is_ready = false;
+    if constexpr(can_have_border<Solver>)
+    {
+      std::vector<Row_sums> sums = row_sums(energy, indices);
+      is_ready = border_factor(laplacian, indices, sums);
+      if(!is_ready)
+        remember(indices, std::move(sums));
+    }
+    if(!is_ready && !factorize(laplacian, prototype))
       diagnosis.status = Status::singular_matrix;
     return diagnosis;
   }
@@ -124,17 +130,22 @@ private:
     return sums;
   }
 
-  bool factorize(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
-                 std::vector<Row_sums> sums, const Solver& prototype)
+  // what tells later whether the factor serves
+  void remember(const std::vector<std::size_t>& indices, std::vector<Row_sums> sums)
+  {
+    m_solver.reset();
+    m_base_rows = Paged_index_map();
+    m_base_sums = std::move(sums);
+    for(int v = 0; v < base_size(); ++v)
+      m_base_rows.set(indices[v], v);
+  }
+
+  bool factorize(const Sparse_matrix& laplacian, const Solver& prototype)
   {
     m_solver.reset();
     m_rows.clear();
-    m_base_rows = Paged_index_map();
-    m_base_sums = std::move(sums);
-    if(m_base_sums.empty())
+    if(laplacian.rows() == 0)
       return true;
-    for(int v = 0; v < base_size(); ++v)
-      m_base_rows.set(indices[v], v);
     Solver solver(prototype);
     if(!solver.analyze(laplacian) || !solver.factorize(laplacian))
       return false;
@@ -145,57 +156,52 @@ private:
   bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
                      const std::vector<Row_sums>& sums)
   {
-    if constexpr(can_have_border<Solver>)
-    {
-      if(!m_solver)
-        return false;
-      const int n = static_cast<int>(laplacian.rows());
-      std::vector<int> rows(n);
-      std::vector<char> is_free(base_size(), false);
-      int number_of_rows = base_size();
-      for(int v = 0; v < n; ++v)
-      {
-        const int row = m_base_rows[indices[v]];
-        rows[v] = row != Paged_index_map::none ? row : number_of_rows++;
-        if(row == Paged_index_map::none)
-          continue;
-        if(!sums[v].is_about(m_base_sums[row]))
-          return false;
-        is_free[row] = true;
-      }
-      const int number_of_freed = number_of_rows - base_size();
-      const int number_of_kept = n - number_of_freed;
-      const std::size_t border_size =
-        static_cast<std::size_t>(number_of_freed) + (base_size() - number_of_kept);
-      if(border_size > largest_border)
-        return false;
-
-      std::vector<Eigen::Triplet<double, int>> entries;
-      Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(border_size, border_size);
-      for(int v = 0; v < n; ++v)
-        for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
-        {
-          const int i = (std::max)(rows[v], rows[entry.row()]) - base_size();
-          const int j = (std::min)(rows[v], rows[entry.row()]);
-          if(i >= 0 && j < base_size())
-            entries.emplace_back(j, i, entry.value());
-          else if(i >= 0)
-            corner(i, j - base_size()) = corner(j - base_size(), i) = entry.value();
-        }
-      for(int row = 0; row < base_size(); ++row)
-        if(!is_free[row])
-          entries.emplace_back(row, number_of_rows++ - base_size(), 1);
-      Sparse_matrix border(base_size(), border_size);
-      border.setFromTriplets(entries.begin(), entries.end());
-      if(!m_solver->set_border(border, corner))
-        return false;
-      const bool are_same = border_size == 0 && std::is_sorted(rows.begin(), rows.end());
-      m_rows = are_same ? std::vector<int>() : std::move(rows);
-      m_number_of_rows = static_cast<std::size_t>(number_of_rows);
-      return true;
-    }
-    else
+    if(!m_solver)
       return false;
+    const int n = static_cast<int>(laplacian.rows());
+    std::vector<int> rows(n);
+    std::vector<char> is_free(base_size(), false);
+    int number_of_rows = base_size();
+    for(int v = 0; v < n; ++v)
+    {
+      const int row = m_base_rows[indices[v]];
+      rows[v] = row != Paged_index_map::none ? row : number_of_rows++;
+      if(row == Paged_index_map::none)
+        continue;
+      if(!sums[v].is_about(m_base_sums[row]))
+        return false;
+      is_free[row] = true;
+    }
+    const int number_of_freed = number_of_rows - base_size();
+    const int number_of_kept = n - number_of_freed;
+    const std::size_t border_size =
+      static_cast<std::size_t>(number_of_freed) + (base_size() - number_of_kept);
+    if(border_size > largest_border)
+      return false;
+
+    std::vector<Eigen::Triplet<double, int>> entries;
+    Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(border_size, border_size);
+    for(int v = 0; v < n; ++v)
+      for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
+      {
+        const int i = (std::max)(rows[v], rows[entry.row()]) - base_size();
+        const int j = (std::min)(rows[v], rows[entry.row()]);
+        if(i >= 0 && j < base_size())
+          entries.emplace_back(j, i, entry.value());
+        else if(i >= 0)
+          corner(i, j - base_size()) = corner(j - base_size(), i) = entry.value();
+      }
+    for(int row = 0; row < base_size(); ++row)
+      if(!is_free[row])
+        entries.emplace_back(row, number_of_rows++ - base_size(), 1);
+    Sparse_matrix border(base_size(), border_size);
+    border.setFromTriplets(entries.begin(), entries.end());
+    if(!m_solver->set_border(border, corner))
+      return false;
+    const bool are_same = border_size == 0 && std::is_sorted(rows.begin(), rows.end());
+    m_rows = are_same ? std::vector<int>() : std::move(rows);
+    m_number_of_rows = static_cast<std::size_t>(number_of_rows);
+    return true;
   }
 
   // the number of rows of the factor

@@ -56,7 +56,8 @@ public:
   const Supernodal_structure& structure() const { return m_structure; }
 
   // Computes the factor of `a`, with the reciprocals of its diagonal. The array is allocated if it
-  // is null. Returns `false` if `a` is not positive definite, or if the numbers do not reach.
+  // is null. Returns `false` if `a` is not positive definite, or if a diagonal entry leaves the
+  // range of Number.
   template <typename Number>
   bool factorize(const Sparse_matrix& a, std::unique_ptr<Number[]>& values) const
   {
