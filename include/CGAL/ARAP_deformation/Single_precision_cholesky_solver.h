@@ -42,14 +42,14 @@ namespace ARAP {
 ///
 /// The minimizers do not depend on the accuracy of solutions: what they solve for is the next step,
 /// from the forces at the present positions, which are computed in double precision. So they go to
-/// the same minimum; an iterate of `Minimizer::local_global` is that of other solvers to the accuracy
-/// of a solution. Its relative error is about \f$10^{-7}\f$ times the square root of the condition
-/// number of the matrix in the norm of the energy, and up to that number itself in others: ask
-/// `check_sparse_solver()` for residuals of at most 0.02, and not for rounding errors.
+/// the same minimum; an iterate of `Minimizer::local_global` is that of other solvers to the
+/// accuracy of a solution. Its relative error is about \f$10^{-7}\f$ times the square root of the
+/// condition number of the matrix in the norm of the energy, and up to that number itself in
+/// others: ask `check_sparse_solver()` for residuals of at most 0.02, and not for rounding errors.
 ///
 /// Where the matrix is conditioned so badly that the steps would suffer, or its entries are out of
-/// the range of the numbers, the factor is computed once more, and kept in double precision instead:
-/// `factorize()` refines the solution for a random right-hand side three times, and asks that each
+/// the range of the numbers, the factor is computed once more, and kept in double precision
+/// instead: `factorize()` refines the solution for a random right-hand side three times, and asks that each
 /// correction is at most a tenth of the one before, measured by the energy.
 ///
 /// There are no borders: each change of the control vertices needs another factorization.

@@ -58,8 +58,8 @@ public:
   // Moves the free vertices of x. Returns false if the solver failed.
   bool operator()(std::vector<Coordinates>& x)
   {
-    // The condition number of L^T L is the square of that of L: further passes refine the first one,
-    // until they move nothing any more, or gain nothing.
+    // The condition number of L^T L is the square of that of L: further passes refine the first
+    // one, until they move nothing any more, or gain nothing.
     double first = 0, last = 0;
     for(int pass = 0; pass < 8; ++pass)
     {
