@@ -49,8 +49,8 @@ namespace ARAP {
 ///
 /// Where the matrix is conditioned so badly that the steps would suffer, or its entries are out of
 /// the range of the numbers, the factor is computed once more, and kept in double precision
-/// instead: `factorize()` refines the solution for a random right-hand side three times, and asks that each
-/// correction is at most a tenth of the one before, measured by the energy.
+/// instead: `factorize()` refines the solution for a random right-hand side three times, and asks
+/// that each correction is at most a tenth of the one before, measured by the energy.
 ///
 /// There are no borders: each change of the control vertices needs another factorization.
 ///
