@@ -286,7 +286,7 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
          {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
     {
       const std::string& solver = solver_and_style.first;
-      plot.add("this package, " + solver + ", " + threads_name(results, threads),
+      plot.add(solver + ", " + threads_name(results, threads),
                "linespoints " + dashes + solver_and_style.second,
                points_of(section["rows"], "factor_mb", "gb_per_second", [&](const Json& row) {
                  return row["solver"] == "ours, " + solver && row["threads"] == threads;
