@@ -88,7 +88,7 @@ void for_each_solver(const Function& f)
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif
-#ifdef CGAL_LINKED_WITH_METIS
+#ifdef CGAL_METIS_ENABLED
   using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
   f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
       Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");

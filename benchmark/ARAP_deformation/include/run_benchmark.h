@@ -90,7 +90,7 @@ inline std::string library_versions()
 #else
   versions += ", without CHOLMOD";
 #endif
-#ifdef CGAL_LINKED_WITH_METIS
+#ifdef CGAL_METIS_ENABLED
   versions += ", METIS";
 #endif
 #ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
