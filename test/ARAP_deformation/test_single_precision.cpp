@@ -174,7 +174,7 @@ void test_fallback()
   Single_precision_cholesky_solver solver;
   CHECK(solver.analyze(grid_matrix(60, 30, 1)));
   int number_of_singles = 0, number_of_doubles = 0;
-  for(int exponent = 0; exponent >= -15; --exponent)
+  for(int exponent = 0; exponent >= -13; --exponent)
   {
     test_case() = "held by 1e" + std::to_string(exponent);
     const double hold = std::pow(10.0, exponent);
@@ -196,7 +196,7 @@ void test_fallback()
       CHECK(solution(solver, b) == expected);
     }
   }
-  CHECK(number_of_singles > 2 && number_of_doubles > 2);
+  CHECK(number_of_singles > 2 && number_of_doubles > 1);
   CHECK(solver.factorize(grid_matrix(60, 30, 1)));
   CHECK(solver.is_single_precision()); // again
 }
@@ -293,13 +293,12 @@ void test_minima()
       const Run all = run<Single_precision_cholesky_solver>(shape, options, 2000, 1e-10);
       const Run all_expected = run<Multifrontal_cholesky_solver>(shape, options, 2000, 1e-10);
       CHECK(all.report.status == all_expected.report.status);
-      if(all.report.status == Status::iteration_limit)
+      if(cells == Cell_scheme::elements())
         continue; // a surface that may be folded in many ways, with energies close to each other
       ++number_of_minima;
       CHECK_AT_MOST(std::abs(all.report.energy.back() - all_expected.report.energy.back()),
                     1e-9 * all_expected.report.energy.back() + 1e-15 * all.report.energy_scale);
-      // some of the minima are that flat that rounding decides about the way there
-      CHECK_AT_MOST(all.report.iterations, 2 * all_expected.report.iterations + 10);
+      CHECK_AT_MOST(all.report.iterations, 1.2 * all_expected.report.iterations + 10);
     }
   CHECK(number_of_minima > 20);
   CHECK(number_of_differences > 5); // else nothing was in single precision
