@@ -39,9 +39,9 @@ namespace CGAL {
 /// rotates.
 ///
 /// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
-/// move: the *control vertices* among them go to their targets, the others are *free* and are
-/// solved for. All other vertices are *held* where they are; so are free vertices without
-/// any simplex.
+/// move: the *control vertices* among them go to their targets, or are only pulled there, see
+/// `set_target_weight()`; the others are *free* and are solved for. All other vertices are *held*
+/// where they are; so are free vertices without any simplex.
 ///
 /// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an
 /// index map. The mesh must outlive the object. Meanwhile its connectivity must not change, and its
@@ -152,7 +152,7 @@ public:
   }
 
   /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Its target is
-  /// where it is. Returns `true` if it was no control vertex.
+  /// where it is, with infinite weight. Returns `true` if it was no control vertex.
   bool insert_control_vertex(vertex_descriptor v)
   {
     return m_session.change_vertices([v](auto& vertices) { return vertices.insert_control(v); });
@@ -202,7 +202,8 @@ public:
   /// `ARAP::Status::not_a_control_vertex`. The functions on ranges stop at the first refusal.
   /// @{
 
-  /// sets the target of the control vertex `v`, which it will get as its `Point` unchanged.
+  /// sets the target of the control vertex `v`, which it will get as its `Point` unchanged if it is
+  /// a hard one.
   ARAP::Outcome set_target_position(vertex_descriptor v, const Point& target)
   {
     return change_target(v, [&target](const Point&) { return target; });
@@ -245,6 +246,37 @@ public:
     return for_each_until_refused(begin, end, [&](auto v) { return rotate(v, center, q); });
   }
 
+  /// \brief sets the weight \f$m \geq 0\f$ of the target \f$t\f$ of the control vertex `v`.
+  ///
+  /// Infinity, which every control vertex begins with, makes the target a *hard* one: the vertex is
+  /// put there. A finite weight makes it a *soft* one: the vertex is solved for together with the
+  /// free vertices, and the energy has the further term \f$m \|p'_v - t\|^2\f$.
+  /// The unit of \f$m\f$ is that of the weights of edges: on a surface it has none, and 1 is about
+  /// as strong as one edge; in a solid it is a length.
+  ///
+  /// Another weight asks for another preprocessing, other targets do not. Returns
+  /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
+  ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.set_weight(v, weight);
+  }
+
+  /// sets the weight of the targets of the control vertices of a range.
+  template <typename InputIterator>
+  ARAP::Outcome set_target_weight(InputIterator begin, InputIterator end, double weight)
+  {
+    return for_each_until_refused(begin, end, [&](auto v) { return set_target_weight(v, weight); });
+  }
+
+  /// returns the weight of the target of the control vertex `v`; in Release, for another vertex, 0.
+  /// \pre `is_control_vertex(v)`
+  double target_weight(vertex_descriptor v) const
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.weight(v);
+  }
+
   /// returns the target of the control vertex `v`; in Release, for another vertex, its point.
   /// \pre `is_control_vertex(v)`
   Point target_position(vertex_descriptor v) const
@@ -265,8 +297,8 @@ public:
   /// Which failures there are is said at `ARAP::Status`.
   ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
-  /// moves the control vertices to their targets and the free vertices after them, with the
-  /// iterations and the tolerance of the options.
+  /// moves the control vertices to their targets, or towards soft ones, and the free vertices after
+  /// them, with the iterations and the tolerance of the options.
   ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
 
   /// deforms with a visitor that sees each iterate, a model of `ARAPDeformationVisitor`.

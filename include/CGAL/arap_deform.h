@@ -56,7 +56,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \brief deforms a shape as rigidly as possible, in one call.
 ///
 /// The constrained vertices get their targets, and all others follow. To deform a part of a mesh,
-/// or to move the targets again and again, use the class `ARAP_deformation`.
+/// to move the targets again and again, or to have soft targets, use the class `ARAP_deformation`.
 ///
 /// \tparam Shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
 ///         `ARAPDomain_3`

@@ -10,7 +10,7 @@
 // Author(s)     : The ARAP_deformation authors
 
 // Iterates and energies against the dense reference: triangles, polygons and tetrahedra, whole
-// shapes and regions of interest, each cell scheme with each weight.
+// shapes and regions of interest, each cell scheme with each weight, hard and soft targets.
 
 #include "include/dense_reference.h"
 #include "include/domains.h"
@@ -28,7 +28,8 @@ using Simplices = std::vector<Dense_reference::Simplex>;
 template <int Dimension, typename Weight>
 void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplices,
              double diameter, const Scenario& s, Cell_scheme cells,
-             Dense_reference::Cells dense_cells, Dense_reference::Weights dense_weights)
+             Dense_reference::Cells dense_cells, Dense_reference::Weights dense_weights,
+             bool is_every_third_soft)
 {
   using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
   using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>;
@@ -39,9 +40,20 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
   CHECK(deformation.set_options(options));
   prepare(deformation, s, numbers(points.size()));
 
-  const Dense_reference reference(rest, simplices, Dimension, s.selection, dense_cells,
-                                  dense_weights);
+  std::vector<std::size_t> soft;
+  std::vector<int> selection = s.selection;
   std::vector<Eigen::Vector3d> x = s.targets;
+  for(std::size_t v = 0; v < rest.size(); v += 3)
+    if(is_every_third_soft && selection[v] == 2)
+    {
+      soft.push_back(v);
+      selection[v] = 1;
+      x[v] = rest[v];
+      CHECK(deformation.set_target_weight(v, 0.1 + double(v % 4)));
+    }
+  Dense_reference reference(rest, simplices, Dimension, selection, dense_cells, dense_weights);
+  for(std::size_t v : soft)
+    reference.add_soft_position(v, 0.1 + double(v % 4), s.targets[v]);
   const unsigned int iterations = 8;
   std::vector<double> energies = {reference.energy(x)};
   std::vector<std::vector<Eigen::Vector3d>> iterates = {x};
@@ -83,19 +95,21 @@ void compare_all(const std::string& name, const std::vector<Eigen::Vector3d>& po
   for(int& status : whole.selection) // all but the handles: the region is the whole shape
     if(status == 0)
       status = 2;
-  for(const Scenario& s : {part, whole})
+  const std::pair<Scenario, bool> cases[] = {
+    {part, false}, {part, true}, {whole, false}, {whole, true}};
+  for(const auto& [s, is_soft] : cases)
     for(const auto& [cells, dense_cells] : schemes)
     {
       test_case() = name + ", cells " + std::to_string(dense_cells);
       compare<Dimension, CGAL::ARAP::Safe_cotangent_weight>(
-        points, simplices, diameter, s, cells, dense_cells, Dense_reference::SAFE);
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::SAFE, is_soft);
       compare<Dimension, CGAL::ARAP::Cotangent_weight>(
-        points, simplices, diameter, s, cells, dense_cells, Dense_reference::COTANGENT);
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::COTANGENT, is_soft);
       compare<Dimension, CGAL::ARAP::Uniform_weight>(
-        points, simplices, diameter, s, cells, dense_cells, Dense_reference::UNIFORM);
+        points, simplices, diameter, s, cells, dense_cells, Dense_reference::UNIFORM, is_soft);
       if(dense_cells == Dense_reference::SPOKES) // in a simplex a weight of zero may cut it off
         compare<Dimension, CGAL::ARAP::Clamped_cotangent_weight>(
-          points, simplices, diameter, s, cells, dense_cells, Dense_reference::CLAMPED);
+          points, simplices, diameter, s, cells, dense_cells, Dense_reference::CLAMPED, is_soft);
     }
 }
 

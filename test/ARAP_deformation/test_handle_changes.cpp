@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Other control vertices, and another region, without another factorization: the result is that of
-// a solver that factorizes anew each time.
+// Other control vertices, other weights of their targets, and another region, without another
+// factorization: the result is that of a solver that factorizes anew each time.
 
 #include "include/check.h"
 #include "include/domains.h"
@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -125,7 +126,7 @@ void test_random_changes(Pair& pair, unsigned int seed)
   const std::size_t n = pair.points.size();
   std::uniform_int_distribution<std::size_t> vertex(0, n - 1), number_of_changes(1, 6);
   std::uniform_int_distribution<int> kind(0, 9);
-  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  std::uniform_real_distribution<double> shift(-0.1, 0.1), exponent(-3, 3);
   pair.with_both([n](auto& d) {
     for(std::size_t v = 0; v < n; ++v)
       d.insert_roi_vertex(v);
@@ -157,6 +158,12 @@ void test_random_changes(Pair& pair, unsigned int seed)
     {
       const Kernel::Vector_3 t(shift(generator), shift(generator), shift(generator));
       pair.with_both([v, t](auto& d) { CHECK(d.translate(v, t)); });
+      if(v == 0 || kind(generator) > 2)
+        continue;
+      const bool is_hard = kind(generator) < 3;
+      const double weight = is_hard ? std::numeric_limits<double>::infinity()
+                                    : std::pow(10, exponent(generator));
+      pair.with_both([v, weight](auto& d) { CHECK(d.set_target_weight(v, weight)); });
     }
     CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
   }

@@ -29,9 +29,11 @@ int main()
   CGAL::ARAP_deformation<Mesh> d(mesh);
   const Mesh::Vertex_index v(3), w(1);
   CHECK(d.target_position(v) == mesh.point(v));
+  CHECK(d.target_weight(v) == 0);
   d.insert_control_vertex(w);
   d.insert_roi_vertex(v);
   CHECK(d.target_position(v) == mesh.point(v));
+  CHECK(d.target_weight(v) == 0);
   d.set_target_position(w, Point(3, 1, 2));
   const auto identity = CGAL::ARAP::internal::identity_matrix();
 
@@ -44,6 +46,7 @@ int main()
     d.reset();
     d.overwrite_initial_geometry();
     CHECK(d.set_target_position(w, Point(0, 0, 0)).status == CGAL::ARAP::Status::in_a_run);
+    CHECK(d.set_target_weight(w, 1).status == CGAL::ARAP::Status::in_a_run);
     CHECK(d.set_options(CGAL::ARAP::Options()).status == CGAL::ARAP::Status::in_a_run);
     CHECK(d.deform().status == CGAL::ARAP::Status::in_a_run);
     return CGAL::ARAP::Visitor_action::proceed;

@@ -39,6 +39,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 using namespace CGAL::ARAP;
@@ -60,14 +61,15 @@ public:
     double largest = 0;
     for(const Cell_scheme& cells :
         {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
-    {
-      const std::size_t k = m_run++;
-      if(k == m_default.size())
-        m_default.push_back(deformed(traits, cells));
-      const std::vector<Eigen::Vector3d> points = deformed(traits, cells);
-      for(std::size_t v = 0; v < points.size(); ++v)
-        largest = (std::max)(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
-    }
+      for(double target_weight : {std::numeric_limits<double>::infinity(), 0.5})
+      {
+        const std::size_t k = m_run++;
+        if(k == m_default.size())
+          m_default.push_back(deformed(traits, cells, target_weight));
+        const std::vector<Eigen::Vector3d> points = deformed(traits, cells, target_weight);
+        for(std::size_t v = 0; v < points.size(); ++v)
+          largest = (std::max)(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
+      }
     m_run = 0;
     std::printf("%-60s %.1e\n", name, largest);
     test_case() = name;
@@ -76,7 +78,8 @@ public:
 
 private:
   template <typename Traits>
-  std::vector<Eigen::Vector3d> deformed(const Traits& traits, const Cell_scheme& cells) const
+  std::vector<Eigen::Vector3d> deformed(const Traits& traits, const Cell_scheme& cells,
+                                        double target_weight) const
   {
     Mesh mesh = make_mesh<Mesh>(m_shape);
     CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
@@ -84,6 +87,8 @@ private:
     options.cells = cells;
     deformation.set_options(options);
     prepare(deformation, scenario(m_shape), all_vertices(mesh));
+    for(auto v : deformation.control_vertices())
+      CHECK(deformation.set_target_weight(v, target_weight));
     CHECK(deformation.deform(m_iterations, 0));
     std::vector<Eigen::Vector3d> points;
     for(auto v : mesh.vertices())
@@ -96,7 +101,7 @@ private:
   });
   unsigned int m_iterations;
   std::size_t m_run = 0;
-  std::vector<std::vector<Eigen::Vector3d>> m_default; // for each of the cells
+  std::vector<std::vector<Eigen::Vector3d>> m_default; // for each case
 };
 
 template <typename Solver>

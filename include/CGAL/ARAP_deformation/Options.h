@@ -24,14 +24,15 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationOptions
-/// where a run starts from; the control vertices are at their targets in either case.
+/// where a run starts from; hard control vertices are at their targets in either case.
 enum class Initial_guess
 {
   previous, ///< the current positions: right for interaction, where each frame starts from the last
   laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the held
-            ///< positions, with \f$L\f$ the Laplacian of the weights of stars, whatever the cells,
-            ///< and \f$p\f$ the rest shape. It costs a second factorization, of \f$L^T L\f$, at its
-            ///< first use after a preprocessing.
+            ///< positions and with all control vertices at their targets, soft ones too; \f$L\f$ is
+            ///< the Laplacian of the weights of stars, whatever the cells, and \f$p\f$ the rest
+            ///< shape. It costs a second factorization, of \f$L^T L\f$, at its first use after a
+            ///< preprocessing.
 };
 
 /// \ingroup PkgARAPDeformationOptions

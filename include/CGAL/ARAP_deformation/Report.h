@@ -44,7 +44,8 @@ struct Report : Outcome
 
   /// the energy \f$E\f$, always with the best rotations for the positions: `energy[0]` at the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell counts
-  /// \f$w \|e' - R e\|^2\f$, without any further factor.
+  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex
+  /// \f$m \|p' - t\|^2\f$.
   std::vector<double> energy;
 
   /// \f$\sum k w \|e\|^2\f$ over the edges of all cells: the energy's natural unit. Differences of

@@ -33,12 +33,13 @@ enum class Status
   invalid_option,       ///< an option is out of its range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
   not_a_control_vertex, ///< a target was given to a vertex that is not a control vertex
+  invalid_weight,       ///< the weight of a target is negative or not a number
   not_a_simplex,        ///< a face or cell of the region is no polygon or tetrahedron
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
   no_simplex,           ///< no vertex of the region of interest has a simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< a face is so degenerate that its weights are not finite
-  no_held_vertex,       ///< a connected part of the region is not tied to any held vertex
+  no_held_vertex,       ///< a connected part of the region has no vertex that is held or pulled
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized
   non_finite_energy     ///< the numbers overflowed during the run
@@ -68,6 +69,7 @@ inline const char* to_string(Status status)
   case Status::invalid_option: return "invalid_option";
   case Status::in_a_run: return "in_a_run";
   case Status::not_a_control_vertex: return "not_a_control_vertex";
+  case Status::invalid_weight: return "invalid_weight";
   case Status::not_a_simplex: return "not_a_simplex";
   case Status::no_tetrahedron: return "no_tetrahedron";
   case Status::no_simplex: return "no_simplex";

@@ -56,10 +56,18 @@ public:
     make_cells(cells);
   }
 
+  // pulls a free vertex to a target: one more term of the energy
+  void add_soft_position(std::size_t v, double weight, const Eigen::Vector3d& target)
+  {
+    m_soft_positions.push_back({v, weight, target});
+  }
+
   // the energy with the best rotations
   double energy(const std::vector<Eigen::Vector3d>& x) const
   {
     double sum = 0;
+    for(const Soft_position& soft : m_soft_positions)
+      sum += soft.weight * (x[soft.vertex] - soft.target).squaredNorm();
     for(const auto& cell : m_cells)
     {
       const Eigen::Matrix3d r = rotation(cell, x);
@@ -95,6 +103,11 @@ public:
         add(e.i, e.j, e.weight, d);
         add(e.j, e.i, e.weight, -d);
       }
+    }
+    for(const Soft_position& soft : m_soft_positions)
+    {
+      a(m_row[soft.vertex], m_row[soft.vertex]) += soft.weight;
+      b.row(m_row[soft.vertex]) += soft.weight * soft.target.transpose();
     }
     const Eigen::MatrixXd solution = a.fullPivLu().solve(b);
     for(Eigen::Index k = 0; k < n; ++k)
@@ -277,6 +290,13 @@ private:
     return svd.matrixV() * u.transpose(); // Equation (6)
   }
 
+  struct Soft_position
+  {
+    std::size_t vertex;
+    double weight;
+    Eigen::Vector3d target;
+  };
+
   std::vector<Eigen::Vector3d> m_rest;
   std::vector<Simplex> m_simplices;
   int m_dimension;
@@ -285,6 +305,7 @@ private:
   std::vector<std::size_t> m_free;
   std::vector<int> m_row; // of the free vertices among the unknowns, or -1
   std::vector<std::vector<Edge>> m_cells;
+  std::vector<Soft_position> m_soft_positions;
 };
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H

@@ -40,6 +40,8 @@ void test_misuse(const CheckRefused& check_refused)
     check_refused([&] { return d.rotate(free, t, q); });
     check_refused([&] { return d.translate(vertices.begin(), vertices.end(), t); });
     check_refused([&] { return d.rotate(vertices.begin(), vertices.end(), t, q); });
+    check_refused([&] { return d.set_target_weight(free, 1); });
+    check_refused([&] { return d.set_target_weight(vertices.begin(), vertices.end(), 1); });
     CHECK(!d.is_control_vertex(free));
     CHECK(d.target_position(control) == target);
     d.insert_roi_vertex(free);

@@ -17,12 +17,12 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Laplacian_guess.h>
 #include <CGAL/ARAP_deformation/internal/Laplacian_solver.h>
 #include <CGAL/ARAP_deformation/internal/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
@@ -102,13 +102,15 @@ public:
   int number_of_cells() const { return m_energy.number_of_cells(); }
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations. The core's own state does not change.
-  Diagnosis run(const Options& options, const Observer& observe, std::vector<Coordinates>& x,
+  // rotations; there is a target for each of the region's soft positions. What the core knows does
+  // not change.
+  Diagnosis run(const Options& options, const Observer& observe,
+                const std::vector<Coordinates>& soft_targets, std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report)
   {
     Diagnosis diagnosis;
     run_with_threads(number_of_threads(options), [&] {
-      diagnosis = run_in_arena(options, observe, x, rotations, report);
+      diagnosis = run_in_arena(options, observe, soft_targets, x, rotations, report);
     });
     return diagnosis;
   }
@@ -131,8 +133,8 @@ private:
   }
 
   Diagnosis run_in_arena(const Options& options, const Observer& observe,
-                         std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
-                         Report& report)
+                         const std::vector<Coordinates>& soft_targets, std::vector<Coordinates>& x,
+                         std::vector<Matrix_3x3>& rotations, Report& report)
   {
     if(options.initial_guess == Initial_guess::laplacian && m_region.number_of_free_vertices > 0)
     {
@@ -140,15 +142,16 @@ private:
       if(!m_laplacian_guess)
       {
         const Simplices simplices = weighted_simplices(m_weight, m_region);
-        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, simplices, m_region), m_region.rest,
-                                      m_region.number_of_free_vertices, m_prototype_solver);
+        Laplacian_guess<Solver> guess(star_edge_sets(m_weight, simplices, m_region), m_region,
+                                      m_prototype_solver);
         if(!guess.is_factorized())
           return {Status::singular_matrix};
         m_laplacian_guess.emplace(std::move(guess));
       }
-      if(!(*m_laplacian_guess)(x))
+      if(!(*m_laplacian_guess)(soft_targets, x))
         return {Status::solver_failed};
     }
+    m_energy.set_targets(soft_targets);
     Minimization<typename Traits::Closest_rotation, Laplacian_solver<Solver>> minimization(
       m_energy, m_closest_rotation, m_solver, m_region.number_of_free_vertices, options, observe, x,
       rotations, report);
@@ -178,7 +181,7 @@ private:
     Simplices simplices = weighted_simplices(m_weight, m_region);
     if(const int s = find_non_finite_simplex(simplices); s >= 0)
       return {Status::non_finite_weight, -1, s};
-    m_energy = make_rigidity_energy(m_weight, std::move(simplices), scheme, m_region);
+    m_energy = make_deformation_energy(m_weight, std::move(simplices), scheme, m_region);
     return m_solver.prepare(m_energy, m_region.indices, m_prototype_solver);
   }
 
@@ -187,7 +190,7 @@ private:
   typename Traits::Closest_rotation m_closest_rotation;
   Solver m_prototype_solver; // as the traits hand it out
   Laplacian_solver<Solver> m_solver;
-  Rigidity_energy m_energy;
+  Deformation_energy m_energy;
   std::optional<Laplacian_guess<Solver>> m_laplacian_guess;
   std::vector<Matrix_3x3> m_rotations; // empty before the first run
   Diagnosis m_diagnosis;

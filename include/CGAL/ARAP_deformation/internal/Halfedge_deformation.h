@@ -17,12 +17,12 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Deformed_region.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_energy.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_weights.h>
 #include <CGAL/ARAP_deformation/internal/Ordered_roi.h>
 #include <CGAL/ARAP_deformation/internal/Point_conversion.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_global_local.h>
@@ -189,7 +189,7 @@ private:
   // what depends on the region and the control vertices, and not on the targets
   struct System
   {
-    Rigidity_energy energy;
+    Deformation_energy energy;
     Solver solver; // has the factor
     std::vector<int> numbers; // for each vertex of the region; the free ones come first
     int number_of_free_vertices = 0;

@@ -15,11 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Deformed_region.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Groups.h>
 #include <CGAL/ARAP_deformation/internal/Halfedge_weights.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -53,7 +53,7 @@ public:
 
   // for each cell its edges, each with the weight of the halfedge to the centre, or the sum of them
   // where there is more than one to the same vertex
-  Rigidity_energy spokes() const
+  Deformation_energy spokes() const
   {
     Stars stars;
     stars.weights.reserve(6 * m_region.vertices.size()); // what a closed mesh needs
@@ -73,13 +73,13 @@ public:
       }
       stars.neighbours.begin.push_back(static_cast<int>(stars.neighbours.items.size()));
     }
-    return Rigidity_energy(Star_energy(std::move(stars), m_number_of_free_vertices), m_rest,
-                           m_number_of_free_vertices);
+    return Deformation_energy(Star_energy(std::move(stars), m_number_of_free_vertices), m_rest,
+                              m_number_of_free_vertices);
   }
 
   // for each cell the edges of all faces at its centre, each with the weight of the halfedge in the
   // face
-  Rigidity_energy spokes_and_rims() const
+  Deformation_energy spokes_and_rims() const
   {
     Simplices faces;
     Cells cells;
@@ -100,7 +100,7 @@ public:
       cells.sets.begin.push_back(static_cast<int>(cells.sets.items.size()));
     }
     cells.stiffness.assign(m_region.number_of_cells, 1);
-    return Rigidity_energy(
+    return Deformation_energy(
       Simplex_energy(std::move(faces), std::move(cells), m_number_of_free_vertices), m_rest,
       m_number_of_free_vertices);
   }

@@ -16,10 +16,13 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -30,34 +33,49 @@ namespace internal {
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
-// are constant.
+// are constant. Vertices that are pulled to targets are put there.
 template <typename Solver>
 class Laplacian_guess
 {
 public:
-  // The first vertices are free; `rest` has the positions of all.
-  Laplacian_guess(Stars stars, const std::vector<Coordinates>& rest, int number_of_free_vertices,
-                  Solver solver)
-    : m_stars(std::move(stars)), m_rest_laplacian(laplacian(rest)),
-      m_step(number_of_free_vertices), m_solver(std::move(solver))
+  Laplacian_guess(Stars stars, const Region& region, Solver solver)
+    : m_stars(std::move(stars)), m_rest_laplacian(laplacian(region.rest)),
+      m_row(region.number_of_vertices(), none), m_solver(std::move(solver))
   {
+    for(const Soft_position& soft : region.soft_positions)
+      m_soft_vertices.push_back(soft.vertex);
+    std::fill_n(m_row.begin(), region.number_of_free_vertices, 0);
+    for(int v : m_soft_vertices)
+      m_row[v] = none;
+    int number_of_rows = 0;
+    for(int& row : m_row)
+      if(row != none)
+        row = number_of_rows++;
+    m_step.resize(number_of_rows);
+
     std::vector<Eigen::Triplet<double, int>> entries;
     m_stars.for_each_edge([&](int i, int j, double w) {
-      if(i < number_of_free_vertices) entries.emplace_back(i, i, w);
-      if(j < number_of_free_vertices) entries.emplace_back(i, j, -w);
+      if(is_free(i)) entries.emplace_back(i, m_row[i], w);
+      if(is_free(j)) entries.emplace_back(i, m_row[j], -w);
     });
-    Sparse_matrix columns(m_stars.size(), number_of_free_vertices); // of L, of the free vertices
+    Sparse_matrix columns(m_stars.size(), number_of_rows); // of L, of the free vertices
     columns.setFromTriplets(entries.begin(), entries.end());
     const Sparse_matrix normal =
       (Sparse_matrix(columns.transpose()) * columns).template triangularView<Eigen::Lower>();
-    m_is_factorized = m_solver.analyze(normal) && m_solver.factorize(normal);
+    m_is_factorized =
+      number_of_rows == 0 || (m_solver.analyze(normal) && m_solver.factorize(normal));
   }
 
   bool is_factorized() const { return m_is_factorized; }
 
-  // Moves the free vertices of x. Returns false if the solver failed.
-  bool operator()(std::vector<Coordinates>& x)
+  // Moves the free vertices of x; `soft_targets` are the targets of the soft positions. Returns
+  // false if the solver failed.
+  bool operator()(const std::vector<Coordinates>& soft_targets, std::vector<Coordinates>& x)
   {
+    for(std::size_t k = 0; k < m_soft_vertices.size(); ++k)
+      x[m_soft_vertices[k]] = soft_targets[k];
+    if(m_step.empty())
+      return true;
     // The condition number of L^T L is the square of that of L: further passes refine the first
     // one, until they move nothing any more, or gain nothing.
     double first = 0, last = 0;
@@ -67,11 +85,13 @@ public:
       if(!m_solver.solve(m_step.size(), m_step.data()))
         return false;
       double size = 0;
-      for(std::size_t v = 0; v < m_step.size(); ++v)
-      {
-        add(x[v], 1, m_step[v]);
-        size += dot(m_step[v], m_step[v]);
-      }
+      for(std::size_t v = 0; v < m_row.size(); ++v)
+        if(is_free(v))
+        {
+          const Coordinates& step = m_step[m_row[v]];
+          add(x[v], 1, step);
+          size += dot(step, step);
+        }
       if(pass == 0)
         first = size;
       else if(size <= 1e-20 * first || (pass > 1 && size > 0.25 * last))
@@ -99,16 +119,20 @@ private:
     m_step.assign(m_step.size(), Coordinates{0, 0, 0});
     m_stars.for_each_edge([&](int i, int j, double w) {
       const Coordinates residual = difference(m_rest_laplacian[i], present[i]);
-      if(is_free(i)) add(m_step[i], w, residual);
-      if(is_free(j)) add(m_step[j], -w, residual);
+      if(is_free(i)) add(m_step[m_row[i]], w, residual);
+      if(is_free(j)) add(m_step[m_row[j]], -w, residual);
     });
   }
 
-  bool is_free(int v) const { return static_cast<std::size_t>(v) < m_step.size(); }
+  bool is_free(std::size_t v) const { return m_row[v] != none; }
+
+  static constexpr int none = -1;
 
   Stars m_stars;
   std::vector<Coordinates> m_rest_laplacian; // L p, for each star
-  std::vector<Coordinates> m_step; // of the free vertices
+  std::vector<int> m_soft_vertices;
+  std::vector<int> m_row;          // for each vertex its row in the system, if it has one
+  std::vector<Coordinates> m_step; // for each row
   Solver m_solver;
   bool m_is_factorized = false;
 };

@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Paged_index_map.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
 #include <CGAL/ARAP_deformation/internal/laplacian.h>
@@ -43,7 +43,8 @@ namespace internal {
 //   [ A    B ] [ x ]   [ f ]
 //   [ B^T  D ] [ z ] = [ g ],
 // with a column of B that is a unit vector for each vertex that is now held, and one with the
-// entries of the Laplacian for each that is now free.
+// entries of the Laplacian for each that is now free. A vertex with another weight of its target is
+// both: its row of the factor is held, and it is a further unknown with a row of its own.
 template <typename Solver>
 class Laplacian_solver
 {
@@ -53,22 +54,23 @@ public:
   // Makes it solve for the free vertices of an energy, whose indices in the mesh are given. The
   // factor there is serves if few vertices have changed and weights have not; otherwise a copy of
   // the prototype factorizes.
-  Diagnosis prepare(const Rigidity_energy& energy, const std::vector<std::size_t>& indices,
+  Diagnosis prepare(const Deformation_energy& energy, const std::vector<std::size_t>& indices,
                     const Solver& prototype)
   {
     const Sparse_matrix laplacian = free_laplacian(energy);
     Diagnosis diagnosis = find_fault(energy, laplacian);
     if(diagnosis.status != Status::success)
       return diagnosis;
-    bool is_ready = false;
+    std::vector<Row> rows;
     if constexpr(can_have_border<Solver>)
     {
-      std::vector<Row_sums> sums = row_sums(energy, indices);
-      is_ready = border_factor(laplacian, indices, sums);
-      if(!is_ready)
-        remember(indices, std::move(sums));
+      rows = describe_rows(energy, indices);
+      if(border_factor(laplacian, indices, rows))
+        return diagnosis;
     }
-    if(!is_ready && !factorize(laplacian, prototype))
+    m_solver.reset(); // so that there are never two factors
+    remember(indices, std::move(rows));
+    if(!factorize(laplacian, prototype))
       diagnosis.status = Status::singular_matrix;
     return diagnosis;
   }
@@ -92,13 +94,14 @@ private:
   // beyond this a factorization costs less than a border
   static constexpr std::size_t largest_border = 256;
 
-  // What tells whether the weights at a vertex are the same, whatever is free around it: the sum of
-  // the weights, and their sum with a factor for each neighbour.
-  struct Row_sums
+  // What tells whether the row of a vertex is the same, whatever is free around it. Of the weights
+  // of its edges that is their sum, and their sum with a factor for each neighbour.
+  struct Row
   {
     double plain = 0, weighted = 0, absolute = 0;
+    double soft_weight = 0;
 
-    bool is_about(const Row_sums& other) const
+    bool has_about_the_edges_of(const Row& other) const
     {
       const double tolerance = 1e-11 * absolute; // summed up in another order
       return std::abs(plain - other.plain) <= tolerance &&
@@ -106,7 +109,7 @@ private:
     }
   };
 
-  static std::vector<Row_sums> row_sums(const Rigidity_energy& energy,
+  static std::vector<Row> describe_rows(const Deformation_energy& energy,
                                         const std::vector<std::size_t>& indices)
   {
     // a number of [0, 1) for each vertex: multiples of the golden ratio, without the integer part
@@ -115,34 +118,34 @@ private:
       return std::ldexp(static_cast<double>(std::uint64_t(index) * 0x9e3779b97f4a7c15u >> 11), -53);
     });
     const int n = energy.number_of_free_vertices();
-    std::vector<Row_sums> sums(n);
+    std::vector<Row> rows(n);
     const auto add = [&](int i, int neighbour, double weight) {
       if(i >= n)
         return;
-      sums[i].plain += weight;
-      sums[i].absolute += std::abs(weight);
-      sums[i].weighted += weight * factors[neighbour];
+      rows[i].plain += weight;
+      rows[i].absolute += std::abs(weight);
+      rows[i].weighted += weight * factors[neighbour];
     };
     energy.for_each_edge([&](int i, int j, double weight) {
       add(i, j, weight);
       add(j, i, weight);
     });
-    return sums;
+    for(const Soft_position& soft : energy.soft_positions())
+      rows[soft.vertex].soft_weight = soft.weight;
+    return rows;
   }
 
-  // what tells later whether the factor serves
-  void remember(const std::vector<std::size_t>& indices, std::vector<Row_sums> sums)
+  // what tells later whether the factor serves, which is computed next
+  void remember(const std::vector<std::size_t>& indices, std::vector<Row> rows)
   {
-    m_solver.reset();
-    m_base_rows = Paged_index_map();
-    m_base_sums = std::move(sums);
+    m_base_numbers = Paged_index_map();
+    m_base_rows = std::move(rows);
     for(int v = 0; v < base_size(); ++v)
-      m_base_rows.set(indices[v], v);
+      m_base_numbers.set(indices[v], v);
   }
 
   bool factorize(const Sparse_matrix& laplacian, const Solver& prototype)
   {
-    m_solver.reset();
     m_rows.clear();
     if(laplacian.rows() == 0)
       return true;
@@ -154,7 +157,7 @@ private:
   }
 
   bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,
-                     const std::vector<Row_sums>& sums)
+                     const std::vector<Row>& new_rows)
   {
     if(!m_solver)
       return false;
@@ -164,12 +167,15 @@ private:
     int number_of_rows = base_size();
     for(int v = 0; v < n; ++v)
     {
-      const int row = m_base_rows[indices[v]];
-      rows[v] = row != Paged_index_map::none ? row : number_of_rows++;
-      if(row == Paged_index_map::none)
+      const int row = m_base_numbers[indices[v]];
+      if(row == Paged_index_map::none || new_rows[v].soft_weight != m_base_rows[row].soft_weight)
+      {
+        rows[v] = number_of_rows++;
         continue;
-      if(!sums[v].is_about(m_base_sums[row]))
+      }
+      if(!new_rows[v].has_about_the_edges_of(m_base_rows[row]))
         return false;
+      rows[v] = row;
       is_free[row] = true;
     }
     const int number_of_freed = number_of_rows - base_size();
@@ -205,11 +211,11 @@ private:
   }
 
   // the number of rows of the factor
-  int base_size() const { return static_cast<int>(m_base_sums.size()); }
+  int base_size() const { return static_cast<int>(m_base_rows.size()); }
 
   std::optional<Solver> m_solver;      // if something is factorized
-  Paged_index_map m_base_rows;         // from the indices in the mesh to the rows of the factor
-  std::vector<Row_sums> m_base_sums;   // of the matrix that is factorized
+  Paged_index_map m_base_numbers;      // from the indices in the mesh to the rows of the factor
+  std::vector<Row> m_base_rows;        // of the matrix that is factorized
   std::vector<int> m_rows;             // for each free vertex its row; empty if they are the same
   std::size_t m_number_of_rows = 0;    // with the border
   std::vector<Coordinates> m_bordered; // scratch

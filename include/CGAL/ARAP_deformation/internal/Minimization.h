@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/gap_estimate.h>
 
@@ -48,12 +48,12 @@ public:
   const std::size_t number_of_free_vertices;
   Report& report;
 
-  Minimization(Rigidity_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
+  Minimization(Deformation_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
                std::size_t number_of_free_vertices_, const Options& options,
                const Observer& observe, std::vector<Coordinates>& x_,
                std::vector<Matrix_3x3>& rotations, Report& report_)
     : x(x_), number_of_free_vertices(number_of_free_vertices_), report(report_),
-      m_rigidity(energy), m_closest_rotation(closest_rotation), m_solver(solver),
+      m_energy(energy), m_closest_rotation(closest_rotation), m_solver(solver),
       m_options(options), m_observe(observe), m_rotations(rotations)
   {
     report.energy_scale = energy.scale();
@@ -63,7 +63,7 @@ public:
   double evaluate()
   {
     Scoped_seconds local(report.seconds.local_steps);
-    return m_energy = m_rigidity.evaluate(m_closest_rotation, x, m_rotations, m_force);
+    return m_value = m_energy.evaluate(m_closest_rotation, x, m_rotations, m_force);
   }
 
   // minus half the gradient where the energy was last evaluated
@@ -82,9 +82,9 @@ public:
   template <typename Before, typename After>
   double decrease(const Before& force_before, const After& force_after) const
   {
-    const double difference = report.energy.back() - m_energy;
-    const double rounding = energy_resolution(m_energy, report.energy_scale);
-    return difference > 1e5 * rounding || !std::isfinite(m_energy)
+    const double difference = report.energy.back() - m_value;
+    const double rounding = energy_resolution(m_value, report.energy_scale);
+    return difference > 1e5 * rounding || !std::isfinite(m_value)
          ? difference : force_before() + force_after();
   }
 
@@ -92,7 +92,7 @@ public:
   bool is_not_higher() const
   {
     const double before = report.energy.back();
-    return m_energy <= before + energy_resolution(before, report.energy_scale);
+    return m_value <= before + energy_resolution(before, report.energy_scale);
   }
 
   // Makes x the next iterate, reached by the given decrease of the energy, or the first one.
@@ -100,19 +100,19 @@ public:
   std::optional<Status> next_iterate(double decrease = 0)
   {
     if(report.energy.empty())
-      m_gap = Gap_estimate(m_rigidity.rounding_error_of_zero(x));
+      m_gap = Gap_estimate(m_energy.rounding_error_of_zero(x));
     else
     {
       ++report.iterations;
       m_gap.add(decrease);
     }
-    report.energy.push_back(m_energy);
-    if(!std::isfinite(m_energy))
+    report.energy.push_back(m_value);
+    if(!std::isfinite(m_value))
       return Status::non_finite_energy;
     const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
-    report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_energy);
+    report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_value);
 
-    switch(m_observe(report.iterations, m_energy))
+    switch(m_observe(report.iterations, m_value))
     {
     case Visitor_action::stop: return Status::stopped;
     case Visitor_action::cancel: return Status::cancelled;
@@ -127,14 +127,14 @@ public:
   }
 
 private:
-  Rigidity_energy& m_rigidity;
+  Deformation_energy& m_energy;
   const ClosestRotation& m_closest_rotation;
   Solver& m_solver;
   const Options& m_options;
   const Observer& m_observe;
   std::vector<Matrix_3x3>& m_rotations;
   std::vector<Coordinates> m_force;
-  double m_energy = 0;
+  double m_value = 0;
   Gap_estimate m_gap;
 };
 

@@ -23,6 +23,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// A free vertex that the term  weight || x - t ||^2  of the energy pulls to a target t.
+struct Soft_position
+{
+  int vertex;
+  double weight;
+};
+
 // What the numeric core knows of a mesh: the free vertices with two rings of simplices around them.
 // The free vertices come first, then their neighbours, then the neighbours of those. The first two
 // are the centres: the vertices whose simplices are all here. Every vertex that is not free is
@@ -40,6 +47,8 @@ struct Region
   // those of a polygon in their order around it
   std::vector<int> first_corner = {0};
   std::vector<int> corners;
+
+  std::vector<Soft_position> soft_positions; // each of another vertex
 
   int number_of_vertices() const { return static_cast<int>(rest.size()); }
   int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }

@@ -102,16 +102,36 @@ public:
     return Outcome(Status::success, std::string());
   }
 
+  // the weight of the target of a control vertex, 0 for any other
+  double weight(vertex_descriptor v) const
+  {
+    return m_vertices.is_control(v) ? m_vertices.weight(*m_vertices.find(v)) : 0;
+  }
+
+  Outcome set_weight(vertex_descriptor v, double weight)
+  {
+    if(is_in_a_run())
+      return outcome(Status::in_a_run);
+    auto* entry = m_vertices.find_control(v);
+    if(entry == nullptr)
+      return outcome(Status::not_a_control_vertex, name(v));
+    if(!(weight >= 0))
+      return outcome(Status::invalid_weight, name(v));
+    const double before = std::exchange(m_vertices.weight(*entry), weight);
+    note_change(weight != before);
+    return Outcome(Status::success, std::string());
+  }
+
   Outcome preprocess()
   {
     if(m_core)
       return outcome(Status::success);
-    const std::vector<vertex_descriptor> free_vertices = m_vertices.select([this](const auto& e) {
-      return e.is_roi && !e.is_control && !domain().is_isolated(e.vertex);
-    });
     const auto is_tied = [this](const auto& e) {
       return e.is_roi && !domain().is_isolated(e.vertex);
     };
+    const std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
+      return !m_vertices.is_hard_control(e) && (is_tied(e) || is_pulled(e));
+    });
     const auto is_roi = [](const auto& e) { return e.is_roi; };
     if(any_of_entries(is_roi) && !any_of_entries(is_tied))
       return outcome(Status::no_simplex);
@@ -130,6 +150,10 @@ public:
     }
     if(const int v = find_non_finite(positions); v >= 0)
       return outcome(Status::non_finite_point, name(region.vertices[v]));
+    for(const auto& entry : m_vertices.entries())
+      if(is_pulled(entry))
+        region.flat.soft_positions.push_back({region.find_vertex(domain(), entry.vertex),
+                                              m_vertices.weight(entry)});
 
     std::optional<Core> core;
     core.emplace(m_traits, std::move(region.flat), m_options,
@@ -241,6 +265,12 @@ private:
     return is_change;
   }
 
+  // whether a vertex is solved for, and has a term of its own in the energy
+  bool is_pulled(const typename Vertices::Entry& entry) const
+  {
+    return m_vertices.is_soft_control(entry) && m_vertices.weight(entry) > 0;
+  }
+
   template <typename Predicate>
   bool any_of_entries(const Predicate& predicate) const
   {
@@ -274,7 +304,7 @@ private:
     report.free_vertices = m_core->region().number_of_free_vertices;
     report.simplices = m_core->region().number_of_simplices();
 
-    std::vector<Coordinates> positions = m_positions;
+    std::vector<Coordinates> positions = m_positions, soft_targets;
     for(const auto& entry : m_vertices.entries())
     {
       if(!entry.is_control)
@@ -282,7 +312,10 @@ private:
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(!is_finite(target))
         return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
-      if(const int v = m_region.find_vertex(domain(), entry.vertex); v >= 0)
+      if(is_pulled(entry))
+        soft_targets.push_back(target); // in the order of the region's soft positions
+      else if(const int v = m_region.find_vertex(domain(), entry.vertex);
+              v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
     }
 
@@ -293,7 +326,8 @@ private:
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = m_core->run(options, observe, positions, rotations, report);
+    const Diagnosis diagnosis = m_core->run(options, observe, soft_targets, positions, rotations,
+                                            report);
     Outcome result = explain(diagnosis, m_region, *m_core);
     if(result)
     {
@@ -311,8 +345,8 @@ private:
   }
 
   // The new points of the region of interest: of the free vertices at their positions, of the
-  // control vertices, and of the vertices without simplices, which stay where they are: a domain
-  // may write to other places than it reads from.
+  // hard control vertices, and of the vertices without simplices, which stay where they are: a
+  // domain may write to other places than it reads from.
   std::vector<std::pair<vertex_descriptor, Point>>
   new_points(const std::vector<Coordinates>& positions) const
   {
@@ -321,7 +355,7 @@ private:
     for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
       points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
     for(const auto& entry : m_vertices.entries())
-      if(entry.is_control)
+      if(m_vertices.is_hard_control(entry))
         points.emplace_back(entry.vertex, m_vertices.target(entry));
       else if(entry.is_roi && m_region.find_vertex(domain(), entry.vertex) < 0)
         points.emplace_back(entry.vertex, entry.present);

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/Paged_index_map.h>
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -44,13 +45,31 @@ public:
     bool is_control = false;
   };
 
+  // the weight of the target of a control vertex that is put there, and not only pulled
+  static constexpr double hard = std::numeric_limits<double>::infinity();
+
   explicit Session_vertices(Domain domain) : m_domain(std::move(domain)) {}
 
   const Domain& domain() const { return m_domain; }
 
   // the target of a control vertex
-  Point& target(const Entry& entry) { return m_targets[entry.target]; }
-  const Point& target(const Entry& entry) const { return m_targets[entry.target]; }
+  Point& target(const Entry& entry) { return m_targets[entry.target].point; }
+  const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
+
+  // the weight of the target of a control vertex
+  double& weight(const Entry& entry) { return m_targets[entry.target].weight; }
+  double weight(const Entry& entry) const { return m_targets[entry.target].weight; }
+
+  bool is_hard_control(const Entry& entry) const
+  {
+    return entry.is_control && weight(entry) == hard;
+  }
+
+  bool is_soft_control(const Entry& entry) const
+  {
+    return entry.is_control && weight(entry) != hard;
+  }
+
   std::vector<Entry>& entries() { return m_entries; }
   const std::vector<Entry>& entries() const { return m_entries; }
 
@@ -105,11 +124,11 @@ public:
       return false;
     if(entry.target == no_target)
     {
-      m_targets.push_back(entry.present);
+      m_targets.push_back({entry.present, hard});
       entry.target = static_cast<int>(m_targets.size()) - 1;
     }
     else
-      m_targets[entry.target] = entry.present;
+      m_targets[entry.target] = {entry.present, hard};
     entry.is_roi = entry.is_control = true;
     return true;
   }
@@ -160,6 +179,12 @@ public:
   }
 
 private:
+  struct Target
+  {
+    Point point;
+    double weight;
+  };
+
   static constexpr int no_target = -1;
 
   Entry& find_or_insert(vertex_descriptor v)
@@ -180,7 +205,7 @@ private:
   Domain m_domain;
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   std::vector<Entry> m_entries;
-  std::vector<Point> m_targets;
+  std::vector<Target> m_targets;
 };
 
 } // namespace internal

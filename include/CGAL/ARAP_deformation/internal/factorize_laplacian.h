@@ -15,7 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Status.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/laplacian.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Diagnosis
 };
 
 // Why the Laplacian of the free vertices cannot be factorized, where that can be told before.
-inline Diagnosis find_fault(const Rigidity_energy& energy, const Sparse_matrix& laplacian)
+inline Diagnosis find_fault(const Deformation_energy& energy, const Sparse_matrix& laplacian)
 {
   if(const int v = find_unattached_vertex(energy); v >= 0)
     return {Status::no_held_vertex, v};
@@ -45,7 +45,7 @@ inline Diagnosis find_fault(const Rigidity_energy& energy, const Sparse_matrix& 
 
 // Has the solver factorize the Laplacian of the free vertices.
 template <typename Solver>
-Diagnosis factorize_laplacian(const Rigidity_energy& energy, Solver& solver)
+Diagnosis factorize_laplacian(const Deformation_energy& energy, Solver& solver)
 {
   const Sparse_matrix laplacian = free_laplacian(energy);
   if(const Diagnosis fault = find_fault(energy, laplacian); fault.status != Status::success)

@@ -79,7 +79,7 @@ private:
     const double last = std::accumulate(m_decreases.end() - n, m_decreases.end(), 0.0);
     const double earlier = std::accumulate(m_decreases.end() - 2 * n, m_decreases.end() - n, 0.0);
     if(std::abs(last) <= m_zero) // nothing but rounding is left
-      return std::abs(last);
+      return 0;
     const double ratio = (std::max)(last / earlier, 0.5);
     return 0 < last && 0 < earlier && ratio < 1 ? last * ratio / (1 - ratio) : infinity;
   }

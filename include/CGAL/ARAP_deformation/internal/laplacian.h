@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Groups.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
 
 #include <Eigen/SparseCore>
@@ -34,7 +34,7 @@ namespace internal {
 // Half the Hessian of the energy with its rotations fixed, for the free vertices: the matrix of
 // Equation (9) of the paper, from which the held vertices' rows and columns are left out, so that
 // it is symmetric positive definite. The lower triangle.
-inline Sparse_matrix free_laplacian(const Rigidity_energy& energy)
+inline Sparse_matrix free_laplacian(const Deformation_energy& energy)
 {
   // the off-diagonal entries of each column, with one entry for each edge set
   const int n = energy.number_of_free_vertices();
@@ -46,6 +46,8 @@ inline Sparse_matrix free_laplacian(const Rigidity_energy& energy)
     if(j < n) diagonal[j] += w;
     if(i < n && j < n) ++first[(std::min)(i, j) + 1];
   });
+  for(const Soft_position& soft : energy.soft_positions())
+    diagonal[soft.vertex] += soft.weight;
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Entry> entries(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
@@ -86,11 +88,12 @@ inline double diagonal_entry(const Sparse_matrix& laplacian, int v)
   return laplacian.valuePtr()[laplacian.outerIndexPtr()[v]]; // the first of its column
 }
 
-// A free vertex from which no edge of non-zero weight leads, over other free vertices, to a held
-// one: its component could be anywhere, and the matrix is singular. Returns -1 if there is none.
-inline int find_unattached_vertex(const Rigidity_energy& energy)
+// A free vertex from which no edge of non-zero weight leads, over other free vertices, to one that
+// is held, or pulled to a target: its component could be anywhere, and the matrix is singular.
+// Returns -1 if there is none.
+inline int find_unattached_vertex(const Deformation_energy& energy)
 {
-  // union-find, with one more element for all held vertices together
+  // union-find, with one more element for all that is fixed
   const int held = energy.number_of_free_vertices();
   std::vector<int> parent(held + 1);
   std::iota(parent.begin(), parent.end(), 0);
@@ -99,10 +102,13 @@ inline int find_unattached_vertex(const Rigidity_energy& energy)
       v = parent[v] = parent[parent[v]];
     return v;
   };
-  energy.for_each_edge([&](int i, int j, double w) {
-    if(w != 0)
+  const auto tie = [&](int i, int j, double weight) {
+    if(weight != 0)
       parent[find((std::min)(i, held))] = find((std::min)(j, held));
-  });
+  };
+  energy.for_each_edge(tie);
+  for(const Soft_position& soft : energy.soft_positions())
+    tie(soft.vertex, held, soft.weight);
   for(int v = 0; v < held; ++v)
     if(find(v) != find(held))
       return v;

@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Rigidity_energy.h>
+#include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
@@ -33,7 +33,7 @@ namespace internal {
 // the energy changes by less than `tolerance` of itself; the first iteration is not asked, as in
 // CGAL's class, since the energy before it has rotations that were not fitted to the targets.
 template <typename ClosestRotation, typename Solver>
-Status minimize_global_local(Rigidity_energy& energy, const ClosestRotation& closest_rotation,
+Status minimize_global_local(Deformation_energy& energy, const ClosestRotation& closest_rotation,
                              Solver& solver, std::size_t number_of_free_vertices,
                              unsigned int iterations, double tolerance,
                              std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,

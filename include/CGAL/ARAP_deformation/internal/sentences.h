@@ -56,8 +56,9 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::in_a_run:
     return about("a visitor must not change the object whose run it is visiting");
   case Status::not_a_control_vertex:
-    return about(" is not a control vertex and cannot be given a target; "
-                 "insert it as a control vertex first");
+    return about(" is not a control vertex and has no target; insert it as a control vertex first");
+  case Status::invalid_weight:
+    return about(" was given a weight for its target that is negative or not a number");
   case Status::not_a_simplex:
     return about(" is at a face or cell that is neither a polygon nor a tetrahedron with different "
                  "corners that exist");
@@ -72,8 +73,8 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
     return about(" is degenerate, as it has no area or volume, or three corners on one line: the "
                  "weights of its edges are not finite");
   case Status::no_held_vertex:
-    return about(" is free, but no chain of edges with a non-zero weight ties it to a held vertex; "
-                 "hold a vertex of its component");
+    return about(" is free, but no chain of edges with a non-zero weight ties it to a vertex that "
+                 "is held or pulled to a target; hold a vertex of its component");
   case Status::singular_matrix:
     return what.empty()
       ? about("the matrix of the system is not positive definite and cannot be factorized")

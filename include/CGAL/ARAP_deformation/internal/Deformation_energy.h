@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_RIGIDITY_ENERGY_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_RIGIDITY_ENERGY_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_ENERGY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_ENERGY_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -38,21 +38,23 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The energy of rigidity
+// The energy that is minimized,
 //   E(x, R) = sum over cells c, over edge sets u in c, over edges (i, j) in u of
-//             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2,
-// with p the rest shape and x the current positions. Edges are computed from the positions, and all
-// loops run over flat arrays, block by block and in parallel.
-class Rigidity_energy
+//             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2
+//           + sum over soft positions s of m_s || x_s - t_s ||^2,
+// with p the rest shape, x the current positions and t the targets. Edges are computed from the
+// positions, and all loops run over flat arrays, block by block and in parallel.
+class Deformation_energy
 {
 public:
-  Rigidity_energy() = default;
+  Deformation_energy() = default;
 
   // `cells` is a Star_energy or a Simplex_energy
   template <typename CellEnergy>
-  Rigidity_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
-                  int number_of_free_vertices)
-    : m_cells(std::move(cells)), m_number_of_free_vertices(number_of_free_vertices)
+  Deformation_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
+                     int number_of_free_vertices, std::vector<Soft_position> soft_positions = {})
+    : m_cells(std::move(cells)), m_number_of_free_vertices(number_of_free_vertices),
+      m_soft_positions(std::move(soft_positions))
   {
     assign(m_rest, rest);
     for_each_edge([&](int i, int j, double weight) {
@@ -61,6 +63,11 @@ public:
       m_scale += std::abs(weight) * dot(edge, edge);
     });
   }
+
+  const std::vector<Soft_position>& soft_positions() const { return m_soft_positions; }
+
+  // Sets the targets of the soft positions, one for each, before the energy is evaluated.
+  void set_targets(std::vector<Coordinates> targets) { m_targets = std::move(targets); }
 
   int number_of_free_vertices() const { return m_number_of_free_vertices; }
 
@@ -78,7 +85,8 @@ public:
   double scale() const { return m_scale; }
 
   // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it
-  // is far below the rounding error of the scale.
+  // is far below the rounding error of the scale. A soft position has no part in it: of its weight
+  // and those of its edges, the larger one makes the point fit, and the smaller one is what counts.
   double rounding_error_of_zero(const std::vector<Coordinates>& x) const
   {
     double largest = 0;
@@ -112,7 +120,7 @@ public:
         closest_rotation(end - begin, covariances.data(), rotations.data() + begin);
       }, batch_size);
     }, m_cells);
-    return evaluate(rotations, force);
+    return evaluate_with(rotations, x, force);
   }
 
   // The same with the rotations given.
@@ -120,7 +128,7 @@ public:
                   std::vector<Coordinates>& force)
   {
     assign(m_x, x);
-    return evaluate(rotations, force);
+    return evaluate_with(rotations, x, force);
   }
 
 private:
@@ -136,16 +144,37 @@ private:
     }, 16 * default_block_size);
   }
 
-  double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
+  // m_x is x
+  double evaluate_with(const std::vector<Matrix_3x3>& rotations, const std::vector<Coordinates>& x,
+                       std::vector<Coordinates>& force)
   {
     force.resize(m_number_of_free_vertices);
-    return std::visit([&](auto& cells) {
+    const double rigidity = std::visit([&](auto& cells) {
       return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
     }, m_cells);
+    return rigidity + pull_to_targets(x, force);
+  }
+
+  // Returns the energy of the soft positions, and adds their forces.
+  double pull_to_targets(const std::vector<Coordinates>& x, std::vector<Coordinates>& force) const
+  {
+    return sum_over_blocks(m_soft_positions.size(), [&](std::size_t begin, std::size_t end) {
+      double energy = 0;
+      for(std::size_t k = begin; k < end; ++k)
+      {
+        const auto& [v, weight] = m_soft_positions[k];
+        const Coordinates residual = difference(m_targets[k], x[v]);
+        add(force[v], weight, residual);
+        energy += weight * dot(residual, residual);
+      }
+      return energy;
+    });
   }
 
   std::variant<Star_energy, Simplex_energy> m_cells;
   int m_number_of_free_vertices = 0;
+  std::vector<Soft_position> m_soft_positions;
+  std::vector<Coordinates> m_targets; // of the soft positions
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x; // of the last evaluation
   double m_scale = 0;
@@ -153,22 +182,23 @@ private:
 };
 
 template <typename EdgeWeight>
-Rigidity_energy make_rigidity_energy(const EdgeWeight& weight, Simplices simplices,
-                                     Cell_scheme scheme, const Region& region)
+Deformation_energy make_deformation_energy(const EdgeWeight& weight, Simplices simplices,
+                                           Cell_scheme scheme, const Region& region)
 {
   const int n = region.number_of_free_vertices;
   if(scheme.edge_set() == Edge_set::star)
-    return Rigidity_energy(Star_energy(star_edge_sets(weight, simplices, region), n), region.rest,
-                           n);
+    return Deformation_energy(Star_energy(star_edge_sets(weight, simplices, region), n),
+                              region.rest, n, region.soft_positions);
   simplices = simplex_edge_sets(weight, std::move(simplices), region);
   Cells cells = scheme.grouped_at_vertices()
                   ? vertex_cells(simplices.corners, region.number_of_centres)
                   : separate_cells(region.number_of_free_simplices);
-  return Rigidity_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest, n);
+  return Deformation_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest,
+                            n, region.soft_positions);
 }
 
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_RIGIDITY_ENERGY_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DEFORMATION_ENERGY_H
