@@ -50,22 +50,19 @@ void verify_solution(const Matrix& a, const Columns& x, const Columns& b, const 
 
 double least_seconds(const Settings& settings) { return settings.quick ? 0.2 : 1; }
 
+using Row_by_row = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 std::vector<ARAP::Coordinates> rows_of(const Columns& columns)
 {
   std::vector<ARAP::Coordinates> rows(static_cast<std::size_t>(columns.rows()));
-  for(std::size_t k = 0; k < rows.size(); ++k)
-    for(std::size_t c = 0; c < 3; ++c)
-      rows[k][c] = columns(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
+  Eigen::Map<Row_by_row>(rows.data()->data(), columns.rows(), 3) = columns;
   return rows;
 }
 
 Columns columns_of(const std::vector<ARAP::Coordinates>& rows)
 {
-  Columns columns(rows.size(), 3);
-  for(std::size_t k = 0; k < rows.size(); ++k)
-    for(std::size_t c = 0; c < 3; ++c)
-      columns(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = rows[k][c];
-  return columns;
+  return Eigen::Map<const Row_by_row>(rows.data()->data(), static_cast<Eigen::Index>(rows.size()),
+                                      3);
 }
 
 // as the minimizers do with what a solution in single precision leaves over

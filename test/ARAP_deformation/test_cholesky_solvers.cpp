@@ -12,6 +12,7 @@
 // shapes, the same to the last bit for any number of threads, and with a border.
 
 #include "include/check.h"
+#include "include/rows.h"
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
@@ -40,7 +41,6 @@ using namespace CGAL::ARAP;
 using internal::run_with_threads;
 
 using Edges = std::vector<std::pair<int, int>>;
-using Rows = std::vector<Coordinates>;
 
 std::mt19937 random_engine(3);
 
@@ -145,23 +145,6 @@ Sparse_matrix large_matrix()
 Eigen::MatrixXd dense(const Sparse_matrix& a)
 {
   return Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>();
-}
-
-Rows random_rows(std::size_t n)
-{
-  Rows rows(n);
-  for(Coordinates& row : rows)
-    row = {random_number(-1, 1), random_number(-1, 1), random_number(-1, 1)};
-  return rows;
-}
-
-Eigen::MatrixXd as_matrix(const Rows& rows)
-{
-  Eigen::MatrixXd m(rows.size(), 3);
-  for(std::size_t k = 0; k < rows.size(); ++k)
-    for(int c = 0; c < 3; ++c)
-      m(static_cast<Eigen::Index>(k), c) = rows[k][c];
-  return m;
 }
 
 // the largest difference to the dense solution, relative to its largest entry

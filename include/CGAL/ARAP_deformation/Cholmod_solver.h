@@ -44,6 +44,8 @@ namespace ARAP {
 /// Needs CHOLMOD, of SuiteSparse, and its library. It runs on the BLAS it is built with, whose
 /// threads may make results differ in the last bits from run to run.
 ///
+/// A copy has the same ordering and nothing analyzed; a move keeps the factor.
+///
 /// \cgalModels{ARAPSparseSolver}
 class Cholmod_solver
 {
@@ -53,18 +55,6 @@ public:
 
   /// constructs a solver that has nothing analyzed, and orders as told.
   explicit Cholmod_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
-
-  /// moves, with the factor.
-  Cholmod_solver(Cholmod_solver&&) = default;
-
-  /// moves, with the factor.
-  Cholmod_solver& operator=(Cholmod_solver&&) = default;
-
-  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Cholmod_solver(const Cholmod_solver&) = default;
-
-  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Cholmod_solver& operator=(const Cholmod_solver&) = default;
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   /// Returns `false` if memory runs out.

@@ -38,6 +38,8 @@ namespace ARAP {
 /// where programs are linked with TBB, and the result is the same to the last bit for any number of
 /// threads. The ordering is Eigen's, or that of METIS (see `Fill_reducing_ordering`).
 ///
+/// A copy has the same ordering and nothing analyzed; a move keeps the factor.
+///
 /// \cgalModels{ARAPSparseSolver}
 class Multifrontal_cholesky_solver
 {
@@ -47,18 +49,6 @@ public:
 
   /// constructs a solver that has nothing analyzed, and orders as told.
   explicit Multifrontal_cholesky_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
-
-  /// moves, with the factor.
-  Multifrontal_cholesky_solver(Multifrontal_cholesky_solver&&) = default;
-
-  /// moves, with the factor.
-  Multifrontal_cholesky_solver& operator=(Multifrontal_cholesky_solver&&) = default;
-
-  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Multifrontal_cholesky_solver(const Multifrontal_cholesky_solver&) = default;
-
-  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Multifrontal_cholesky_solver& operator=(const Multifrontal_cholesky_solver&) = default;
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   bool analyze(const Sparse_matrix& a)

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Wide_rotation_kernel.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <cstddef>

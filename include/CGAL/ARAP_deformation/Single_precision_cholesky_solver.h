@@ -54,6 +54,8 @@ namespace ARAP {
 ///
 /// There are no borders: each change of the control vertices needs another factorization.
 ///
+/// A copy has the same ordering and nothing analyzed; a move keeps the factor.
+///
 /// \cgalModels{ARAPSparseSolver}
 class Single_precision_cholesky_solver
 {
@@ -65,18 +67,6 @@ public:
   explicit Single_precision_cholesky_solver(Fill_reducing_ordering ordering)
     : m_ordering(ordering)
   {}
-
-  /// moves, with the factor.
-  Single_precision_cholesky_solver(Single_precision_cholesky_solver&&) = default;
-
-  /// moves, with the factor.
-  Single_precision_cholesky_solver& operator=(Single_precision_cholesky_solver&&) = default;
-
-  /// constructs a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Single_precision_cholesky_solver(const Single_precision_cholesky_solver&) = default;
-
-  /// makes this a solver with the same ordering that has nothing analyzed: factors are not copied.
-  Single_precision_cholesky_solver& operator=(const Single_precision_cholesky_solver&) = default;
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   bool analyze(const Sparse_matrix& a)

@@ -19,8 +19,8 @@
 #include <CGAL/ARAP_deformation/internal/Supernodal_substitution.h>
 #include <CGAL/ARAP_deformation/internal/border_kernels.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/substitution_kernels.h>
-#include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <Eigen/Cholesky>
 

@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky_kernels.h>
-#include <CGAL/ARAP_deformation/internal/wide_vector.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/vector_kernels.h>
-#include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <algorithm>
 #include <array>

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/wide_matrix.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <cstddef>

@@ -26,13 +26,6 @@
 #define CGAL_ARAP_ALWAYS_INLINE inline
 #endif
 
-// Whether there is something to choose at run time: x86 that is not compiled for AVX2 anyway.
-// (On Windows, g++ does not align the stack for it.)
-#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__x86_64__) && !defined(_WIN32) && \
-    !(defined(__AVX2__) && defined(__FMA__))
-#define CGAL_ARAP_HAS_DISPATCH
-#endif
-
 namespace CGAL {
 namespace ARAP {
 namespace internal {
@@ -263,37 +256,6 @@ CGAL_ARAP_ALWAYS_INLINE void transpose(Double4& a, Double4& b, Double4& c, Doubl
   b = shuffle<0, 1, 4, 5>(ab_odd, cd_odd);
   c = shuffle<2, 3, 6, 7>(ab_even, cd_even);
   d = shuffle<2, 3, 6, 7>(ab_odd, cd_odd);
-}
-
-#ifdef CGAL_ARAP_HAS_DISPATCH
-inline bool has_avx2()
-{
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
-}
-
-template <typename Kernel, typename... Arguments>
-__attribute__((target("avx2,fma"))) void run_with_avx2(const Arguments&... arguments)
-{
-  Kernel::run(arguments...);
-}
-#endif
-
-// Calls Kernel::run(arguments...) in a version for the widest registers of this processor that are
-// of use; Plain_kernel without them. Kernel::run() is static and void, and like all that it calls
-// CGAL_ARAP_ALWAYS_INLINE; lambda expressions would not be.
-template <typename Kernel, typename Plain_kernel = Kernel, typename... Arguments>
-void run_kernel(const Arguments&... arguments)
-{
-#ifdef CGAL_ARAP_HAS_DISPATCH
-  if(has_avx2())
-    return run_with_avx2<Kernel>(arguments...);
-#endif
-#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__AVX2__)
-  Kernel::run(arguments...);
-#else
-  Plain_kernel::run(arguments...);
-#endif
 }
 
 } // namespace internal
