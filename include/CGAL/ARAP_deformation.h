@@ -251,10 +251,11 @@ public:
   /// Infinity, which every control vertex begins with, makes the target a *hard* one: the vertex is
   /// put there. A finite weight makes it a *soft* one: the vertex is solved for together with the
   /// free vertices, and the energy has the further term \f$m \|p'_v - t\|^2\f$.
-  /// The unit of \f$m\f$ is that of the weights of edges: on a surface it has none, and 1 is about
-  /// as strong as one edge; in a solid it is a length.
+  /// The unit of \f$m\f$ is that of the weights of edges: with cotangent weights it has none on a
+  /// surface, where 1 is about as strong as one edge, and is a length in a solid. Below about
+  /// \f$10^{-15}\f$ of the weights of the edges nothing of it is left by rounding.
   ///
-  /// Another weight asks for another preprocessing, other targets do not. Returns
+  /// Another weight asks for another preprocessing, another target does not. Returns
   /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
   ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
   {
@@ -325,18 +326,19 @@ public:
     return m_session.deform(iterations, tolerance, visitor);
   }
 
-  /// returns all vertices that this object has moved, and all targets, to the rest shape.
+  /// returns all vertices that this object has moved, and all targets, to the rest shape. The
+  /// weights of the targets stay.
   void reset() { m_session.reset(); }
 
-  /// makes the present shape the rest shape. The targets stay.
+  /// makes the present shape the rest shape. The targets and their weights stay.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
   /// @}
 
   /// \name Results
   /// @{
 
-  /// returns the energy after the last `deform()`; not a number if the region, the rest shape or
-  /// the cells have changed since, or nothing was deformed yet.
+  /// returns the energy after the last `deform()`; not a number if the region, the weight of a
+  /// target, the rest shape or the cells have changed since, or nothing was deformed yet.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has

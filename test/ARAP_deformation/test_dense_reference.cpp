@@ -29,7 +29,7 @@ template <int Dimension, typename Weight>
 void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplices,
              double diameter, const Scenario& s, Cell_scheme cells,
              Dense_reference::Cells dense_cells, Dense_reference::Weights dense_weights,
-             bool is_every_third_soft)
+             bool is_soft)
 {
   using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
   using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>;
@@ -40,20 +40,24 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
   CHECK(deformation.set_options(options));
   prepare(deformation, s, numbers(points.size()));
 
+  // of the handles every other one; what is not in the region remains held
   std::vector<std::size_t> soft;
   std::vector<int> selection = s.selection;
   std::vector<Eigen::Vector3d> x = s.targets;
-  for(std::size_t v = 0; v < rest.size(); v += 3)
-    if(is_every_third_soft && selection[v] == 2)
+  const auto weight = [](std::size_t v) { return 0.1 + double(v % 4); };
+  int number_of_handles = 0;
+  for(std::size_t v = 0; v < rest.size(); ++v)
+    if(is_soft && selection[v] == 2 && number_of_handles++ % 2 == 0)
     {
       soft.push_back(v);
       selection[v] = 1;
       x[v] = rest[v];
-      CHECK(deformation.set_target_weight(v, 0.1 + double(v % 4)));
+      CHECK(deformation.set_target_weight(v, weight(v)));
     }
+  CHECK(is_soft == !soft.empty());
   Dense_reference reference(rest, simplices, Dimension, selection, dense_cells, dense_weights);
   for(std::size_t v : soft)
-    reference.add_soft_position(v, 0.1 + double(v % 4), s.targets[v]);
+    reference.add_soft_position(v, weight(v), s.targets[v]);
   const unsigned int iterations = 8;
   std::vector<double> energies = {reference.energy(x)};
   std::vector<std::vector<Eigen::Vector3d>> iterates = {x};

@@ -163,6 +163,11 @@ void test_nothing_held()
   f.insert_control_vertex(Vertex(7));
   CHECK(f.deform()); // stay where they are
   CHECK(mesh.point(isolated) == Point(5, 5, 5));
+  f.insert_control_vertex(isolated); // goes to its target, whether that is a hard one or a soft one
+  CHECK(f.set_target_position(isolated, Point(6, 5, 4)));
+  CHECK(f.set_target_weight(isolated, 0.5));
+  CHECK(f.deform());
+  CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(mesh.point(isolated), Point(6, 5, 4))), 1e-12);
 }
 
 void test_nothing_free()

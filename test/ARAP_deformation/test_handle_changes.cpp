@@ -38,11 +38,18 @@ using CGAL::ARAP::Coordinates;
 using CGAL::ARAP::Sparse_matrix;
 using CGAL::ARAP::Status;
 
-// counts the factorizations of a solver with borders
+// counts the analyses and the factorizations of a solver with borders
 template <typename Solver>
 struct Counting_solver : Solver
 {
   std::shared_ptr<int> count = std::make_shared<int>(0);
+  std::shared_ptr<int> analyses = std::make_shared<int>(0);
+
+  bool analyze(const Sparse_matrix& a)
+  {
+    ++*analyses;
+    return Solver::analyze(a);
+  }
 
   bool factorize(const Sparse_matrix& a)
   {
@@ -109,6 +116,7 @@ struct Pair
   }
 
   int factorizations() const { return *bordered.count; }
+  int analyses() const { return *bordered.analyses; }
   int other_factorizations() const { return *plain.solver.count; }
 
   Counting_solver<Solver> bordered;
@@ -388,6 +396,47 @@ void test_limits()
   CHECK(pair.factorizations() == 2);
 }
 
+// Other weights of targets: a finite one that changes takes two columns of a border. Beyond the
+// largest border the matrix is factorized again, but not analyzed.
+void test_weights_of_targets()
+{
+  const Shape shape = large_sheet();
+  for(std::size_t number_of_changes : {1, 128, 129, 500})
+  {
+    test_case() = std::to_string(number_of_changes) + " weights of targets";
+    Weighted_pair pair(shape.points, shape.triangles, Cell_scheme::spokes(), Changing_weight());
+    const std::vector<std::size_t> controls = numbers(500);
+    hold(pair, controls); // and then nothing
+    pair.with_both([&](auto& d) {
+      CHECK(d.set_target_weight(controls.begin(), controls.end(), 1));
+    });
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+    CHECK(pair.factorizations() == 1 && pair.analyses() == 1);
+    for(double weight : {1e-3, 1e3})
+    {
+      pair.with_both([&](auto& d) {
+        CHECK(d.set_target_weight(controls.begin(), controls.begin() + number_of_changes, weight));
+      });
+      CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+    }
+    CHECK(pair.factorizations() == (number_of_changes <= 128 ? 1 : 3));
+    CHECK(pair.analyses() == 1);
+    // none at all, of as many as a border takes
+    pair.with_both([&](auto& d) {
+      CHECK(d.set_target_weight(controls.begin(), controls.begin() + 100, 0));
+    });
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+    CHECK(pair.analyses() == 1);
+    // and hard ones again, which asks for another analysis if there are many
+    pair.with_both([&](auto& d) {
+      CHECK(d.set_target_weight(controls.begin(), controls.end(),
+                                std::numeric_limits<double>::infinity()));
+    });
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+    CHECK(pair.analyses() == 2);
+  }
+}
+
 // Another rest shape has other weights.
 void test_rest_shape()
 {
@@ -441,6 +490,7 @@ int main()
   test_indefinite_matrix();
   test_exception();
   test_limits();
+  test_weights_of_targets();
   test_rest_shape();
   test_targets();
   return checks_result();

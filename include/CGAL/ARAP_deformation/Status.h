@@ -32,7 +32,7 @@ enum class Status
   cancelled,            ///< a visitor cancelled the run, everything is as before
   invalid_option,       ///< an option is out of its range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
-  not_a_control_vertex, ///< a target was given to a vertex that is not a control vertex
+  not_a_control_vertex, ///< a target or a weight was given to a vertex that is not a control vertex
   invalid_weight,       ///< the weight of a target is negative or not a number
   not_a_simplex,        ///< a face or cell of the region is no polygon or tetrahedron
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in

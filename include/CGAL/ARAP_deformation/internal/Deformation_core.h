@@ -102,8 +102,8 @@ public:
   int number_of_cells() const { return m_energy.number_of_cells(); }
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations; there is a target for each of the region's soft positions. What the core knows does
-  // not change.
+  // rotations; there is a target for each of the region's soft positions. Of what it does
+  // nothing is kept but the factorization for the initial guess.
   Diagnosis run(const Options& options, const Observer& observe,
                 const std::vector<Coordinates>& soft_targets, std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report)
@@ -151,10 +151,9 @@ private:
       if(!(*m_laplacian_guess)(soft_targets, x))
         return {Status::solver_failed};
     }
-    m_energy.set_targets(soft_targets);
     Minimization<typename Traits::Closest_rotation, Laplacian_solver<Solver>> minimization(
-      m_energy, m_closest_rotation, m_solver, m_region.number_of_free_vertices, options, observe, x,
-      rotations, report);
+      m_energy, m_closest_rotation, m_solver, m_region.number_of_free_vertices, options, observe,
+      soft_targets, x, rotations, report);
     return {is_quasi_newton(options) ? minimize_quasi_newton(minimization)
                                      : minimize_local_global(minimization)};
   }

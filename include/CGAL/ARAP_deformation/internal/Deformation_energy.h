@@ -66,9 +66,6 @@ public:
 
   const std::vector<Soft_position>& soft_positions() const { return m_soft_positions; }
 
-  // Sets the targets of the soft positions, one for each, before the energy is evaluated.
-  void set_targets(std::vector<Coordinates> targets) { m_targets = std::move(targets); }
-
   int number_of_free_vertices() const { return m_number_of_free_vertices; }
 
   int number_of_cells() const
@@ -85,14 +82,16 @@ public:
   double scale() const { return m_scale; }
 
   // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it
-  // is far below the rounding error of the scale. A soft position has no part in it: of its weight
-  // and those of its edges, the larger one makes the point fit, and the smaller one is what counts.
-  double rounding_error_of_zero(const std::vector<Coordinates>& x) const
+  // is far below the rounding error of the scale. Of the soft positions only the targets count, to
+  // which x may yet go: where a weight is larger than those of the edges, the point fits.
+  double rounding_error_of_zero(const std::vector<Coordinates>& x,
+                                const std::vector<Coordinates>& soft_targets) const
   {
     double largest = 0;
-    for(const Coordinates& p : x)
-      for(double coordinate : p)
-        largest = (std::max)(largest, std::abs(coordinate));
+    for(const std::vector<Coordinates>* points : {&x, &soft_targets})
+      for(const Coordinates& p : *points)
+        for(double coordinate : p)
+          largest = (std::max)(largest, std::abs(coordinate));
     const double error = 4 * std::numeric_limits<double>::epsilon() * largest;
     return m_sum_of_weights * error * error;
   }
@@ -105,10 +104,12 @@ public:
   }
 
   // Fits the rotations to the positions x, starting from those given, and returns the energy.
-  // `force` becomes minus half the gradient, for each free vertex.
+  // `force` becomes minus half the gradient, for each free vertex. There is a target for each soft
+  // position.
   template <typename ClosestRotation>
   double evaluate(const ClosestRotation& closest_rotation, const std::vector<Coordinates>& x,
-                  std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
+                  std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force,
+                  const std::vector<Coordinates>& soft_targets = {})
   {
     assign(m_x, x);
     std::visit([&](auto& cells) {
@@ -120,15 +121,16 @@ public:
         closest_rotation(end - begin, covariances.data(), rotations.data() + begin);
       }, batch_size);
     }, m_cells);
-    return evaluate_with(rotations, x, force);
+    return evaluate_with(rotations, x, force, soft_targets);
   }
 
   // The same with the rotations given.
   double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
-                  std::vector<Coordinates>& force)
+                  std::vector<Coordinates>& force,
+                  const std::vector<Coordinates>& soft_targets = {})
   {
     assign(m_x, x);
-    return evaluate_with(rotations, x, force);
+    return evaluate_with(rotations, x, force, soft_targets);
   }
 
 private:
@@ -146,24 +148,26 @@ private:
 
   // m_x is x
   double evaluate_with(const std::vector<Matrix_3x3>& rotations, const std::vector<Coordinates>& x,
-                       std::vector<Coordinates>& force)
+                       std::vector<Coordinates>& force,
+                       const std::vector<Coordinates>& soft_targets)
   {
     force.resize(m_number_of_free_vertices);
     const double rigidity = std::visit([&](auto& cells) {
       return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
     }, m_cells);
-    return rigidity + pull_to_targets(x, force);
+    return rigidity + pull(soft_targets, x, force);
   }
 
   // Returns the energy of the soft positions, and adds their forces.
-  double pull_to_targets(const std::vector<Coordinates>& x, std::vector<Coordinates>& force) const
+  double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
+              std::vector<Coordinates>& force) const
   {
     return sum_over_blocks(m_soft_positions.size(), [&](std::size_t begin, std::size_t end) {
       double energy = 0;
       for(std::size_t k = begin; k < end; ++k)
       {
         const auto& [v, weight] = m_soft_positions[k];
-        const Coordinates residual = difference(m_targets[k], x[v]);
+        const Coordinates residual = difference(targets[k], x[v]);
         add(force[v], weight, residual);
         energy += weight * dot(residual, residual);
       }
@@ -174,7 +178,6 @@ private:
   std::variant<Star_energy, Simplex_energy> m_cells;
   int m_number_of_free_vertices = 0;
   std::vector<Soft_position> m_soft_positions;
-  std::vector<Coordinates> m_targets; // of the soft positions
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x; // of the last evaluation
   double m_scale = 0;

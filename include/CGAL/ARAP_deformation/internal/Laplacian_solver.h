@@ -52,8 +52,8 @@ public:
   Laplacian_solver() = default;
 
   // Makes it solve for the free vertices of an energy, whose indices in the mesh are given. The
-  // factor there is serves if few vertices have changed and weights have not; otherwise a copy of
-  // the prototype factorizes.
+  // factor there is serves if few vertices have changed and the weights of edges have not, and the
+  // analysis if nothing has but weights of targets; otherwise a copy of the prototype does both.
   Diagnosis prepare(const Deformation_energy& energy, const std::vector<std::size_t>& indices,
                     const Solver& prototype)
   {
@@ -62,15 +62,27 @@ public:
     if(diagnosis.status != Status::success)
       return diagnosis;
     std::vector<Row> rows;
+    bool is_analyzed = false;
     if constexpr(can_have_border<Solver>)
     {
       rows = describe_rows(energy, indices);
       if(border_factor(laplacian, indices, rows))
         return diagnosis;
+      is_analyzed = has_same_pattern(indices, rows);
     }
-    m_solver.reset(); // so that there are never two factors
+    // moved from here, so that there are never two factors, and none where something fails
+    std::optional<Solver> solver = std::exchange(m_solver, std::nullopt);
     remember(indices, std::move(rows));
-    if(!factorize(laplacian, prototype))
+    if(laplacian.rows() == 0)
+      return diagnosis;
+    if(!is_analyzed)
+    {
+      solver.reset();
+      solver.emplace(prototype);
+    }
+    if((is_analyzed || solver->analyze(laplacian)) && solver->factorize(laplacian))
+      m_solver = std::move(solver);
+    else
       diagnosis.status = Status::singular_matrix;
     return diagnosis;
   }
@@ -138,22 +150,21 @@ private:
   // what tells later whether the factor serves, which is computed next
   void remember(const std::vector<std::size_t>& indices, std::vector<Row> rows)
   {
+    m_rows.clear();
     m_base_numbers = Paged_index_map();
     m_base_rows = std::move(rows);
     for(int v = 0; v < base_size(); ++v)
       m_base_numbers.set(indices[v], v);
   }
 
-  bool factorize(const Sparse_matrix& laplacian, const Solver& prototype)
+  // whether the matrix has its entries where the factorized one has them
+  bool has_same_pattern(const std::vector<std::size_t>& indices, const std::vector<Row>& rows) const
   {
-    m_rows.clear();
-    if(laplacian.rows() == 0)
-      return true;
-    Solver solver(prototype);
-    if(!solver.analyze(laplacian) || !solver.factorize(laplacian))
-      return false;
-    m_solver.emplace(std::move(solver));
-    return true;
+    bool is_same = m_solver && rows.size() == m_base_rows.size();
+    for(std::size_t v = 0; v < rows.size() && is_same; ++v)
+      is_same = m_base_numbers[indices[v]] == static_cast<int>(v) &&
+                rows[v].has_about_the_edges_of(m_base_rows[v]);
+    return is_same;
   }
 
   bool border_factor(const Sparse_matrix& laplacian, const std::vector<std::size_t>& indices,

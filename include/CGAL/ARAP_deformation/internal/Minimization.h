@@ -50,11 +50,12 @@ public:
 
   Minimization(Deformation_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
                std::size_t number_of_free_vertices_, const Options& options,
-               const Observer& observe, std::vector<Coordinates>& x_,
+               const Observer& observe, const std::vector<Coordinates>& soft_targets,
+               std::vector<Coordinates>& x_,
                std::vector<Matrix_3x3>& rotations, Report& report_)
     : x(x_), number_of_free_vertices(number_of_free_vertices_), report(report_),
       m_energy(energy), m_closest_rotation(closest_rotation), m_solver(solver),
-      m_options(options), m_observe(observe), m_rotations(rotations)
+      m_options(options), m_observe(observe), m_soft_targets(soft_targets), m_rotations(rotations)
   {
     report.energy_scale = energy.scale();
   }
@@ -63,7 +64,8 @@ public:
   double evaluate()
   {
     Scoped_seconds local(report.seconds.local_steps);
-    return m_value = m_energy.evaluate(m_closest_rotation, x, m_rotations, m_force);
+    return m_value = m_energy.evaluate(m_closest_rotation, x, m_rotations, m_force,
+                                        m_soft_targets);
   }
 
   // minus half the gradient where the energy was last evaluated
@@ -100,7 +102,7 @@ public:
   std::optional<Status> next_iterate(double decrease = 0)
   {
     if(report.energy.empty())
-      m_gap = Gap_estimate(m_energy.rounding_error_of_zero(x));
+      m_gap = Gap_estimate(m_energy.rounding_error_of_zero(x, m_soft_targets));
     else
     {
       ++report.iterations;
@@ -132,6 +134,7 @@ private:
   Solver& m_solver;
   const Options& m_options;
   const Observer& m_observe;
+  const std::vector<Coordinates>& m_soft_targets;
   std::vector<Matrix_3x3>& m_rotations;
   std::vector<Coordinates> m_force;
   double m_value = 0;

@@ -130,7 +130,7 @@ public:
       return e.is_roi && !domain().is_isolated(e.vertex);
     };
     const std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
-      return !m_vertices.is_hard_control(e) && (is_tied(e) || is_pulled(e));
+      return !m_vertices.is_hard_control(e) && (is_tied(e) || m_vertices.is_pulled(e));
     });
     const auto is_roi = [](const auto& e) { return e.is_roi; };
     if(any_of_entries(is_roi) && !any_of_entries(is_tied))
@@ -151,7 +151,7 @@ public:
     if(const int v = find_non_finite(positions); v >= 0)
       return outcome(Status::non_finite_point, name(region.vertices[v]));
     for(const auto& entry : m_vertices.entries())
-      if(is_pulled(entry))
+      if(m_vertices.is_pulled(entry))
         region.flat.soft_positions.push_back({region.find_vertex(domain(), entry.vertex),
                                               m_vertices.weight(entry)});
 
@@ -265,12 +265,6 @@ private:
     return is_change;
   }
 
-  // whether a vertex is solved for, and has a term of its own in the energy
-  bool is_pulled(const typename Vertices::Entry& entry) const
-  {
-    return m_vertices.is_soft_control(entry) && m_vertices.weight(entry) > 0;
-  }
-
   template <typename Predicate>
   bool any_of_entries(const Predicate& predicate) const
   {
@@ -304,7 +298,7 @@ private:
     report.free_vertices = m_core->region().number_of_free_vertices;
     report.simplices = m_core->region().number_of_simplices();
 
-    std::vector<Coordinates> positions = m_positions, soft_targets;
+    std::vector<Coordinates> positions = m_positions;
     for(const auto& entry : m_vertices.entries())
     {
       if(!entry.is_control)
@@ -312,11 +306,15 @@ private:
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(!is_finite(target))
         return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
-      if(is_pulled(entry))
-        soft_targets.push_back(target); // in the order of the region's soft positions
-      else if(const int v = m_region.find_vertex(domain(), entry.vertex);
-              v >= 0 && m_vertices.is_hard_control(entry))
+      const int v = m_region.find_vertex(domain(), entry.vertex);
+      if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
+    }
+    std::vector<Coordinates> soft_targets;
+    for(const Soft_position& soft : m_core->region().soft_positions)
+    {
+      const auto& entry = *m_vertices.find(m_region.vertices[soft.vertex]);
+      soft_targets.push_back(Domain::coordinates(m_vertices.target(entry)));
     }
 
     const auto observe = [&](unsigned int iteration, double energy) {

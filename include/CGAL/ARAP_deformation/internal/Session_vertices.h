@@ -65,9 +65,10 @@ public:
     return entry.is_control && weight(entry) == hard;
   }
 
-  bool is_soft_control(const Entry& entry) const
+  // whether a vertex is solved for, and has a term of its own in the energy
+  bool is_pulled(const Entry& entry) const
   {
-    return entry.is_control && weight(entry) != hard;
+    return entry.is_control && 0 < weight(entry) && weight(entry) < hard;
   }
 
   std::vector<Entry>& entries() { return m_entries; }

@@ -82,7 +82,8 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
               "finite number");
   case Status::solver_failed: return about("the solver failed to solve the factorized system");
   case Status::non_finite_energy:
-    return about("the energy overflowed: the targets are too far away for the arithmetic");
+    return about("the energy overflowed: the targets are too far away for the arithmetic, or their "
+                 "weights too large");
   }
   return Outcome(status, to_string(status));
 }
