@@ -120,7 +120,8 @@ inline void print_help(std::ostream& out)
          "tetrahedra), free_vertices, iterations, energy (one number for the initial guess\n"
          "and one after each iteration), estimated_relative_gap (to the minimum, null if not\n"
          "known), edge_length_error (relative root mean square), inverted_simplices\n"
-         "(tetrahedra that were turned inside out; 0 for a surface), seconds (load,\n"
+         "(tetrahedra that were turned inside out; 0 for a surface), unheld_parts (a vertex\n"
+         "of each connected part that nothing holds: it stays where it is), seconds (load,\n"
          "preprocess, deform) and peak_memory_bytes.\n\n"
          "Exit status: 0 done, 1 could not be done, 2 wrong usage. Where it is not 0 no\n"
          "output file is written, and existing ones are left as they were.\n";

@@ -132,6 +132,7 @@ void write_report(const Output_file& file, const Result& result)
     json["estimated_relative_gap"] = report.estimated_relative_gap;
   json["edge_length_error"] = result.edge_length_error;
   json["inverted_simplices"] = report.inverted_simplices;
+  json["unheld_parts"] = report.unheld_parts;
   json["seconds"] = {{"load", result.load_seconds},
                      {"preprocess", report.seconds.preprocess},
                      {"deform", report.seconds.total - report.seconds.preprocess}};

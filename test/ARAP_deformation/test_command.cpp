@@ -109,6 +109,23 @@ void test_success()
     CHECK(json["seconds"][phase].get<double>() >= 0);
   CHECK(json["peak_memory_bytes"].get<long long>() > 1000000);
 
+  test_case() = "a degenerate triangle, and a part that nothing holds";
+  Shape degenerate = shape;
+  degenerate.points[40] = degenerate.points[41];
+  degenerate.points.insert(degenerate.points.end(), {{9, 9, 9}, {10, 9, 9}, {9, 10, 9}});
+  degenerate.triangles.push_back({degenerate.points.size() - 3, degenerate.points.size() - 2,
+                                  degenerate.points.size() - 1});
+  write("degenerate.off", off(degenerate));
+  write("degenerate.sel", content(folder / "in.sel") + "1\n1\n1\n");
+  const Run unheld = run("degenerate.off --selection degenerate.sel --transform in.def -o new.off "
+                         "--report new.json");
+  CHECK(unheld.exit_code == 0);
+  CHECK(unheld.out.find("nothing holds") != std::string::npos);
+  CHECK(nlohmann::json::parse(content(folder / "new.json"))["unheld_parts"] ==
+        std::vector<std::size_t>(1, shape.points.size()));
+  for(const std::string file : {"degenerate.off", "degenerate.sel", "new.off", "new.json"})
+    fs::remove(folder / file);
+
   test_case() = "quiet";
   const std::string before = content(folder / "out.off");
   const Run quiet = run("in.off --selection in.sel --transform in.def -o out.off --quiet "
@@ -318,10 +335,6 @@ void test_refusals()
   wrong.triangles[5] = wrong.triangles[6];
   write("doubled.off", off(wrong));
   mesh("doubled.off", "doubled.off: ");
-  wrong = shape;
-  wrong.points[40] = wrong.points[41];
-  write("degenerate.off", off(wrong));
-  mesh("degenerate.off", "is degenerate");
   write("line.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n");
   mesh("line.off", "line.off: ");
 

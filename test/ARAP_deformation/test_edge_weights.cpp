@@ -46,6 +46,59 @@ void check_area_identity(const Triangle& t, const Eigen::Matrix3d& map)
   CHECK_AT_MOST(std::abs(sum - area * norm), 1e-11 * area * map.squaredNorm());
 }
 
+template <std::size_t N>
+bool are_finite(const std::array<double, N>& weights)
+{
+  return std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+}
+
+// Simplices that are squeezed until nothing is left, of any size: the weights are finite, at most
+// 10^6 units, of no negative energy, and the plain cotangents where these are not too large.
+template <int N>
+void test_degenerate_simplices()
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> entry(-1, 1);
+  int number_of_bounded = 0;
+  for(int k = 0; k < 4000; ++k)
+  {
+    const double size = std::pow(10.0, (k % 5 - 2) * 6);
+    std::array<Coordinates, N> simplex;
+    for(Coordinates& p : simplex)
+      p = {entry(random), entry(random), entry(random)};
+    const int squeezed = k / 5 % N; // coordinates, and of what is left one corner goes to another
+    const double factor = k % 3 == 0 ? 0 : std::pow(10.0, -(k % 17));
+    if(k % 2 == 0)
+      simplex[1] = simplex[0];
+    for(Coordinates& p : simplex)
+      for(int c = 0; c < 3; ++c)
+        p[c] *= size * (c < squeezed ? factor : 1);
+
+    const auto weights = Cotangent_weight().simplex_weights(simplex);
+    Eigen::Matrix<double, N, N> laplacian = Eigen::Matrix<double, N, N>::Zero();
+    double longest = 0, largest = 0;
+    std::size_t edge = 0;
+    for(int a = 0; a < N; ++a)
+      for(int b = a + 1; b < N; ++b)
+      {
+        const double w = weights[edge++];
+        CHECK(std::isfinite(w));
+        laplacian(a, a) += w;
+        laplacian(b, b) += w;
+        laplacian(a, b) = laplacian(b, a) = -w;
+        longest = (std::max)(longest, (vector(simplex[a]) - vector(simplex[b])).norm());
+        largest = (std::max)(largest, std::abs(w));
+      }
+    const double unit = N == 3 ? 1 : longest;
+    CHECK_AT_MOST(largest, 1e6 * unit * (1 + 1e-12));
+    CHECK(largest > 0 || (N == 4 && longest == 0));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> spectrum(laplacian);
+    CHECK_AT_MOST(-spectrum.eigenvalues()[0], 1e-9 * largest);
+    number_of_bounded += largest > 0.999e6 * unit;
+  }
+  CHECK(number_of_bounded > 500 && number_of_bounded < 3500);
+}
+
 int main()
 {
   std::mt19937 random(1);
@@ -79,8 +132,15 @@ int main()
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isnan(Clamped_cotangent_weight().edge_weight(Edge_set::star, 0, 1, nan)));
   CHECK(std::isnan(Safe_cotangent_weight().edge_weight(Edge_set::star, 0, 1, nan)));
-  const Triangle degenerate = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}};
-  for(double weight : Cotangent_weight().simplex_weights(degenerate))
-    CHECK(!std::isfinite(weight));
+  for(double bad : {nan, std::numeric_limits<double>::infinity(), 1e200})
+  {
+    const Triangle triangle = {{{0, 0, 0}, {1, 0, bad}, {2, 1, 0}}};
+    const std::array<Coordinates, 4> tetrahedron = {
+      {{0, 0, 0}, {1, 0, bad}, {2, 1, 0}, {0, 0, 1}}};
+    CHECK(!are_finite(Cotangent_weight().simplex_weights(triangle)));
+    CHECK(!are_finite(Cotangent_weight().simplex_weights(tetrahedron)));
+  }
+  test_degenerate_simplices<3>();
+  test_degenerate_simplices<4>();
   return checks_result();
 }

@@ -48,8 +48,7 @@ public:
   ///
   /// The order of the vertices carries no meaning: in another order the weights are those of the
   /// same edges. A weight that is infinite or not a number makes the preprocessing fail with
-  /// `CGAL::ARAP::Status::non_finite_weight` and a sentence that names the triangle; so a model has
-  /// nothing to do about a degenerate one.
+  /// `CGAL::ARAP::Status::non_finite_weight` and a sentence that names the triangle.
   std::array<double, 3>
   simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const;
 

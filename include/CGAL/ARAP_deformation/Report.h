@@ -48,9 +48,15 @@ struct Report : Outcome
   /// \f$m \|p' - t\|^2\f$.
   std::vector<double> energy;
 
-  /// \f$\sum k w \|e\|^2\f$ over the edges of all cells: the energy's natural unit. Differences of
-  /// the energy that are below a rounding error of it mean nothing.
+  /// \f$s\f$, the energy's natural unit: \f$\sum k |w| \|e\|^2\f$ over the edges of all cells in
+  /// the rest shape; larger with the square of what the positions and targets span, where that is
+  /// more than what the rest shape does.
   double energy_scale = 0;
+
+  /// \f$z\f$, what rounding the coordinates makes of an energy of zero: it is large where targets,
+  /// or all, are far from the origin. Of an energy \f$E\f$ it makes up to \f$16 \sqrt{E z}\f$.
+  /// Differences that are below this, or below a rounding error of \f$E + s\f$, mean nothing.
+  double zero_energy = 0;
 
   /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the run tends to,
   /// extrapolated from the decreases of the energy; infinity where too few are known, or where they
@@ -64,6 +70,11 @@ struct Report : Outcome
   /// tetrahedra among them that are inside out: the sign of their volume is no longer that in the
   /// rest shape. 0 on a surface, whose faces have no inside.
   std::size_t inverted_simplices = 0;
+
+  /// the connected parts of the region that nothing holds, each by the smallest index of its
+  /// vertices: no chain of edges of non-zero weight ties it to a vertex that is held or pulled to a
+  /// target. They stayed where they were, and are not counted above.
+  std::vector<std::size_t> unheld_parts;
 
   Phase_seconds seconds; ///< where the time went
 };

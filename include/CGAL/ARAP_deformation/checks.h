@@ -48,13 +48,13 @@ inline bool is_rotation(const Matrix_3x3& r, double tolerance = 1e-12)
 
 /// \ingroup PkgARAPDeformationChecks
 /// returns the number of the first iteration after which the energy is higher than before it, or 0
-/// if it never rises. Differences below the rounding error of the energy's scale do not count.
+/// if it never rises. Differences below the rounding error of the energy do not count.
 inline std::size_t first_rise_of_energy(const Report& report)
 {
   for(std::size_t k = 1; k < report.energy.size(); ++k)
   {
     const double before = report.energy[k - 1];
-    if(!(report.energy[k] <= before + internal::energy_resolution(before, report.energy_scale)))
+    if(!(report.energy[k] <= before + internal::energy_resolution(before, report)))
       return k;
   }
   return 0;

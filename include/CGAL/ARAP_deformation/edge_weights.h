@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -38,21 +39,32 @@ namespace ARAP {
 /// With simplices as edge sets the energy is never negative. With stars it can be where angles are
 /// obtuse, and its minimum is then a distorted shape: prefer `Safe_cotangent_weight`.
 ///
+/// All weights are finite. Where a simplex is degenerate, or so thin that a weight would be larger
+/// than \f$10^6\f$ (in a tetrahedron \f$10^6\f$ times its longest edge), its weights are multiplied
+/// by a common factor that makes this the largest one; and the smaller the factor is, the more is
+/// added of the weights of a regular simplex with the same longest edge. So the corners of a
+/// degenerate simplex are tied together, and its energy is still not negative.
+///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Cotangent_weight
 {
 public:
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(1,2)\f$ of a triangle.
-  /// They are not finite if the triangle has no area.
   std::array<double, 3> simplex_weights(const std::array<Coordinates, 3>& triangle) const
   {
-    return {half_cotangent(triangle[2], triangle[0], triangle[1]),
-            half_cotangent(triangle[1], triangle[0], triangle[2]),
-            half_cotangent(triangle[0], triangle[1], triangle[2])};
+    // the weight of an edge is the product of the other two, divided by twice the doubled area
+    const auto& [p0, p1, p2] = triangle;
+    const Coordinates a = internal::difference(p1, p0), b = internal::difference(p2, p0),
+                      c = internal::difference(p2, p1);
+    const Coordinates normal = internal::cross(a, b);
+    std::array<double, 3> weights = {internal::dot(b, c), -internal::dot(a, c),
+                                     internal::dot(a, b)};
+    const double doubled_area = std::hypot(normal[0], normal[1], normal[2]);
+    return quotients(weights, 2 * doubled_area, 1, 0, std::sqrt(1.0 / 12));
   }
 
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(0,3)\f$, \f$(1,2)\f$,
-  /// \f$(1,3)\f$, \f$(2,3)\f$ of a tetrahedron, a length. They are not finite if it has no volume.
+  /// \f$(1,3)\f$, \f$(2,3)\f$ of a tetrahedron, a length.
   std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>& tetrahedron) const
   {
     // The gradients of the barycentric coordinates are g / (6 V), and the weight of an edge (i, j)
@@ -63,21 +75,44 @@ public:
     const Coordinates g1 = internal::cross(b, c), g2 = internal::cross(c, a),
                       g3 = internal::cross(a, b);
     const Coordinates g0 = {-g1[0] - g2[0] - g3[0], -g1[1] - g2[1] - g3[1], -g1[2] - g2[2] - g3[2]};
-    const double factor = -1 / (6 * std::abs(internal::dot(a, g1)));
-    return {factor * internal::dot(g0, g1), factor * internal::dot(g0, g2),
-            factor * internal::dot(g0, g3), factor * internal::dot(g1, g2),
-            factor * internal::dot(g1, g3), factor * internal::dot(g2, g3)};
+    std::array<double, 6> weights = {-internal::dot(g0, g1), -internal::dot(g0, g2),
+                                     -internal::dot(g0, g3), -internal::dot(g1, g2),
+                                     -internal::dot(g1, g3), -internal::dot(g2, g3)};
+    const double longest_edge = std::sqrt((std::max)(
+      {internal::dot(a, a), internal::dot(b, b), internal::dot(c, c), squared_distance(p1, p2),
+       squared_distance(p1, p3), squared_distance(p2, p3)}));
+    const double rounding = 1e-12 * longest_edge * longest_edge; // of an area
+    return quotients(weights, 6 * std::abs(internal::dot(a, g1)), longest_edge, rounding * rounding,
+                     std::sqrt(1.0 / 288) * longest_edge);
   }
 
   /// returns `sum`.
   double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return sum; }
 
 private:
-  static double half_cotangent(const Coordinates& apex, const Coordinates& p, const Coordinates& q)
+  // Divides the weights by the divisor, or by what makes the largest of them 10^6 units. The more
+  // this differs, the more of the weight of a regular simplex is added: a triangle on a line could
+  // be sheared along it without any energy. Weights that are nothing but rounding do not count.
+  template <std::size_t N>
+  static std::array<double, N> quotients(std::array<double, N> weights, double divisor, double unit,
+                                         double rounding, double regular)
   {
-    const Coordinates a = internal::difference(p, apex), b = internal::difference(q, apex);
-    const Coordinates normal = internal::cross(a, b);
-    return 0.5 * internal::dot(a, b) / std::hypot(normal[0], normal[1], normal[2]);
+    double largest = 0;
+    for(double w : weights)
+      if(!(std::abs(w) <= largest)) // also what is not a number
+        largest = std::abs(w);
+    const bool is_nothing_left = largest <= rounding;
+    const double smallest_divisor = 1e-6 * largest / unit;
+    const double share = is_nothing_left ? 1 : (std::max)(0.0, 1 - divisor / smallest_divisor);
+    for(double& w : weights)
+      w = (is_nothing_left ? 0 : w / (std::max)(divisor, smallest_divisor)) + share * regular;
+    return weights;
+  }
+
+  static double squared_distance(const Coordinates& p, const Coordinates& q)
+  {
+    const Coordinates d = internal::difference(p, q);
+    return internal::dot(d, d);
   }
 };
 

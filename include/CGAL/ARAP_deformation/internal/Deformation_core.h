@@ -25,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/factorize_laplacian.h>
+#include <CGAL/ARAP_deformation/internal/laplacian.h>
 #include <CGAL/ARAP_deformation/internal/minimize_local_global.h>
 #include <CGAL/ARAP_deformation/internal/minimize_quasi_newton.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
@@ -78,6 +79,9 @@ public:
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
   const Region& region() const { return m_region; }
+
+  // for each free vertex the smallest one of its component if nothing holds that, else -1
+  std::vector<int> loose_components() const { return find_loose_components(m_energy); }
 
   // the solver, of which there is no further use here
   Laplacian_solver<Solver> take_solver() { return std::exchange(m_solver, {}); }

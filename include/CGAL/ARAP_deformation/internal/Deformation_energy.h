@@ -29,6 +29,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -57,6 +58,7 @@ public:
       m_soft_positions(std::move(soft_positions))
   {
     assign(m_rest, rest);
+    m_squared_extent = squared_extent({&rest});
     for_each_edge([&](int i, int j, double weight) {
       const Coordinates edge = difference(rest[i], rest[j]);
       m_sum_of_weights += std::abs(weight);
@@ -78,14 +80,22 @@ public:
     return std::visit([](const auto& cells) { return cells.number_of_edge_sets(); }, m_cells);
   }
 
-  // sum of k w ||e||^2: the natural unit of the energy
-  double scale() const { return m_scale; }
+  // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
+  // square of the size of what x and the targets span, if that is larger.
+  double scale(const std::vector<Coordinates>& x,
+               const std::vector<Coordinates>& soft_targets = {}) const
+  {
+    const double size = squared_extent({&x, &soft_targets});
+    return size <= m_squared_extent ? m_scale
+         : m_squared_extent > 0     ? m_scale * (size / m_squared_extent)
+                                    : m_sum_of_weights * size;
+  }
 
   // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it
   // is far below the rounding error of the scale. Of the soft positions only the targets count, to
   // which x may yet go: where a weight is larger than those of the edges, the point fits.
   double rounding_error_of_zero(const std::vector<Coordinates>& x,
-                                const std::vector<Coordinates>& soft_targets) const
+                                const std::vector<Coordinates>& soft_targets = {}) const
   {
     double largest = 0;
     for(const std::vector<Coordinates>* points : {&x, &soft_targets})
@@ -136,6 +146,25 @@ public:
 private:
   static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
 
+  // the square of the diagonal of the bounding box
+  static double squared_extent(std::initializer_list<const std::vector<Coordinates>*> lists)
+  {
+    double sum = 0;
+    for(std::size_t c = 0; c < 3; ++c)
+    {
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for(const std::vector<Coordinates>* points : lists)
+        for(const Coordinates& p : *points)
+        {
+          least = (std::min)(least, p[c]);
+          most = (std::max)(most, p[c]);
+        }
+      if(least < most)
+        sum += (most - least) * (most - least);
+    }
+    return sum;
+  }
+
   // points, with a fourth coordinate that is zero, so that each is loaded at once
   static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)
   {
@@ -180,7 +209,8 @@ private:
   std::vector<Soft_position> m_soft_positions;
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x; // of the last evaluation
-  double m_scale = 0;
+  double m_scale = 0;          // in the rest shape
+  double m_squared_extent = 0; // of the rest shape
   double m_sum_of_weights = 0;
 };
 

@@ -66,12 +66,12 @@ Deformed_region<Vertex, Point> next_region(const Deformed_region<Vertex, Point>&
                                            const VertexIndexMap& index_map,
                                            const VertexPointMap& point_map)
 {
-  using Region = Deformed_region<Vertex, Point>;
-  Region region;
-  region.places.assign(old.places.size(), Region::none);
+  constexpr int none = Deformed_region<Vertex, Point>::none;
+  Deformed_region<Vertex, Point> region;
+  region.places.assign(old.places.size(), none);
   const auto append = [&](Vertex v) {
     int& place = region.places[get(index_map, v)];
-    if(place == Region::none)
+    if(place == none)
     {
       place = region.size();
       region.vertices.push_back(v);
@@ -96,7 +96,7 @@ Deformed_region<Vertex, Point> next_region(const Deformed_region<Vertex, Point>&
   {
     const Vertex v = region.vertices[k];
     const int old_place = old.places[get(index_map, v)];
-    const bool is_known = old_place != Region::none;
+    const bool is_known = old_place != none;
     if(is_known && (k < region.roi_size || old_place < old.roi_size))
     {
       region.rest.push_back(old.rest[old_place]);

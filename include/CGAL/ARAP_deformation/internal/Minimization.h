@@ -57,7 +57,8 @@ public:
       m_energy(energy), m_closest_rotation(closest_rotation), m_solver(solver),
       m_options(options), m_observe(observe), m_soft_targets(soft_targets), m_rotations(rotations)
   {
-    report.energy_scale = energy.scale();
+    report.energy_scale = energy.scale(x, soft_targets);
+    report.zero_energy = energy.rounding_error_of_zero(x, soft_targets);
   }
 
   // the energy at x with the rotations fitted to x
@@ -85,7 +86,7 @@ public:
   double decrease(const Before& force_before, const After& force_after) const
   {
     const double difference = report.energy.back() - m_value;
-    const double rounding = energy_resolution(m_value, report.energy_scale);
+    const double rounding = energy_resolution(m_value, report);
     return difference > 1e5 * rounding || !std::isfinite(m_value)
          ? difference : force_before() + force_after();
   }
@@ -94,7 +95,7 @@ public:
   bool is_not_higher() const
   {
     const double before = report.energy.back();
-    return m_value <= before + energy_resolution(before, report.energy_scale);
+    return m_value <= before + energy_resolution(before, report);
   }
 
   // Makes x the next iterate, reached by the given decrease of the energy, or the first one.
@@ -102,7 +103,7 @@ public:
   std::optional<Status> next_iterate(double decrease = 0)
   {
     if(report.energy.empty())
-      m_gap = Gap_estimate(m_energy.rounding_error_of_zero(x, m_soft_targets));
+      m_gap = Gap_estimate(report.zero_energy);
     else
     {
       ++report.iterations;

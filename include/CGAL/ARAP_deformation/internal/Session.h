@@ -32,6 +32,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -129,44 +130,21 @@ public:
     const auto is_tied = [this](const auto& e) {
       return e.is_roi && !domain().is_isolated(e.vertex);
     };
-    const std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
+    std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
       return !m_vertices.is_hard_control(e) && (is_tied(e) || m_vertices.is_pulled(e));
     });
     const auto is_roi = [](const auto& e) { return e.is_roi; };
     if(any_of_entries(is_roi) && !any_of_entries(is_tied))
       return outcome(Status::no_simplex);
-    Region_ region;
-    if(!region.collect(domain(), free_vertices))
-      return outcome(Status::not_a_simplex, name(region.refused_vertex()));
 
-    std::vector<Coordinates> positions;
-    positions.reserve(region.vertices.size());
-    region.flat.rest.reserve(region.vertices.size());
-    for(vertex_descriptor v : region.vertices)
-    {
-      positions.push_back(Domain::coordinates(m_vertices.present(v)));
-      const auto* entry = m_vertices.find(v);
-      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
-    }
-    if(const int v = find_non_finite(positions); v >= 0)
-      return outcome(Status::non_finite_point, name(region.vertices[v]));
-    for(const auto& entry : m_vertices.entries())
-      if(m_vertices.is_pulled(entry))
-        region.flat.soft_positions.push_back({region.find_vertex(domain(), entry.vertex),
-                                              m_vertices.weight(entry)});
-
-    std::optional<Core> core;
-    core.emplace(m_traits, std::move(region.flat), m_options,
-                 std::exchange(m_idle_solver, {}));
-    if(core->diagnosis().status != Status::success)
-    {
-      m_idle_solver = core->take_solver();
-      return explain(core->diagnosis(), region, *core);
-    }
-    m_region = std::move(region);
-    m_positions = std::move(positions);
-    m_core = std::move(core);
-    return outcome(Status::success);
+    // what nothing holds stays where it is, unless there is nothing else
+    std::vector<std::size_t> unheld_parts;
+    Outcome prepared = prepare(free_vertices, unheld_parts);
+    if(prepared.status == Status::no_held_vertex && !free_vertices.empty())
+      prepared = prepare(free_vertices, unheld_parts);
+    if(prepared)
+      m_unheld_parts = std::move(unheld_parts);
+    return prepared;
   }
 
   template <typename Visitor>
@@ -265,6 +243,68 @@ private:
     return is_change;
   }
 
+  // Makes the core for these free vertices. If nothing holds some of them, they are erased, and
+  // each of their components adds the smallest index of its vertices to `unheld_parts`.
+  Outcome prepare(std::vector<vertex_descriptor>& free_vertices,
+                  std::vector<std::size_t>& unheld_parts)
+  {
+    Region_ region;
+    if(!region.collect(domain(), free_vertices))
+      return outcome(Status::not_a_simplex, name(region.refused_vertex()));
+
+    std::vector<Coordinates> positions;
+    positions.reserve(region.vertices.size());
+    region.flat.rest.reserve(region.vertices.size());
+    for(vertex_descriptor v : region.vertices)
+    {
+      positions.push_back(Domain::coordinates(m_vertices.present(v)));
+      const auto* entry = m_vertices.find(v);
+      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
+    }
+    if(const int v = find_non_finite(positions); v >= 0)
+      return outcome(Status::non_finite_point, name(region.vertices[v]));
+    for(const auto& entry : m_vertices.entries())
+      if(m_vertices.is_pulled(entry))
+        region.flat.soft_positions.push_back({region.find_vertex(domain(), entry.vertex),
+                                              m_vertices.weight(entry)});
+
+    std::optional<Core> core;
+    core.emplace(m_traits, std::move(region.flat), m_options,
+                 std::exchange(m_idle_solver, {}));
+    if(core->diagnosis().status != Status::success)
+    {
+      m_idle_solver = core->take_solver();
+      if(core->diagnosis().status == Status::no_held_vertex)
+        erase_loose_components(region, core->loose_components(), free_vertices, unheld_parts);
+      return explain(core->diagnosis(), region, *core);
+    }
+    m_region = std::move(region);
+    m_positions = std::move(positions);
+    m_core = std::move(core);
+    return outcome(Status::success);
+  }
+
+  void erase_loose_components(const Region_& region, const std::vector<int>& loose_components,
+                              std::vector<vertex_descriptor>& free_vertices,
+                              std::vector<std::size_t>& unheld_parts) const
+  {
+    std::map<int, std::size_t> smallest_indices; // of the components
+    const auto is_loose = [&](vertex_descriptor v) {
+      const int component = loose_components[region.find_vertex(domain(), v)];
+      if(component < 0)
+        return false;
+      const std::size_t index = domain().index(v);
+      std::size_t& smallest = smallest_indices.emplace(component, index).first->second;
+      smallest = (std::min)(smallest, index);
+      return true;
+    };
+    free_vertices.erase(std::remove_if(free_vertices.begin(), free_vertices.end(), is_loose),
+                        free_vertices.end());
+    for(const auto& component : smallest_indices)
+      unheld_parts.push_back(component.second);
+    std::sort(unheld_parts.begin(), unheld_parts.end());
+  }
+
   template <typename Predicate>
   bool any_of_entries(const Predicate& predicate) const
   {
@@ -297,6 +337,7 @@ private:
     }
     report.free_vertices = m_core->region().number_of_free_vertices;
     report.simplices = m_core->region().number_of_simplices();
+    report.unheld_parts = m_unheld_parts;
 
     std::vector<Coordinates> positions = m_positions;
     for(const auto& entry : m_vertices.entries())
@@ -329,6 +370,7 @@ private:
     Outcome result = explain(diagnosis, m_region, *m_core);
     if(result)
     {
+      result.message += about_unheld_parts(m_unheld_parts);
       std::vector<std::pair<vertex_descriptor, Point>> points = new_points(positions);
       for(const auto& [v, point] : points)
         domain().set_point(v, point);
@@ -343,8 +385,8 @@ private:
   }
 
   // The new points of the region of interest: of the free vertices at their positions, of the
-  // hard control vertices, and of the vertices without simplices, which stay where they are: a
-  // domain may write to other places than it reads from.
+  // hard control vertices, and of all that has no simplices or is held by nothing, and stays where
+  // it is: a domain may write to other places than it reads from.
   std::vector<std::pair<vertex_descriptor, Point>>
   new_points(const std::vector<Coordinates>& positions) const
   {
@@ -355,9 +397,16 @@ private:
     for(const auto& entry : m_vertices.entries())
       if(m_vertices.is_hard_control(entry))
         points.emplace_back(entry.vertex, m_vertices.target(entry));
-      else if(entry.is_roi && m_region.find_vertex(domain(), entry.vertex) < 0)
+      else if(entry.is_roi && !is_free(entry.vertex))
         points.emplace_back(entry.vertex, entry.present);
     return points;
+  }
+
+  // whether v is solved for
+  bool is_free(vertex_descriptor v) const
+  {
+    const int number = m_region.find_vertex(domain(), v);
+    return number >= 0 && number < m_core->region().number_of_free_vertices;
   }
 
   Matrix_3x3 rotation_of_cell(int cell) const
@@ -376,6 +425,7 @@ private:
 
   // what preprocess() computes; up to date if m_core has a value
   Region_ m_region;
+  std::vector<std::size_t> m_unheld_parts;
   std::vector<Coordinates> m_positions; // of the vertices of the region
   std::optional<Core> m_core;
 };

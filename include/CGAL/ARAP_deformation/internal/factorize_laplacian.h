@@ -35,8 +35,9 @@ struct Diagnosis
 // Why the Laplacian of the free vertices cannot be factorized, where that can be told before.
 inline Diagnosis find_fault(const Deformation_energy& energy, const Sparse_matrix& laplacian)
 {
-  if(const int v = find_unattached_vertex(energy); v >= 0)
-    return {Status::no_held_vertex, v};
+  for(int v : find_loose_components(energy))
+    if(v >= 0)
+      return {Status::no_held_vertex, v};
   for(int v = 0; v < laplacian.cols(); ++v)
     if(const double d = diagonal_entry(laplacian, v); !(d > 0) || !std::isfinite(d))
       return {Status::singular_matrix, v};

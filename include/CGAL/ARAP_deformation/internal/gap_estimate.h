@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Report.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,9 +28,11 @@ namespace ARAP {
 namespace internal {
 
 // below this, a difference between two evaluations of the energy means nothing
-inline double energy_resolution(double energy, double scale)
+inline double energy_resolution(double energy, const Report& report)
 {
-  return std::numeric_limits<double>::epsilon() * (std::abs(energy) + scale);
+  const double size = std::abs(energy);
+  return std::numeric_limits<double>::epsilon() * (size + report.energy_scale) +
+         16 * std::sqrt(size * report.zero_energy) + report.zero_energy;
 }
 
 // Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to

@@ -88,14 +88,15 @@ inline double diagonal_entry(const Sparse_matrix& laplacian, int v)
   return laplacian.valuePtr()[laplacian.outerIndexPtr()[v]]; // the first of its column
 }
 
-// A free vertex from which no edge of non-zero weight leads, over other free vertices, to one that
-// is held, or pulled to a target: its component could be anywhere, and the matrix is singular.
-// Returns -1 if there is none.
-inline int find_unattached_vertex(const Deformation_energy& energy)
+// For each free vertex -1 if a chain of edges of non-zero weight ties it, over other free vertices,
+// to one that is held or pulled to a target. If not, its component could be anywhere, and the
+// matrix is singular: then it is the smallest vertex of that component.
+inline std::vector<int> find_loose_components(const Deformation_energy& energy)
 {
-  // union-find, with one more element for all that is fixed
-  const int held = energy.number_of_free_vertices();
-  std::vector<int> parent(held + 1);
+  // union-find, with one more element for all that is fixed; the smallest of each set is its root,
+  // but for that one
+  const int fixed = energy.number_of_free_vertices();
+  std::vector<int> parent(fixed + 1);
   std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&parent](int v) {
     while(parent[v] != v)
@@ -103,16 +104,20 @@ inline int find_unattached_vertex(const Deformation_energy& energy)
     return v;
   };
   const auto tie = [&](int i, int j, double weight) {
-    if(weight != 0)
-      parent[find((std::min)(i, held))] = find((std::min)(j, held));
+    if(weight == 0)
+      return;
+    const int a = find((std::min)(i, fixed)), b = find((std::min)(j, fixed));
+    const int root = (std::max)(a, b) == fixed ? fixed : (std::min)(a, b);
+    parent[a] = parent[b] = root;
   };
   energy.for_each_edge(tie);
   for(const Soft_position& soft : energy.soft_positions())
-    tie(soft.vertex, held, soft.weight);
-  for(int v = 0; v < held; ++v)
-    if(find(v) != find(held))
-      return v;
-  return -1;
+    tie(soft.vertex, fixed, soft.weight);
+  for(int v = 0; v < fixed; ++v)
+    parent[v] = find(v);
+  parent.pop_back();
+  std::replace(parent.begin(), parent.end(), fixed, -1);
+  return parent;
 }
 
 } // namespace internal

@@ -40,7 +40,8 @@ Status minimize_global_local(Deformation_energy& energy, const ClosestRotation& 
                              Report& report)
 {
   std::vector<Coordinates> force, step;
-  report.energy_scale = energy.scale();
+  report.energy_scale = energy.scale(x);
+  report.zero_energy = energy.rounding_error_of_zero(x);
   {
     Scoped_seconds local(report.seconds.local_steps);
     report.energy.push_back(energy.evaluate(x, rotations, force));

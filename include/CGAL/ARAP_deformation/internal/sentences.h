@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -36,6 +37,17 @@ inline std::string simplex_name(const Region& region, int simplex)
     name += (k == 0 ? " with the vertices " : ", ") +
             std::to_string(region.indices[region.corners_of(simplex)[k]]);
   return name;
+}
+
+// what a message ends with if there are parts that nothing holds
+inline std::string about_unheld_parts(const std::vector<std::size_t>& parts)
+{
+  if(parts.empty())
+    return std::string();
+  return "; what nothing holds stayed where it was: " +
+         (parts.size() == 1 ? std::string("the part")
+                            : std::to_string(parts.size()) + " parts, the first one") +
+         " of " + vertex_name(parts.front());
 }
 
 // The sentence for a status that is about a vertex, a simplex, or the whole (an empty `what`).
@@ -70,8 +82,7 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::non_finite_point:
     return about(" has a coordinate that is infinite or not a number");
   case Status::non_finite_weight:
-    return about(" is degenerate, as it has no area or volume, or three corners on one line: the "
-                 "weights of its edges are not finite");
+    return about(" has edges whose weights are not finite");
   case Status::no_held_vertex:
     return about(" is free, but no chain of edges with a non-zero weight ties it to a vertex that "
                  "is held or pulled to a target; hold a vertex of its component");

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <algorithm>
 #include <array>
@@ -36,11 +37,23 @@ std::array<Coordinates, N> corner_points(const Region& region, const std::array<
   return points;
 }
 
+// whether the doubled area is next to nothing, compared with the sides
+inline bool is_flat(const std::array<Coordinates, 3>& triangle)
+{
+  const Coordinates a = difference(triangle[1], triangle[0]),
+                    b = difference(triangle[2], triangle[0]), normal = cross(a, b);
+  const double longest = dot(a, a) + dot(b, b);
+  return !(dot(normal, normal) > 1e-12 * longest * longest);
+}
+
 // The weights of a polygon are the average over all its triangulations, in which no corner is
 // special. A polygon with m + 2 corners has Cat(m) triangulations, the m-th Catalan number, so that
 // the triangle (a, b, c) is in the fraction
 //   Cat(b - a - 1) Cat(c - b - 1) Cat(n - c + a - 1) / Cat(n - 2)
 // of those of a polygon with n corners. Cat(m) / 4^m is used instead, which does not overflow.
+//
+// Triangles without an area, of corners on a line, are left out, unless there are no others: they
+// have no part in the area that the energy is an integral over, and would be infinitely stiff.
 template <typename EdgeWeight>
 void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int s, double* weights)
 {
@@ -51,18 +64,24 @@ void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int
     scaled_catalan[m + 1] = scaled_catalan[m] * (2 * m + 1) / (2 * (m + 2));
   const auto pair = [n](int a, int b) { return a * (2 * n - a - 1) / 2 + b - a - 1; };
   std::fill(weights, weights + n * (n - 1) / 2, 0.0);
-  for(int a = 0; a < n; ++a)
-    for(int b = a + 1; b < n; ++b)
-      for(int c = b + 1; c < n; ++c)
-      {
-        const double fraction = scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
-                                scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]);
-        const std::array<double, 3> w = weight.simplex_weights(
-          corner_points<3>(region, {corners[a], corners[b], corners[c]}));
-        weights[pair(a, b)] += fraction * w[0];
-        weights[pair(a, c)] += fraction * w[1];
-        weights[pair(b, c)] += fraction * w[2];
-      }
+  const auto for_each_triangle = [&](const auto& f) {
+    for(int a = 0; a < n; ++a)
+      for(int b = a + 1; b < n; ++b)
+        for(int c = b + 1; c < n; ++c)
+          f(a, b, c, corner_points<3>(region, {corners[a], corners[b], corners[c]}));
+  };
+  bool has_area = false;
+  for_each_triangle([&](int, int, int, const auto& triangle) { has_area |= !is_flat(triangle); });
+  for_each_triangle([&](int a, int b, int c, const auto& triangle) {
+    if(has_area && is_flat(triangle))
+      return;
+    const double fraction = scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
+                            scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]);
+    const std::array<double, 3> w = weight.simplex_weights(triangle);
+    weights[pair(a, b)] += fraction * w[0];
+    weights[pair(a, c)] += fraction * w[1];
+    weights[pair(b, c)] += fraction * w[2];
+  });
 }
 
 // The weights that the model gives for the shape of simplex s: of the edges between all pairs of
