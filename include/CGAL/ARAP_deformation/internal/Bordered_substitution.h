@@ -28,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,10 +42,14 @@ namespace internal {
 class Bordered_substitution
 {
 public:
+  // What Eigen has allocated goes too: matrices that are not empty must not be resized, since they
+  // free what they had once more where that runs out of memory.
   void remove_border()
   {
     m_groups.clear();
     m_border_size = 0;
+    m_scale.resize(0);
+    m_remainder.reset();
   }
 
   std::size_t border_size() const { return m_border_size; }
@@ -230,12 +235,12 @@ private:
     remainder = m_scale.asDiagonal() * remainder * m_scale.asDiagonal();
     if(!remainder.allFinite())
       return false;
-    m_remainder.compute(remainder);
+    m_remainder.emplace(remainder);
     // Another factorization of A is the better answer long before digits run out. The signs of the
     // pivots are those of the eigenvalues: a bordered matrix with more negative ones than
     // multipliers does not come from a minimum.
-    const Eigen::ArrayXd pivots = m_remainder.vectorD();
-    return m_remainder.info() == Eigen::Success &&
+    const Eigen::ArrayXd pivots = m_remainder->vectorD();
+    return m_remainder->info() == Eigen::Success &&
            pivots.abs().minCoeff() > 1e-11 * pivots.abs().maxCoeff() &&
            (pivots < 0).count() == is_multiplier.count();
   }
@@ -280,7 +285,7 @@ private:
           z[c][group.columns[l]] = x[group.columns[l]][c] - products[4 * l + c];
     });
     for(Eigen::VectorXd& column : z)
-      column = m_scale.cwiseProduct(m_remainder.solve(m_scale.cwiseProduct(column)));
+      column = m_scale.cwiseProduct(m_remainder->solve(m_scale.cwiseProduct(column)));
     for(std::size_t g = 0; g < m_groups.size(); ++g)
     {
       double factors[16] = {};
@@ -295,7 +300,7 @@ private:
   std::vector<Group> m_groups;
   std::size_t m_border_size = 0;
   Eigen::VectorXd m_scale;
-  Eigen::LDLT<Eigen::MatrixXd> m_remainder;
+  std::optional<Eigen::LDLT<Eigen::MatrixXd>> m_remainder;
 };
 
 } // namespace internal

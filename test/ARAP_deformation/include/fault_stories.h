@@ -1,0 +1,234 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H
+#define CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H
+
+// What is done with a CGAL::ARAP_deformation while things fail, on a small surface or solid.
+
+#include "domains.h"
+#include "faults.h"
+#include "shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+inline Shape small_sheet(int nu = 5, int nv = 3)
+{
+  return grid("sheet", nu, nv, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.2 * std::sin(5 * u) * std::cos(3 * v));
+  });
+}
+
+// a mesh with its domain, and where its vertices are held
+struct Surface
+{
+  using Domain = CGAL::ARAP::Face_graph_domain<Mesh>;
+
+  Mesh mesh;
+  Scenario held;
+
+  Surface() : Surface(small_sheet()) {}
+  explicit Surface(const Shape& shape)
+    : mesh(make_mesh<Mesh>(shape)), held(scenario(shape))
+  {}
+
+  Domain domain() { return Domain(mesh); }
+  std::vector<Mesh::Vertex_index> vertices() const { return all_vertices(mesh); }
+  const Point& point(Mesh::Vertex_index v) const { return mesh.point(v); }
+};
+
+struct Solid
+{
+  using Tetrahedra = std::vector<std::array<std::size_t, 4>>;
+  using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>;
+
+  std::vector<Point> points;
+  Tetrahedra tetrahedra;
+  Scenario held;
+
+  Solid() : Solid(block(3, 1, 1)) {}
+  explicit Solid(const Block& b)
+    : points(points_of(b.points)), tetrahedra(b.tetrahedra), held(scenario(b))
+  {}
+
+  Domain domain() { return Domain(points, tetrahedra); }
+  std::vector<std::size_t> vertices() const { return numbers(points.size()); }
+  const Point& point(std::size_t v) const { return points[v]; }
+};
+
+// what can be seen of a mesh alone
+template <typename Deformed>
+State state_of_points(const Deformed& deformed)
+{
+  State state;
+  for(const auto v : deformed.vertices())
+    append_point(state.points, deformed.point(v));
+  return state;
+}
+
+template <typename Deformed_, typename Traits_ = CGAL::Default,
+          typename Domain_ = typename Deformed_::Domain>
+struct Session
+{
+  using Deformation = CGAL::ARAP_deformation<Domain_, Traits_>;
+  using Traits = typename Deformation::Deformation_traits;
+
+  Deformed_ deformed;
+  Traits traits;
+  std::optional<Deformation> deformation;
+
+  explicit Session(const Traits& t = Traits(), const Deformed_& d = Deformed_())
+    : deformed(d), traits(t)
+  {}
+
+  State state() const
+  {
+    State state = state_of_points(deformed);
+    if(!deformation)
+      return state;
+    const Deformation& d = *deformation;
+    append_sets_and_targets(state.others, d, deformed.vertices());
+    for(const auto v : d.control_vertices())
+      state.others.push_back(d.target_weight(v));
+    const CGAL::ARAP::Options& options = d.options();
+    state.others.insert(state.others.end(), {d.energy(), double(options.iterations),
+                                             double(options.cells == Cell_scheme::spokes()),
+                                             double(options.cells == Cell_scheme::elements())});
+    return state;
+  }
+};
+
+// The steps that stories are made of.
+template <typename Session>
+struct Steps
+{
+  using Step_ = Step<Session>;
+
+  static Step_ construct()
+  {
+    return {"construct", [](Session& s) {
+      using Domain = typename Session::Deformation::Deformation_domain;
+      s.deformation.emplace(Domain(s.deformed.domain()), s.traits);
+      return true;
+    }};
+  }
+
+  static Step_ insert()
+  {
+    return {"insert vertices", [](Session& s) {
+      prepare(*s.deformation, s.deformed.held, s.deformed.vertices());
+      return true;
+    }, false};
+  }
+
+  static Step_ set_options(Cell_scheme cells, CGAL::ARAP::Minimizer minimizer,
+                           CGAL::ARAP::Initial_guess guess)
+  {
+    CGAL::ARAP::Options options;
+    options.cells = cells;
+    options.minimizer = minimizer;
+    options.initial_guess = guess;
+    options.iterations = 3;
+    options.tolerance = 0;
+    return {"set options", [options](Session& s) {
+      return bool(s.deformation->set_options(options));
+    }};
+  }
+
+  static Step_ preprocess()
+  {
+    return {"preprocess", [](Session& s) { return bool(s.deformation->preprocess()); }};
+  }
+
+  static Step_ deform(const std::string& how = "")
+  {
+    return {"deform" + how, [](Session& s) { return bool(s.deformation->deform()); }};
+  }
+
+  // the first handle becomes free, and a free vertex a handle
+  static Step_ change_control_vertices()
+  {
+    return {"change control vertices", [](Session& s) {
+      const auto vertices = s.deformed.vertices();
+      for(int selected : {1, 2})
+      {
+        std::size_t k = 0;
+        while(s.deformed.held.selection[k] != selected)
+          ++k;
+        if(selected == 1)
+          s.deformation->insert_control_vertex(vertices[k]);
+        else
+          s.deformation->erase_control_vertex(vertices[k]);
+      }
+      return true;
+    }, false};
+  }
+
+  // of at most the first n control vertices
+  static Step_ set_weights(double weight, std::size_t n)
+  {
+    return {"set weights of targets", [weight, n](Session& s) {
+      auto controls = s.deformation->control_vertices();
+      controls.resize((std::min)(n, controls.size()), controls.front());
+      return bool(s.deformation->set_target_weight(controls.begin(), controls.end(), weight));
+    }, false};
+  }
+
+  static Step_ overwrite()
+  {
+    return {"overwrite the rest shape", [](Session& s) {
+      s.deformation->overwrite_initial_geometry();
+      return true;
+    }};
+  }
+
+  static Step_ reset()
+  {
+    return {"reset", [](Session& s) {
+      s.deformation->reset();
+      return true;
+    }};
+  }
+};
+
+// Everything that fails with `faults` in two stories: of what is done first, by each minimizer and
+// from each initial guess, and of what is done when vertices, weights and the rest shape change.
+template <typename Session>
+void test_stories(Fault_test<Session> test, const std::string& name, Cell_scheme cells,
+                  const typename Session::Traits& traits = typename Session::Traits())
+{
+  using S = Steps<Session>;
+  using CGAL::ARAP::Initial_guess;
+  using CGAL::ARAP::Minimizer;
+  const auto make = [&traits] { return std::make_unique<Session>(traits); };
+  const auto start = S::set_options(cells, Minimizer::local_global, Initial_guess::previous);
+  test(name, make,
+       {S::construct(), S::insert(), start, S::preprocess(), S::deform(),
+        S::set_options(cells, Minimizer::quasi_newton, Initial_guess::laplacian),
+        S::deform(" from the Laplacian guess")});
+  test(name, make,
+       {S::construct(), S::insert(), start, S::deform(), S::change_control_vertices(),
+        S::deform(" with other control vertices"), S::set_weights(2, 3),
+        S::deform(" with soft targets"), S::overwrite(), S::deform(" again"), S::reset(),
+        S::deform(" after a reset")}, 4);
+}
+
+#endif // CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H

@@ -1,0 +1,115 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Memory that runs out, at every allocation of everything that is done with an object: what fails
+// leaves the mesh and the object as they were. (Not with CHOLMOD, whose OpenMP ends the program.)
+
+// The allocations of TBB are not ours: it makes some of them once for a thread, at any time.
+#undef CGAL_LINKED_WITH_TBB
+
+#include "include/allocation_faults.h"
+#include "include/check.h"
+#include "include/fault_stories.h"
+
+#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
+#include <CGAL/arap_deform.h>
+
+#include <boost/property_map/function_property_map.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+using CGAL::ARAP::Initial_guess;
+using CGAL::ARAP::Minimizer;
+
+template <typename Session>
+Fault_test<Session> fault_test(Fault_statistics& statistics)
+{
+  return Fault_test<Session>(allocation_faults, statistics);
+}
+
+void test_cell_schemes()
+{
+  Fault_statistics statistics("ARAP_deformation");
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    test_stories(fault_test<Session<Surface>>(statistics), "surface", cells);
+    test_stories(fault_test<Session<Solid>>(statistics), "solid", cells);
+  }
+}
+
+template <typename Solver>
+void test_solver(const std::string& name)
+{
+  using Traits = CGAL::ARAP_deformation_traits_3<Solver>;
+  Fault_statistics statistics(name);
+  test_stories(fault_test<Session<Surface, Traits>>(statistics), name,
+               Cell_scheme::spokes_and_rims());
+}
+
+// More weights of targets change than a border takes: the matrix is factorized again, with the
+// analysis of the last one.
+void test_many_weights()
+{
+  using Session_ = Session<Surface>;
+  using S = Steps<Session_>;
+  Fault_statistics statistics("many weights of targets");
+  const auto make = [] {
+    Surface surface(small_sheet(11, 11));
+    surface.held.selection.assign(surface.held.selection.size(), 2);
+    surface.held.selection[0] = 0;
+    return std::make_unique<Session_>(Session_::Traits(), surface);
+  };
+  fault_test<Session_>(statistics)(
+    "many weights", make,
+    {S::construct(), S::insert(),
+     S::set_options(Cell_scheme::spokes(), Minimizer::local_global, Initial_guess::previous),
+     S::set_weights(1, 1000), S::deform(), S::set_weights(3, 1000), S::deform()}, 5);
+}
+
+struct Call
+{
+  Surface surface;
+
+  State state() const { return state_of_points(surface); }
+};
+
+void test_arap_deform()
+{
+  Fault_statistics statistics("arap_deform()");
+  fault_test<Call>(statistics)("arap_deform()", [] { return std::make_unique<Call>(); }, {{
+    "deform", [](Call& call) {
+      const Scenario& held = call.surface.held;
+      using Vertex = Mesh::Vertex_index;
+      CGAL::ARAP::Options options;
+      options.iterations = 3;
+      return bool(CGAL::arap_deform(
+        call.surface.mesh,
+        boost::make_function_property_map<Vertex>([&](Vertex v) {
+          return held.selection[v] != 1;
+        }),
+        boost::make_function_property_map<Vertex>([&](Vertex v) {
+          return point(held.targets[v]);
+        }), options));
+    }}});
+}
+
+int main()
+{
+  test_cell_schemes();
+  test_solver<CGAL::ARAP::Eigen_cholesky_solver>("Eigen_cholesky_solver");
+  test_solver<CGAL::ARAP::Single_precision_cholesky_solver>("Single_precision_cholesky_solver");
+  test_many_weights();
+  test_arap_deform();
+  return faults_result();
+}
