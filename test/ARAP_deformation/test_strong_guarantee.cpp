@@ -104,6 +104,17 @@ void test_arap_deform()
     }}});
 }
 
+void test_drop_in_class()
+{
+  using Deformation = CGAL::ARAP::Surface_mesh_deformation<Mesh>;
+  using Session_ = Drop_in_session<Deformation>;
+  Fault_statistics statistics("Surface_mesh_deformation");
+  test_drop_in_story(fault_test<Session_>(statistics), "drop-in class", [](Session_& s) {
+    s.deformation.emplace(s.deformed.mesh);
+    return true;
+  });
+}
+
 int main()
 {
   test_cell_schemes();
@@ -111,5 +122,6 @@ int main()
   test_solver<CGAL::ARAP::Single_precision_cholesky_solver>("Single_precision_cholesky_solver");
   test_many_weights();
   test_arap_deform();
+  test_drop_in_class();
   return faults_result();
 }

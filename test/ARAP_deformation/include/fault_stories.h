@@ -12,7 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H
 #define CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H
 
-// What is done with a CGAL::ARAP_deformation while things fail, on a small surface or solid.
+// What is done with a CGAL::ARAP_deformation, and with the class that replaces CGAL's own, while
+// things fail, on a small surface or solid.
 
 #include "domains.h"
 #include "faults.h"
@@ -20,6 +21,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/Surface_mesh_deformation.h>
 
 #include <algorithm>
 #include <array>
@@ -229,6 +231,59 @@ void test_stories(Fault_test<Session> test, const std::string& name, Cell_scheme
         S::deform(" with other control vertices"), S::set_weights(2, 3),
         S::deform(" with soft targets"), S::overwrite(), S::deform(" again"), S::reset(),
         S::deform(" after a reset")}, 4);
+}
+
+// with the class that replaces CGAL's
+template <typename Deformation_>
+struct Drop_in_session
+{
+  using Deformation = Deformation_;
+
+  Surface deformed;
+  std::optional<Deformation> deformation;
+
+  State state() const
+  {
+    State state = state_of_points(deformed);
+    if(deformation)
+      append_sets_and_targets(state.others, *deformation, deformed.vertices());
+    return state;
+  }
+
+  // the k-th of the vertices that are free at first
+  Mesh::Vertex_index free_vertex(std::size_t k) const
+  {
+    const auto vertices = deformed.vertices();
+    auto v = vertices.begin();
+    while(deformed.held.selection[*v] != 1 || k-- > 0)
+      ++v;
+    return *v;
+  }
+};
+
+// The same for that class, which `construct` constructs.
+template <typename Session, typename Function>
+void test_drop_in_story(Fault_test<Session> test, const std::string& name,
+                        const Function& construct)
+{
+  using S = Steps<Session>;
+  const Step<Session> change = {"change vertices", [](Session& s) {
+    s.deformation->erase_roi_vertex(s.free_vertex(0));
+    s.deformation->insert_control_vertex(s.free_vertex(3));
+    return true;
+  }, false};
+  const Step<Session> change_back = {"change vertices back", [](Session& s) {
+    s.deformation->insert_roi_vertex(s.free_vertex(0));
+    s.deformation->erase_control_vertex(s.free_vertex(3));
+    return true;
+  }, false};
+  const Step<Session> translate = {"translate", [](Session& s) {
+    return bool(s.deformation->translate(s.free_vertex(3), Kernel::Vector_3(0.1, 0.2, 0.3)));
+  }};
+  test(name, [] { return std::make_unique<Session>(); },
+       {{"construct", construct}, S::insert(), S::preprocess(), S::deform(), change,
+        S::deform(" with other vertices"), translate, S::deform(" to another target"),
+        S::overwrite(), change_back, S::deform(" again"), S::reset(), S::deform(" after a reset")});
 }
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_FAULT_STORIES_H

@@ -142,7 +142,7 @@ public:
       return internal::outcome(Status::not_a_control_vertex, name(v));
     Point& target = m_region.points[m_region.places[index(v)]];
     target = move(std::as_const(target));
-    return Outcome(Status::success, "the target is set");
+    return Outcome(Status::success, std::string()); // allocates nothing: the target is set already
   }
 
   bool preprocess()
@@ -343,7 +343,11 @@ private:
     if(!succeeded(status))
       return internal::outcome(status);
 
-    // all points are there before the first is written
+    // all is there before the first point is written, the sentence too
+    Outcome result =
+      status == Status::converged
+      ? Outcome(status, "the energy changed by less than the tolerance in an iteration")
+      : internal::outcome(status);
     std::vector<Point> points;
     points.reserve(region.points.size());
     for(int k = 0; k < region.size(); ++k)
@@ -362,9 +366,7 @@ private:
     m_region.rotations = std::move(region_rotations);
     for(int k = 0; k < m_region.roi_size; ++k)
       put(m_point_map, m_region.vertices[k], m_region.points[k]);
-    return status == Status::converged
-             ? Outcome(status, "the energy changed by less than the tolerance in an iteration")
-             : internal::outcome(status);
+    return result;
   }
 
   Mesh& m_mesh;
