@@ -20,12 +20,14 @@
 #include "include/fault_stories.h"
 
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Embedding.h>
 #include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/arap_deform.h>
 
 #include <boost/property_map/function_property_map.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,6 +117,52 @@ void test_drop_in_class()
   });
 }
 
+// points that allocate their coordinates
+class Allocating_point
+{
+public:
+  Allocating_point(double x, double y, double z) : m_coordinates{x, y, z} {}
+  double operator[](int k) const { return m_coordinates[k]; }
+
+private:
+  std::vector<double> m_coordinates;
+};
+
+// The mesh here is what is embedded.
+struct Embedding_session
+{
+  Solid solid;
+  std::vector<Allocating_point> points = {{0.3, 0.2, 0.1}, {1.2, 0.3, 0.2}, {0.7, 0.1, 0.4}};
+  std::optional<CGAL::ARAP::Embedding<Solid::Domain>> embedding;
+
+  State state() const
+  {
+    State state;
+    for(const Allocating_point& p : points)
+      append_point(state.points, p);
+    state.others.push_back(embedding ? double(embedding->size()) : -1);
+    return state;
+  }
+};
+
+void test_embedding()
+{
+  using Step_ = Step<Embedding_session>;
+  Fault_statistics statistics("Embedding");
+  const Step_ bind = {"bind", [](Embedding_session& s) {
+    s.embedding.emplace(s.solid.domain(), s.points);
+    return bool(s.embedding->outcome());
+  }};
+  const Step_ put = {"put", [](Embedding_session& s) {
+    for(std::size_t v = 0; v < s.solid.points.size(); ++v)
+      s.solid.points[v] = point(s.solid.held.targets[v]);
+    s.embedding->put_points(s.points);
+    return true;
+  }};
+  fault_test<Embedding_session>(statistics)(
+    "embedding", [] { return std::make_unique<Embedding_session>(); }, {bind, put});
+}
+
 int main()
 {
   test_cell_schemes();
@@ -123,5 +171,6 @@ int main()
   test_many_weights();
   test_arap_deform();
   test_drop_in_class();
+  test_embedding();
   return faults_result();
 }

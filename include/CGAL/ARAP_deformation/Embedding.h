@@ -124,12 +124,14 @@ public:
     CGAL_precondition(static_cast<std::size_t>(n) == size());
     if(static_cast<std::size_t>(n) != size())
       return;
-    std::size_t k = 0;
-    for(auto&& point : points)
+    std::vector<Point> moved; // all of them before the first is assigned: what throws changes none
+    moved.reserve(size());
+    for(std::size_t k = 0; k < size(); ++k)
     {
-      const Coordinates c = position(k++);
-      point = internal::construct_point<Point>(c[0], c[1], c[2]);
+      const Coordinates c = position(k);
+      moved.push_back(internal::construct_point<Point>(c[0], c[1], c[2]));
     }
+    std::move(moved.begin(), moved.end(), std::begin(points));
   }
 
   /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside, or
