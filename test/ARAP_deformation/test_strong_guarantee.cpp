@@ -117,6 +117,27 @@ void test_drop_in_class()
   });
 }
 
+// A vertex that could not be inserted is none that reset() writes.
+void test_failed_insertion()
+{
+  test_case() = "a failed insertion";
+  const Solid solid;
+  const std::size_t v = 5;
+  std::vector<Point> output(solid.points.size(), CGAL::ORIGIN);
+  CGAL::ARAP_deformation<Solid::Domain> d(Solid::Domain(solid.points, solid.tetrahedra, output));
+  for(std::size_t call = 0, faults = 1; faults > 0; ++call)
+  {
+    d.reset();
+    CHECK(!d.is_control_vertex(v) && output[v] == CGAL::ORIGIN);
+    allocation_faults.arm(call, false);
+    try { d.insert_control_vertex(v); } catch(const std::bad_alloc&) {}
+    faults = allocation_faults.disarm();
+  }
+  CHECK(d.is_control_vertex(v) && d.target_position(v) == solid.points[v]);
+  d.reset();
+  CHECK(output[v] == solid.points[v]);
+}
+
 // points that allocate their coordinates
 class Allocating_point
 {
@@ -172,5 +193,6 @@ int main()
   test_arap_deform();
   test_drop_in_class();
   test_embedding();
+  test_failed_insertion();
   return faults_result();
 }

@@ -120,16 +120,20 @@ public:
 
   bool insert_control(vertex_descriptor v)
   {
-    Entry& entry = find_or_insert(v);
-    if(entry.is_control)
+    const Entry* known = find(v);
+    if(known != nullptr && known->is_control)
       return false;
-    if(entry.target == no_target)
+    // the target first: one without an entry, if that cannot be inserted, is seen by nobody
+    int target = known != nullptr ? known->target : no_target;
+    if(target == no_target)
     {
-      m_targets.push_back({entry.present, hard});
-      entry.target = static_cast<int>(m_targets.size()) - 1;
+      target = static_cast<int>(m_targets.size());
+      m_targets.push_back({present(v), hard});
     }
     else
-      m_targets[entry.target] = {entry.present, hard};
+      m_targets[target] = {known->present, hard};
+    Entry& entry = find_or_insert(v);
+    entry.target = target;
     entry.is_roi = entry.is_control = true;
     return true;
   }
