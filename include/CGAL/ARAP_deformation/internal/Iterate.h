@@ -33,8 +33,9 @@ public:
   template <typename VertexPointMap>
   void put_points(VertexPointMap map) const
   {
-    for(const auto& [v, point] : m_session.new_points(m_positions))
-      put(map, v, point);
+    const auto& entries = m_session.vertices().entries();
+    for(const auto& [k, point] : m_session.new_points(m_positions))
+      put(map, entries[k].vertex, point);
   }
 
 private:

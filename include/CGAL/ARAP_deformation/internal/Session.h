@@ -162,6 +162,10 @@ public:
   {
     if(is_in_a_run())
       return;
+    std::vector<Coordinates> positions = m_positions;
+    for(std::size_t k = 0; k < positions.size(); ++k)
+      if(const auto* entry = m_vertices.find(m_region.vertices[k]))
+        positions[k] = Domain::coordinates(entry->rest);
     for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
     for(auto& entry : m_vertices.entries())
@@ -170,8 +174,7 @@ public:
       if(entry.is_control)
         m_vertices.target(entry) = entry.rest;
     }
-    for(std::size_t k = 0; k < m_positions.size(); ++k)
-      m_positions[k] = Domain::coordinates(m_vertices.present(m_region.vertices[k]));
+    m_positions.swap(positions);
     if(m_core)
       m_core->reset_rotations();
     m_energy = not_a_number;
@@ -371,11 +374,11 @@ private:
     if(result)
     {
       result.message += about_unheld_parts(m_unheld_parts);
-      std::vector<std::pair<vertex_descriptor, Point>> points = new_points(positions);
-      for(const auto& [v, point] : points)
-        domain().set_point(v, point);
-      for(auto& [v, point] : points)
-        m_vertices.find(v)->present = std::move(point);
+      std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
+      for(const auto& [k, point] : points)
+        domain().set_point(m_vertices.entries()[k].vertex, point);
+      for(auto& [k, point] : points)
+        m_vertices.entries()[k].present = std::move(point);
       m_positions.swap(positions);
       m_core->set_rotations(std::move(rotations));
       m_energy = report.energy.back();
@@ -386,19 +389,22 @@ private:
 
   // The new points of the region of interest: of the free vertices at their positions, of the
   // hard control vertices, and of all that has no simplices or is held by nothing, and stays where
-  // it is: a domain may write to other places than it reads from.
-  std::vector<std::pair<vertex_descriptor, Point>>
+  // it is: a domain may write to other places than it reads from. Each has the place of the entry
+  // of its vertex: the domain, which may throw, is not asked any more for what is done with them.
+  std::vector<std::pair<std::size_t, Point>>
   new_points(const std::vector<Coordinates>& positions) const
   {
-    std::vector<std::pair<vertex_descriptor, Point>> points;
-    points.reserve(m_vertices.entries().size());
+    const auto& entries = m_vertices.entries();
+    std::vector<std::pair<std::size_t, Point>> points;
+    points.reserve(entries.size());
     for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
-      points.emplace_back(m_region.vertices[v], Domain::make_point(positions[v]));
-    for(const auto& entry : m_vertices.entries())
-      if(m_vertices.is_hard_control(entry))
-        points.emplace_back(entry.vertex, m_vertices.target(entry));
-      else if(entry.is_roi && !is_free(entry.vertex))
-        points.emplace_back(entry.vertex, entry.present);
+      points.emplace_back(m_vertices.find(m_region.vertices[v]) - entries.data(),
+                          Domain::make_point(positions[v]));
+    for(std::size_t k = 0; k < entries.size(); ++k)
+      if(m_vertices.is_hard_control(entries[k]))
+        points.emplace_back(k, m_vertices.target(entries[k]));
+      else if(entries[k].is_roi && !is_free(entries[k].vertex))
+        points.emplace_back(k, entries[k].present);
     return points;
   }
 

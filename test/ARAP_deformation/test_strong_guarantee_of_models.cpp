@@ -1,0 +1,244 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// What is the user's fails, at every call: solvers, weights, rotations, visitors and domains
+// that throw or refuse. The mesh and the object are as they were.
+
+#include "include/check.h"
+#include "include/fault_stories.h"
+
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
+#include <CGAL/ARAP_deformation/edge_weights.h>
+
+#include <CGAL/tags.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Matrix_3x3;
+using CGAL::ARAP::Sparse_matrix;
+using CGAL::ARAP::Visitor_action;
+
+Faults solver_faults, weight_faults, rotation_faults, visitor_faults, domain_faults, put_faults;
+
+void throw_if_hit(Faults& faults)
+{
+  if(faults.is_hit())
+    throw Fault();
+}
+
+enum class Failure { returns_false, throws_before, throws_after };
+Failure failure_of_solver = Failure::returns_false;
+
+// The copies that the class makes of a model may fail too.
+struct Faulty_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  using Base = CGAL::ARAP::Multifrontal_cholesky_solver;
+
+  Faulty_solver() = default;
+  Faulty_solver(Faulty_solver&&) = default;
+  Faulty_solver& operator=(Faulty_solver&&) = default;
+
+  Faulty_solver(const Faulty_solver& other) : Base(other) { throw_if_hit(solver_faults); }
+
+  Faulty_solver& operator=(const Faulty_solver& other)
+  {
+    throw_if_hit(solver_faults);
+    Base::operator=(other);
+    return *this;
+  }
+
+  bool analyze(const Sparse_matrix& a)
+  {
+    return run_or_fail([&] { return Base::analyze(a); });
+  }
+
+  bool factorize(const Sparse_matrix& a)
+  {
+    return run_or_fail([&] { return Base::factorize(a); });
+  }
+
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    return run_or_fail([&] { return Base::set_border(b, d); });
+  }
+
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    return run_or_fail([&] { return Base::solve(n, x); });
+  }
+
+private:
+  template <typename Function>
+  static bool run_or_fail(const Function& run)
+  {
+    if(!solver_faults.is_hit())
+      return run();
+    if(failure_of_solver == Failure::returns_false)
+      return false;
+    if(failure_of_solver == Failure::throws_after)
+      run();
+    throw Fault();
+  }
+};
+
+struct Faulty_weight : CGAL::ARAP::Safe_cotangent_weight
+{
+  using Base = CGAL::ARAP::Safe_cotangent_weight;
+
+  Faulty_weight() = default;
+  Faulty_weight(const Faulty_weight& other) : Base(other) { throw_if_hit(weight_faults); }
+  Faulty_weight& operator=(const Faulty_weight&) { throw_if_hit(weight_faults); return *this; }
+
+  template <std::size_t N>
+  auto simplex_weights(const std::array<Coordinates, N>& simplex) const
+    -> decltype(Base().simplex_weights(simplex))
+  {
+    throw_if_hit(weight_faults);
+    return Base::simplex_weights(simplex);
+  }
+
+  double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
+  {
+    throw_if_hit(weight_faults);
+    return Base::edge_weight(edge_set, i, j, sum);
+  }
+};
+
+struct Faulty_rotation : CGAL::ARAP::Newton_closest_rotation
+{
+  using Base = CGAL::ARAP::Newton_closest_rotation;
+
+  Faulty_rotation() = default;
+  Faulty_rotation(const Faulty_rotation& other) : Base(other) { throw_if_hit(rotation_faults); }
+  Faulty_rotation& operator=(const Faulty_rotation&)
+  {
+    throw_if_hit(rotation_faults);
+    return *this;
+  }
+
+  // throws when all is done
+  void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
+  {
+    Base::operator()(n, covariances, rotations);
+    throw_if_hit(rotation_faults);
+  }
+};
+
+// One thread: faults are counted.
+using Faulty_traits = CGAL::ARAP_deformation_traits_3<Faulty_solver, Faulty_weight, Faulty_rotation,
+                                                      CGAL::Sequential_tag>;
+
+void test_models()
+{
+  const auto test = [](Faults& faults, Fault_statistics& statistics, Cell_scheme cells) {
+    test_stories(Fault_test<Session<Surface, Faulty_traits>>(faults, statistics), "surface", cells);
+    test_stories(Fault_test<Session<Solid, Faulty_traits>>(faults, statistics), "solid", cells);
+  };
+  Fault_statistics solver("solver"), weight("weights"), rotation("rotation");
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    for(Failure f : {Failure::returns_false, Failure::throws_before, Failure::throws_after})
+    {
+      failure_of_solver = f;
+      test(solver_faults, solver, cells);
+    }
+    test(weight_faults, weight, cells);
+    test(rotation_faults, rotation, cells);
+  }
+}
+
+// A visitor that throws or cancels at an iterate, after another one has been seen.
+void test_visitors()
+{
+  using Session_ = Session<Solid, Faulty_traits>;
+  using S = Steps<Session_>;
+  using CGAL::ARAP::Initial_guess;
+  using CGAL::ARAP::Minimizer;
+  Fault_statistics statistics("visitor");
+  for(bool throws : {false, true})
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      const Step<Session_> deform = {"deform", [throws](Session_& s) {
+        return bool(s.deformation->deform([throws](const auto&) {
+          const bool is_hit = visitor_faults.is_hit();
+          if(is_hit && throws)
+            throw Fault();
+          return is_hit ? Visitor_action::cancel : Visitor_action::proceed;
+        }));
+      }};
+      Fault_test<Session_> test(visitor_faults, statistics);
+      test("visitor", [] { return std::make_unique<Session_>(); },
+           {S::construct(), S::insert(),
+            S::set_options(Cell_scheme::elements(), minimizer, Initial_guess::laplacian), deform,
+            S::change_control_vertices(), deform, S::overwrite(), deform, S::reset(), deform});
+    }
+}
+
+// A domain of which every function may throw; what writes points has its own faults.
+struct Faulty_domain : Solid::Domain
+{
+  using Base = Solid::Domain;
+
+  explicit Faulty_domain(const Base& base) : Base(base) {}
+
+  static Coordinates coordinates(const Point& p) { return checked(Base::coordinates(p)); }
+  static Point make_point(const Coordinates& c) { return checked(Base::make_point(c)); }
+  std::size_t index(std::size_t v) const { return checked(Base::index(v)); }
+  const Point& point(std::size_t v) const { return checked(Base::point(v)); }
+  bool is_isolated(std::size_t v) const { return checked(Base::is_isolated(v)); }
+
+  void set_point(std::size_t v, const Point& p) const
+  {
+    throw_if_hit(put_faults);
+    Base::set_point(v, p);
+  }
+
+  template <typename Function>
+  void for_each_incident_simplex(std::size_t v, const Function& f) const
+  {
+    Base::for_each_incident_simplex(v, [&](std::size_t s, const auto& corners) {
+      f(checked(s), corners);
+    });
+  }
+
+private:
+  template <typename T>
+  static T&& checked(T&& value)
+  {
+    throw_if_hit(domain_faults);
+    return std::forward<T>(value);
+  }
+};
+
+void test_domain()
+{
+  using Session_ = Session<Solid, CGAL::ARAP_deformation_traits_3<>, Faulty_domain>;
+  Fault_statistics domain("domain"), put("writing points");
+  for(Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::elements()})
+  {
+    test_stories(Fault_test<Session_>(domain_faults, domain), "domain", cells);
+    test_stories(Fault_test<Session_>(put_faults, put, false), "writing points", cells);
+  }
+}
+
+int main()
+{
+  test_models();
+  test_visitors();
+  test_domain();
+  return faults_result();
+}
