@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// What is the user's fails, at every call: solvers, weights, rotations, visitors and domains
-// that throw or refuse. The mesh and the object are as they were.
+// What is the user's fails, at every call: solvers, weights, rotations, visitors, domains and
+// property maps that throw or refuse. The mesh and the object are as they were.
 
 #include "include/check.h"
 #include "include/fault_stories.h"
@@ -235,10 +235,67 @@ void test_domain()
   }
 }
 
+// the points of a surface, which may fail to be read and written
+struct Faulty_point_map
+{
+  using Map = boost::property_map<Mesh, CGAL::vertex_point_t>::type;
+  using key_type = Mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::read_write_property_map_tag;
+
+  Map map;
+
+  friend Point get(const Faulty_point_map& points, key_type v)
+  {
+    throw_if_hit(domain_faults);
+    return get(points.map, v);
+  }
+
+  friend void put(const Faulty_point_map& points, key_type v, const Point& p)
+  {
+    throw_if_hit(put_faults);
+    put(points.map, v, p);
+  }
+};
+
+// weights of halfedges that depend on the points
+struct Faulty_calculator
+{
+  template <typename Halfedge, typename PointMap>
+  double operator()(Halfedge h, Mesh& mesh, const PointMap& points) const
+  {
+    throw_if_hit(weight_faults);
+    return 1 + squared_distance(get(points, source(h, mesh)), get(points, target(h, mesh)));
+  }
+};
+
+void test_drop_in_class()
+{
+  using Deformation =
+    CGAL::ARAP::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, CGAL::SPOKES_AND_RIMS,
+                                         Faulty_calculator, Faulty_solver, Faulty_rotation,
+                                         Faulty_point_map>;
+  using Session_ = Drop_in_session<Deformation>;
+  const auto construct = [](Session_& s) {
+    Mesh& mesh = s.deformed.mesh;
+    s.deformation.emplace(mesh, get(boost::vertex_index, mesh), get(boost::halfedge_index, mesh),
+                          Faulty_point_map{get(CGAL::vertex_point, mesh)});
+    return true;
+  };
+  Fault_statistics statistics("models of the drop-in class"), put("its writing points");
+  failure_of_solver = Failure::returns_false;
+  for(Faults* faults : {&solver_faults, &weight_faults, &rotation_faults, &domain_faults})
+    test_drop_in_story(Fault_test<Session_>(*faults, statistics), "drop-in class", construct);
+  test_drop_in_story(Fault_test<Session_>(put_faults, put, false), "drop-in class, writing",
+                     construct);
+}
+
 int main()
 {
   test_models();
   test_visitors();
   test_domain();
+  test_drop_in_class();
   return faults_result();
 }

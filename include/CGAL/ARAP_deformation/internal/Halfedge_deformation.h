@@ -129,8 +129,12 @@ public:
   // makes the region fit the region of interest; what has left it is put back
   void update_region()
   {
-    if(m_is_region_outdated)
-      take_region(make_next_region());
+    if(!m_is_region_outdated)
+      return;
+    Update update;
+    update.region.emplace(make_next_region());
+    put_back_erased();
+    take(std::move(update));
   }
 
   // the target of a control vertex becomes move(target)
@@ -150,6 +154,7 @@ public:
     Update update;
     if(!prepare(update))
       return false;
+    put_back_erased();
     take(std::move(update));
     return true;
   }
@@ -164,11 +169,8 @@ public:
   void reset()
   {
     update_region();
-    for(int k = 0; k < m_region.roi_size; ++k)
-    {
-      put(m_point_map, m_region.vertices[k], m_region.rest[k]);
-      m_region.points[k] = m_region.rest[k];
-    }
+    put_roi(m_region, m_region.rest);
+    std::copy_n(m_region.rest.begin(), m_region.roi_size, m_region.points.begin());
     m_region.reset_rotations();
   }
 
@@ -177,10 +179,12 @@ public:
     if(m_roi.vertices().empty())
       return;
     update_region();
-    // the weights first: what is the user's may throw
-    m_weights.recompute_at(m_roi.vertices(), [this](Vertex v) { return m_roi.contains(v); });
+    // what is the user's, maps and weights, may throw: nothing is changed before
+    std::vector<Point> rest = m_region.rest;
     for(int k = 0; k < m_region.roi_size; ++k)
-      m_region.rest[k] = get(m_point_map, m_region.vertices[k]);
+      rest[k] = get(m_point_map, m_region.vertices[k]);
+    m_weights.recompute_at(m_roi.vertices(), [this](Vertex v) { return m_roi.contains(v); });
+    m_region.rest.swap(rest);
     m_region.reset_rotations();
     region_changed(); // what is around the region of interest is read again too
   }
@@ -224,13 +228,21 @@ private:
     return next_region(m_region, m_roi.vertices(), m_mesh, m_index_map, m_point_map);
   }
 
-  void take_region(Region&& next)
+  // What has left the region of interest is put back, before another region is taken.
+  void put_back_erased()
   {
+    if(!m_is_region_outdated)
+      return;
     for(int k = 0; k < m_region.roi_size; ++k)
       if(!m_roi.contains(m_region.vertices[k]))
         put(m_point_map, m_region.vertices[k], m_region.rest[k]);
-    m_region = std::move(next);
-    m_is_region_outdated = false;
+  }
+
+  // Writes the points of the vertices of the region of interest.
+  void put_roi(const Region& region, const std::vector<Point>& points)
+  {
+    for(int k = 0; k < region.roi_size; ++k)
+      put(m_point_map, region.vertices[k], points[k]);
   }
 
   bool prepare(Update& update)
@@ -245,7 +257,10 @@ private:
   void take(Update&& update)
   {
     if(update.region)
-      take_region(std::move(*update.region));
+    {
+      m_region = std::move(*update.region);
+      m_is_region_outdated = false;
+    }
     if(update.system)
       m_system = std::move(update.system);
   }
@@ -343,7 +358,8 @@ private:
     if(!succeeded(status))
       return internal::outcome(status);
 
-    // all is there before the first point is written, the sentence too
+    // All is there before the first point is written, the sentence too; if the map throws while they
+    // are, the object is as it was.
     Outcome result =
       status == Status::converged
       ? Outcome(status, "the energy changed by less than the tolerance in an iteration")
@@ -361,11 +377,11 @@ private:
     region_rotations.reserve(rotations.size());
     for(int k = 0; k < region.number_of_cells; ++k)
       region_rotations.push_back(rotations[system.numbers[k]]);
+    put_back_erased();
+    put_roi(region, points);
     take(std::move(update));
     m_region.points = std::move(points);
     m_region.rotations = std::move(region_rotations);
-    for(int k = 0; k < m_region.roi_size; ++k)
-      put(m_point_map, m_region.vertices[k], m_region.points[k]);
     return result;
   }
 

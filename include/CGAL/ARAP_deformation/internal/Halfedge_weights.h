@@ -77,7 +77,7 @@ public:
   {
     m_weights.reserve(num_halfedges(mesh));
     for(const halfedge_descriptor h : halfedges(mesh))
-      compute(h);
+      compute(h, m_weights);
   }
 
   // an upper bound of all indices
@@ -90,26 +90,29 @@ public:
 
   double operator[](halfedge_descriptor h) const { return m_weights[index(h)]; }
 
-  // computes those of all halfedges that a vertex of the range is an end of
+  // Computes those of all halfedges that a vertex of the range is an end of. None of them changes
+  // if the user's calculator throws.
   template <typename VertexRange, typename IsInRange>
   void recompute_at(const VertexRange& vertices, const IsInRange& is_in_range)
   {
+    std::vector<double> weights = m_weights;
     for(const vertex_descriptor v : vertices)
       for_each_halfedge_to(v, m_mesh, [&](halfedge_descriptor h) {
-        compute(h);
+        compute(h, weights);
         if(!is_in_range(source(h, m_mesh)))
-          compute(opposite(h, m_mesh));
+          compute(opposite(h, m_mesh), weights);
       });
+    m_weights.swap(weights);
   }
 
 private:
-  void compute(halfedge_descriptor h)
+  void compute(halfedge_descriptor h, std::vector<double>& weights)
   {
     const double weight = m_calculator(h, m_mesh, m_point_map);
     const std::size_t i = index(h);
-    if(i >= m_weights.size()) // where halfedges were removed, indices exceed the number
-      m_weights.resize(i + 1, 0);
-    m_weights[i] = weight;
+    if(i >= weights.size()) // where halfedges were removed, indices exceed the number
+      weights.resize(i + 1, 0);
+    weights[i] = weight;
   }
 
   Mesh& m_mesh;
