@@ -90,6 +90,16 @@ bool are_finite(const Point& p)
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
 
+// relative to the energy: with handles 10^5 diameters away a rounding error may be more than what
+// the package takes for one
+double largest_rise(const Report& report)
+{
+  double largest = 0;
+  for(std::size_t k = 1; k < report.energy.size(); ++k)
+    largest = (std::max)(largest, report.energy[k] / report.energy[k - 1] - 1);
+  return largest;
+}
+
 // One run of a deformation in which vertices[k] is vertex k of the shape; point(v) is where it is.
 template <typename Deformation, typename Vertices, typename PointOf>
 void run(Deformation& deformation, const Vertices& vertices, const PointOf& point_of_vertex,
@@ -124,7 +134,7 @@ void run(Deformation& deformation, const Vertices& vertices, const PointOf& poin
     return;
   }
   CHECK(handles.name != "none" && handles.name != "not a number");
-  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0 || largest_rise(report) <= 1e-9);
   for(double energy : report.energy)
     CHECK(energy >= -1e-9 * report.energy_scale);
   for(const auto& v : vertices)

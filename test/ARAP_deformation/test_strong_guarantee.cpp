@@ -15,7 +15,6 @@
 // The allocations of TBB are not ours: it makes some of them once for a thread, at any time.
 #undef CGAL_LINKED_WITH_TBB
 
-#include "include/allocation_faults.h"
 #include "include/check.h"
 #include "include/fault_stories.h"
 
@@ -30,6 +29,9 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+// last: a header of clang++ declares one of its functions without noexcept, and may do so first
+#include "include/allocation_faults.h"
 
 using CGAL::ARAP::Initial_guess;
 using CGAL::ARAP::Minimizer;

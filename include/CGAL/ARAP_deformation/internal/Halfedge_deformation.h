@@ -358,8 +358,8 @@ private:
     if(!succeeded(status))
       return internal::outcome(status);
 
-    // All is there before the first point is written, the sentence too; if the map throws while they
-    // are, the object is as it was.
+    // All is there before the first point is written, the sentence too. If the map throws
+    // meanwhile, the object is as it was.
     Outcome result =
       status == Status::converged
       ? Outcome(status, "the energy changed by less than the tolerance in an iteration")

@@ -140,7 +140,9 @@ public:
     // what nothing holds stays where it is, unless there is nothing else
     std::vector<std::size_t> unheld_parts;
     Outcome prepared = prepare(free_vertices, unheld_parts);
-    if(prepared.status == Status::no_held_vertex && !free_vertices.empty())
+    const auto is_hard = [this](const auto& e) { return m_vertices.is_hard_control(e); };
+    if(prepared.status == Status::no_held_vertex &&
+       (!free_vertices.empty() || any_of_entries(is_hard)))
       prepared = prepare(free_vertices, unheld_parts);
     if(prepared)
       m_unheld_parts = std::move(unheld_parts);
