@@ -16,10 +16,12 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -173,6 +175,8 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.selection = values["selection"].as<std::string>();
     line.transform = values["transform"].as<std::string>();
     line.output = values["output"].as<std::string>();
+    if(line.mesh.empty() || line.selection.empty() || line.transform.empty() || line.output.empty())
+      throw Usage_error("the name of a file is empty");
     line.report = values["report"].as<std::string>();
     line.image = values["image"].as<std::string>();
     line.weights = chosen<Weight_choice>(
@@ -210,6 +214,11 @@ inline Command_line parse_command_line(int argc, char** argv)
   }
   catch(const po::error& error)
   {
+    // Boost replaces placeholders such as %value% in its sentence by an argument: endlessly if that
+    // holds the placeholder itself
+    const auto has_percent = [](std::string_view a) { return a.find('%') != a.npos; };
+    if(std::any_of(argv, argv + argc, has_percent))
+      throw Usage_error("an option is missing, not known or given twice, or its value is none");
     throw Usage_error(error.what());
   }
 }

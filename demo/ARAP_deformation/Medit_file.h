@@ -137,12 +137,10 @@ private:
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
     const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
-    std::string found = m_text.substr(words.begin(), (std::min)(words.end() - words.begin(),
-                                                                std::size_t(40)));
-    for(char& c : found) // it may be anything
-      c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+    const bool is_end = words.begin() == m_text.size();
+    const auto word = std::string_view(m_text).substr(words.begin(), words.end() - words.begin());
     throw bad_line(m_name, static_cast<int>(line),
-                   expected + (found.empty() ? " the end of the file" : " '" + found + "'"));
+                   expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
   }
 
   static bool is_keyword(std::string_view word)

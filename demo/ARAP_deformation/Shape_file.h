@@ -16,6 +16,7 @@
 // construction, deformed by its domain, and written.
 
 #include "Medit_file.h"
+#include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>

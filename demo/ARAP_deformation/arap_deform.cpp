@@ -37,6 +37,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -287,6 +288,11 @@ int main(int argc, char** argv)
   {
     std::cerr << "arap_deform: " << error.what() << "\nTry arap_deform --help\n";
     return 2;
+  }
+  catch(const std::bad_alloc&)
+  {
+    std::cerr << "arap_deform: there is not enough memory\n";
+    return 1;
   }
   catch(const std::exception& error)
   {

@@ -22,6 +22,7 @@
 #include "demo_shapes.h"
 #include "embedded_shape.h"
 #include "mesh_panel.h"
+#include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>

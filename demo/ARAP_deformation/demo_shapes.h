@@ -17,6 +17,7 @@
 
 #include "Medit_file.h"
 #include "Scene.h"
+#include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/Bbox_3.h>

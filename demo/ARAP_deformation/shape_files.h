@@ -30,6 +30,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -110,30 +111,6 @@ inline bool is_tetrahedra_file(const std::string& file)
   return lower_case_extension(file) == ".mesh";
 }
 
-// A surface of triangles and polygons all of whose coordinates are finite.
-inline Mesh read_mesh(const std::string& file)
-{
-  open_for_reading(file);
-  Mesh mesh;
-  if(!CGAL::IO::read_polygon_mesh(file, mesh))
-    throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
-                             lower_case_extension(file) + " files, or holds a coordinate that "
-                             "is not a finite number, or is not an oriented manifold surface");
-  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
-    throw std::runtime_error(file + ": has no faces");
-  for(Mesh::Vertex_index v : mesh.vertices())
-    for(int k = 0; k < 3; ++k)
-      if(!std::isfinite(mesh.point(v)[k]))
-        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
-                                 " has a coordinate that is infinite or not a number");
-  for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) < 3)
-      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; a polygon has at least "
-                               "three");
-  return mesh;
-}
-
 // Calls f(line, number of the line) for each line of a file that holds more than a comment.
 template <typename Function>
 void for_each_line(const std::string& file, const Function& f)
@@ -151,6 +128,15 @@ void for_each_line(const std::string& file, const Function& f)
 inline std::runtime_error bad_line(const std::string& file, int number, const std::string& what)
 {
   return std::runtime_error(file + ", line " + std::to_string(number) + ": " + what);
+}
+
+// A word of a file, which may be anything, as it is quoted in a sentence.
+inline std::string in_quotes(std::string_view word)
+{
+  std::string text(word.substr(0, 40));
+  for(char& c : text)
+    c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
+  return "'" + text + "'";
 }
 
 // One status a line and vertex: 0 fixed, 1 free, 2 handle.
@@ -187,7 +173,7 @@ inline Transform read_transform(const std::string& file)
       std::istringstream in_word(word);
       double entry;
       if(!(in_word >> entry) || !in_word.eof() || !std::isfinite(entry))
-        throw bad_line(file, number, "'" + word + "' is not a finite number");
+        throw bad_line(file, number, in_quotes(word) + " is not a finite number");
       entries.push_back(entry);
     }
   });

@@ -319,7 +319,7 @@ void test_refusals()
   }
   const std::string text = off(shape);
   write("half.off", text.substr(0, text.size() / 2));
-  mesh("half.off", "half.off: cannot be read: ");
+  mesh("half.off", "half.off: vertex 78 is missing");
   write("nothing.off", "OFF\n0 0 0\n");
   mesh("nothing.off", "has no faces");
   for(const std::string bad : {"nan", "inf", "NaN"})

@@ -67,6 +67,21 @@ inline Run run(const std::string& arguments)
   return result;
 }
 
+// From now on the command is killed if it takes longer than anything here should, and, unless it is
+// built with a sanitizer, which needs more, has no more than a GB to allocate.
+inline void limit_command()
+{
+#if defined(__linux__)
+#if defined(__SANITIZE_ADDRESS__)
+  const std::string memory = "unlimited";
+#else
+  const std::string memory = "1000000";
+#endif
+  command = "/bin/sh\" -c 'ulimit -v " + memory + "; exec timeout -s KILL 20 \"$0\" \"$@\"' \"" +
+            command;
+#endif
+}
+
 inline std::set<std::string> files()
 {
   std::set<std::string> names;

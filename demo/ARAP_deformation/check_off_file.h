@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
+
+#include <CGAL/IO/OFF/File_header_OFF.h>
+#include <CGAL/IO/io.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <istream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+namespace internal {
+
+// The checks of the rows of an .off file, as CGAL's reader sees them: it believes the number of
+// corners in a row, and that rows are as long as they need be for the colours of the header.
+class Off_rows
+{
+public:
+  Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header)
+    : m_in(in), m_file(file), m_header(header)
+  {}
+
+  void check_vertices()
+  {
+    // coordinates, and a weight if they are homogeneous
+    const std::size_t h = m_header.is_homogeneous() ? 1 : 0;
+    const std::size_t plain = 3 + h + (m_header.has_normals() ? 3 + h : 0);
+    const std::size_t texture = m_header.has_textures() ? 2 + h : 0;
+    const bool is_plain = h == 0 && !m_header.has_colors(); // then CGAL asks for enough numbers
+    bool has_colours = false;
+    for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
+    {
+      find_row("vertex", v);
+      if(is_plain)
+        continue;
+      read_numbers();
+      if(m_row.size() < plain + texture)
+        refuse("vertex", v, "has too few numbers");
+      if(h == 1 && m_row[3] == 0)
+        refuse("vertex", v, "is at infinity");
+      if(m_header.has_colors())
+        check_colour("vertex", v, plain, m_row.size() - texture, has_colours);
+    }
+  }
+
+  void check_faces()
+  {
+    bool has_colours = false;
+    for(std::size_t f = 0; f < m_header.size_of_facets(); ++f)
+    {
+      find_row("face", f);
+      read_numbers();
+      const double corners = m_row.empty() ? 0 : m_row[0];
+      if(!(corners >= 0 && corners < static_cast<double>(m_row.size())))
+        refuse("face", f, "has not as many vertices as it announces");
+      const auto end = 1 + static_cast<std::size_t>(corners);
+      for(std::size_t i = 1; i < end; ++i)
+        if(!(m_row[i] >= 0 && m_row[i] < static_cast<double>(m_header.size_of_vertices())))
+          refuse("face", f, "has a vertex that there is not");
+      if(m_header.has_colors())
+        check_colour("face", f, end, m_row.size(), has_colours);
+    }
+  }
+
+private:
+  [[noreturn]] void refuse(const char* what, std::size_t number, const std::string& why) const
+  {
+    throw std::runtime_error(m_file + ": " + what + ' ' + std::to_string(number) + ' ' + why);
+  }
+
+  // Rows and their numbers are found in the manner of CGAL's File_scanner_OFF: both see the same.
+  void find_row(const char* what, std::size_t number)
+  {
+    m_in >> skip_comment_OFF;
+    if(!std::getline(m_in, m_line))
+      refuse(what, number, "is missing");
+  }
+
+  void read_numbers()
+  {
+    m_numbers.clear();
+    m_numbers.str(m_line.substr(0, m_line.find('#')));
+    m_row.clear();
+    for(double entry; m_numbers >> IO::iformat(entry);)
+      m_row.push_back(entry);
+  }
+
+  // The numbers from begin to end are a colour: an index, or red, green and blue, integers or
+  // fractions. Once there is one, all others of its kind must have one.
+  void check_colour(const char* what, std::size_t number, std::size_t begin, std::size_t end,
+                    bool& has_colours) const
+  {
+    const std::size_t n = end - begin;
+    if(n == 0 && !has_colours)
+      return;
+    has_colours = true;
+    if(n != 1 && n < 3)
+      refuse(what, number, "has a colour that is neither one number nor three, or none though "
+                           "others have");
+    bool is_integer = true;
+    double largest = 0;
+    for(std::size_t i = begin; i < begin + (std::min)(n, std::size_t(3)); ++i)
+    {
+      if(!(m_row[i] >= 0 && m_row[i] <= 255))
+        refuse(what, number, "has a colour that is not from 0 to 255");
+      is_integer = is_integer && std::floor(m_row[i]) == m_row[i];
+      largest = (std::max)(largest, m_row[i]);
+    }
+    if(n != 1 && !is_integer && largest > 1)
+      refuse(what, number, "has a colour that is neither of integers nor of numbers from 0 to 1");
+  }
+
+  std::istream& m_in;
+  const std::string& m_file;
+  const File_header_OFF& m_header;
+  std::string m_line;
+  std::istringstream m_numbers;
+  std::vector<double> m_row;
+};
+
+} // namespace internal
+
+// Throws a std::runtime_error for what CGAL's reader of .off files would believe: more rows than
+// there are, rows that are too short. What is not even an .off file is left to the reader.
+inline void check_off_file(std::istream& in, const std::string& file)
+{
+  File_header_OFF header(false);
+  if(!(in >> header))
+    return;
+  if(header.binary())
+    throw std::runtime_error(file + ": is binary; of .off files only those in text are read");
+  if(header.has_textures() && !header.has_colors())
+    throw std::runtime_error(file + ": has texture coordinates, which are not read");
+  internal::Off_rows rows(in, file, header);
+  rows.check_vertices();
+  rows.check_faces();
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H

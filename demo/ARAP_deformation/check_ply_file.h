@@ -1,0 +1,271 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
+
+#include "check_count.h"
+
+#include <CGAL/IO/io.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+namespace internal {
+
+// The checks of a .ply file: CGAL's reader believes the numbers of elements and of the entries of
+// lists, and that properties of certain names have the types that it expects.
+class Ply_layout
+{
+public:
+  Ply_layout(std::istream& in, const std::string& file, std::size_t bytes)
+    : m_in(in), m_file(file), m_bytes(bytes)
+  {}
+
+  // Returns whether it is a .ply file.
+  bool read_header()
+  {
+    std::string line, word;
+    if(!std::getline(m_in, line) || !(std::istringstream(line) >> word) || word != "ply" ||
+       !std::getline(m_in, line) || !(std::istringstream(line) >> word >> m_format) ||
+       (m_format != "ascii" && m_format != "binary_little_endian" &&
+        m_format != "binary_big_endian"))
+      return false;
+    while(std::getline(m_in, line))
+    {
+      std::istringstream words(line);
+      if(!(words >> word))
+        return false;
+      if(word == "element")
+        read_element(words);
+      else if(word == "property")
+        read_property(words);
+      else if(word == "end_header")
+        return true;
+    }
+    refuse("has no end of its header");
+  }
+
+  void check_types() const
+  {
+    for(const Element& element : m_elements)
+    {
+      const bool is_vertex = element.name == "vertex" || element.name == "vertices";
+      const bool is_face = element.name == "face" || element.name == "faces";
+      const bool has_bytes = std::any_of(element.properties.begin(), element.properties.end(),
+                                         [](const Property& p) {
+        return is_colour(p.name) && p.is("uchar");
+      });
+      for(const Property& p : element.properties)
+      {
+        if(is_vertex && (p.name == "x" || p.name == "y" || p.name == "z"))
+          require(p.is("float") || p.is("double"), p, "float or double");
+        if((is_vertex || is_face) && is_colour(p.name) && has_bytes)
+          require(p.is("uchar"), p, "uchar, as other colours");
+        if(element.name == "halfedge" && (p.name == "source" || p.name == "target"))
+          require(p.is("uint"), p, "uint");
+        if(is_face && (p.name == "vertex_indices" || p.name == "vertex_index"))
+          require(p.is_list && (type_name(p.type) == "int" || type_name(p.type) == "uint"), p,
+                  "a list of int or uint");
+      }
+    }
+  }
+
+  // Only numbers of entries of four bytes or more can be of a size to matter.
+  bool has_lists_of_any_size() const
+  {
+    for(const Element& element : m_elements)
+      for(const Property& p : element.properties)
+        if(p.is_list && (type_name(p.size_type) == "int" || type_name(p.size_type) == "uint"))
+          return true;
+    return false;
+  }
+
+  void check_lists()
+  {
+    for(const Element& element : m_elements)
+      for(std::size_t i = 0; i < element.number; ++i)
+        for(const Property& p : element.properties)
+        {
+          double entries = 1;
+          if(p.is_list)
+          {
+            entries = read(p.size_type);
+            check_count(m_file, m_bytes, entries, "entries of " + p.name);
+          }
+          for(double j = 0; j < entries; ++j)
+            read(p.type);
+        }
+  }
+
+private:
+  using Type = std::size_t; // a place in the names below
+
+  struct Property
+  {
+    std::string name;
+    Type type;
+    bool is_list;
+    Type size_type;
+
+    bool is(const char* t) const { return !is_list && type_name(type) == t; }
+  };
+
+  struct Element
+  {
+    std::string name;
+    std::size_t number;
+    std::vector<Property> properties;
+  };
+
+  static const std::string& type_name(Type type) { return type_names()[type][0]; }
+
+  static const std::array<std::array<std::string, 2>, 8>& type_names()
+  {
+    static const std::array<std::array<std::string, 2>, 8> names = {{
+      {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"},
+      {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
+    return names;
+  }
+
+  static bool is_colour(const std::string& name)
+  {
+    return name == "red" || name == "green" || name == "blue" || name == "r" || name == "g" ||
+           name == "b";
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const
+  {
+    throw std::runtime_error(m_file + ": " + why);
+  }
+
+  void require(bool condition, const Property& property, const std::string& types) const
+  {
+    if(!condition)
+      refuse("the property " + property.name + " is not " + types);
+  }
+
+  void read_element(std::istream& words)
+  {
+    Element element;
+    if(!(words >> element.name >> element.number))
+      refuse("has an element without a name or a number in its header");
+    m_total += static_cast<double>(element.number);
+    check_count(m_file, m_bytes, m_total, "elements");
+    m_elements.push_back(element);
+  }
+
+  Type type_of(const std::string& word) const
+  {
+    const auto& names = type_names();
+    const auto found = std::find_if(names.begin(), names.end(), [&](const auto& both) {
+      return both[0] == word || both[1] == word;
+    });
+    if(found == names.end())
+      refuse("has a property of an unknown type in its header");
+    return static_cast<Type>(found - names.begin());
+  }
+
+  void read_property(std::istream& words)
+  {
+    if(m_elements.empty())
+      refuse("has a property before any element in its header");
+    std::string type, size_type, name;
+    words >> type;
+    const bool is_list = type == "list";
+    if(is_list)
+      words >> size_type >> type;
+    if(!(words >> name))
+      refuse("has a property without a type or a name in its header");
+    const Property property{name, type_of(type), is_list, is_list ? type_of(size_type) : 0};
+    if(is_list && (type_name(property.size_type) == "float" ||
+                   type_name(property.size_type) == "double"))
+      refuse("has a list with a fractional number of entries in its header");
+    m_elements.back().properties.push_back(property);
+  }
+
+  // Reads a number, in a text in the manner of CGAL's PLY_read_number, that both see the same.
+  double read(Type type)
+  {
+    switch(type)
+    {
+    case 0: return read<std::int8_t, short>();
+    case 1: return read<std::uint8_t, unsigned short>();
+    case 2: return read<std::int16_t, std::int16_t>();
+    case 3: return read<std::uint16_t, std::uint16_t>();
+    case 4: return read<std::int32_t, std::int32_t>();
+    case 5: return read<std::uint32_t, std::uint32_t>();
+    case 6: return read<float, float>();
+    default: return read<double, double>();
+    }
+  }
+
+  template <typename Binary, typename Text>
+  double read()
+  {
+    Binary value{};
+    if(m_format == "ascii")
+    {
+      Text number{};
+      if constexpr(std::is_floating_point_v<Text>)
+        m_in >> IO::iformat(number);
+      else
+        m_in >> number;
+      value = static_cast<Binary>(number);
+    }
+    else
+    {
+      std::array<char, sizeof(Binary)> buffer;
+      m_in.read(buffer.data(), buffer.size());
+      if(m_format == "binary_big_endian")
+        std::reverse(buffer.begin(), buffer.end());
+      std::copy(buffer.begin(), buffer.end(), reinterpret_cast<char*>(&value));
+    }
+    if(!m_in)
+      refuse("ends before all its elements, or holds something that is not a number");
+    return static_cast<double>(value);
+  }
+
+  std::istream& m_in;
+  const std::string& m_file;
+  std::size_t m_bytes;
+  std::string m_format = "ascii";
+  std::vector<Element> m_elements;
+  double m_total = 0; // of the numbers of elements
+};
+
+} // namespace internal
+
+// Throws a std::runtime_error for what CGAL's reader of .ply files would believe: counts that
+// cannot be, properties of other types than it expects. What is not even a .ply file is left to it.
+inline void check_ply_file(std::istream& in, const std::string& file, std::size_t bytes)
+{
+  internal::Ply_layout layout(in, file, bytes);
+  if(!layout.read_header())
+    return;
+  layout.check_types();
+  if(layout.has_lists_of_any_size())
+    layout.check_lists();
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H

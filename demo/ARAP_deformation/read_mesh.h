@@ -1,0 +1,133 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_READ_MESH_H
+#define CGAL_ARAP_DEFORMATION_DEMO_READ_MESH_H
+
+// Surfaces are read by CGAL. Its readers believe what a file says about itself; what they would
+// crash for, or allocate without bound, is refused here first.
+
+#include "check_off_file.h"
+#include "check_ply_file.h"
+#include "shape_files.h"
+
+#include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Surface_mesh/IO/OFF.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <ios>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+namespace internal {
+
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+// Makes a mesh of polygons, as CGAL's readers do. They take for granted that all corners exist.
+inline bool build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
+                       const Polygons& polygons, Mesh& mesh)
+{
+  for(const auto& p : points)
+    mesh.add_vertex(p);
+  for(std::size_t f = 0; f < polygons.size(); ++f)
+  {
+    std::vector<Mesh::Vertex_index> corners;
+    for(std::size_t v : polygons[f])
+    {
+      if(v >= points.size())
+        throw std::runtime_error(file + ": face " + std::to_string(f) +
+                                 " has a vertex that there is not");
+      corners.emplace_back(static_cast<Mesh::size_type>(v));
+    }
+    if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
+      return false;
+  }
+  return mesh.is_valid(false);
+}
+
+// Returns whether CGAL could read it.
+inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
+{
+  const std::string extension = lower_case_extension(file);
+  std::ifstream in = open_for_reading(file);
+  in.seekg(0, std::ios::end);
+  const auto bytes = static_cast<std::size_t>(in.tellg());
+  const auto rewind = [&in] {
+    in.clear();
+    in.seekg(0);
+  };
+  rewind();
+  if(extension == ".off")
+  {
+    check_off_file(in, file);
+    rewind();
+    return CGAL::IO::read_OFF(in, mesh);
+  }
+  if(extension == ".ply")
+  {
+    check_ply_file(in, file, bytes);
+    rewind();
+  }
+  std::vector<Kernel::Point_3> points;
+  Polygons polygons;
+  const auto quiet = CGAL::parameters::verbose(false);
+  return (extension == ".obj"   ? CGAL::IO::read_OBJ(in, points, polygons, quiet)
+          : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
+          : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
+                                : false) &&
+         build_mesh(file, points, polygons, mesh);
+}
+
+} // namespace internal
+
+// A surface of triangles and polygons all of whose coordinates are finite.
+inline Mesh read_mesh(const std::string& file)
+{
+  Mesh mesh;
+  bool is_read = false;
+  try
+  {
+    is_read = internal::read_unchecked_mesh(file, mesh);
+  }
+  catch(const std::logic_error&)
+  {
+    // of a container that cannot have the size that the file says, or of CGAL
+  }
+  if(!is_read)
+    throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
+                             lower_case_extension(file) + " files, or holds a coordinate that "
+                             "is not a finite number, or is not an oriented manifold surface");
+  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
+    throw std::runtime_error(file + ": has no faces");
+  for(Mesh::Vertex_index v : mesh.vertices())
+    for(int k = 0; k < 3; ++k)
+      if(!std::isfinite(mesh.point(v)[k]))
+        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
+                                 " has a coordinate that is infinite or not a number");
+  for(Mesh::Face_index f : mesh.faces())
+    if(mesh.degree(f) < 3)
+      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + " vertices; a polygon has at least "
+                               "three");
+  return mesh;
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_READ_MESH_H
