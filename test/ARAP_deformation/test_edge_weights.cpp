@@ -53,7 +53,7 @@ bool are_finite(const std::array<double, N>& weights)
 }
 
 // Simplices that are squeezed until nothing is left, of any size: the weights are finite, at most
-// 10^6 units, of no negative energy, and the plain cotangents where these are not too large.
+// 10^6 units and those of a regular simplex, and of no negative energy.
 template <int N>
 void test_degenerate_simplices()
 {
@@ -62,7 +62,7 @@ void test_degenerate_simplices()
   int number_of_bounded = 0;
   for(int k = 0; k < 4000; ++k)
   {
-    const double size = std::pow(10.0, (k % 5 - 2) * 6);
+    const double size = std::pow(10.0, k % 50 == 7 ? -160 : (k % 5 - 2) * 6);
     std::array<Coordinates, N> simplex;
     for(Coordinates& p : simplex)
       p = {entry(random), entry(random), entry(random)};
@@ -90,7 +90,7 @@ void test_degenerate_simplices()
         largest = (std::max)(largest, std::abs(w));
       }
     const double unit = N == 3 ? 1 : longest;
-    CHECK_AT_MOST(largest, 1e6 * unit * (1 + 1e-12));
+    CHECK_AT_MOST(largest, (1e6 + 0.3) * unit);
     CHECK(largest > 0 || (N == 4 && longest == 0));
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> spectrum(laplacian);
     CHECK_AT_MOST(-spectrum.eigenvalues()[0], 1e-9 * largest);

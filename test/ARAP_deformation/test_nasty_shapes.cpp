@@ -9,10 +9,9 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 // Shapes that are not clean, of a shelf and random ones, with handles of all kinds: a run either
-// ends with finite points and an energy that never rises, or is refused with a sentence and changes
-// nothing.
+// ends with finite points and an energy that never rises, but for rounding, or is refused with a
+// sentence and changes nothing.
 // usage: test_nasty_shapes [NUMBER_OF_RANDOM_SHAPES [FIRST_SEED]]
 
 #include "include/check.h"

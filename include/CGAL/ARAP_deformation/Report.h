@@ -54,7 +54,7 @@ struct Report : Outcome
   double energy_scale = 0;
 
   /// \f$z\f$, what rounding the coordinates makes of an energy of zero: it is large where targets,
-  /// or all, are far from the origin. Of an energy \f$E\f$ it makes up to \f$16 \sqrt{E z}\f$.
+  /// or all, are far from the origin. Of an energy \f$E\f$ it makes about \f$16 \sqrt{E z}\f$.
   /// Differences that are below this, or below a rounding error of \f$E + s\f$, mean nothing.
   double zero_energy = 0;
 
@@ -73,7 +73,8 @@ struct Report : Outcome
 
   /// the connected parts of the region that nothing holds, each by the smallest index of its
   /// vertices: no chain of edges of non-zero weight ties it to a vertex that is held or pulled to a
-  /// target. They stayed where they were, and are not counted above.
+  /// target. They stayed where they were, and are not counted above. Always empty for
+  /// `Surface_mesh_deformation`, which refuses them.
   std::vector<std::size_t> unheld_parts;
 
   Phase_seconds seconds; ///< where the time went

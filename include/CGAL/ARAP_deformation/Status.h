@@ -39,7 +39,7 @@ enum class Status
   no_simplex,           ///< no vertex of the region of interest has a simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< a weight of an edge in a simplex is not finite
-  no_held_vertex,       ///< nothing in the region is held or pulled
+  no_held_vertex,       ///< nothing in the region is held, or pulled with a positive weight
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized
   non_finite_energy     ///< the numbers overflowed during the run

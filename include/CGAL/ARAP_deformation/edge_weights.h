@@ -39,11 +39,12 @@ namespace ARAP {
 /// With simplices as edge sets the energy is never negative. With stars it can be where angles are
 /// obtuse, and its minimum is then a distorted shape: prefer `Safe_cotangent_weight`.
 ///
-/// All weights are finite. Where a simplex is degenerate, or so thin that a weight would be larger
-/// than \f$10^6\f$ (in a tetrahedron \f$10^6\f$ times its longest edge), its weights are multiplied
-/// by a common factor that makes this the largest one; and the smaller the factor is, the more is
-/// added of the weights of a regular simplex with the same longest edge. So the corners of a
-/// degenerate simplex are tied together, and its energy is still not negative.
+/// All weights are finite, unless the arithmetic overflows (with edges longer than \f$10^{76}\f$).
+/// Where a simplex is degenerate, or so thin that a weight would be larger than \f$10^6\f$ (in a
+/// tetrahedron \f$10^6\f$ times its longest edge), its weights are multiplied by a common factor
+/// that makes this the largest one; and the smaller the factor is, the more is added of the weights
+/// of a regular simplex with the same longest edge. So the corners of a degenerate simplex are tied
+/// together, unless it is a tetrahedron in one point, and its energy is still not negative.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Cotangent_weight
@@ -60,7 +61,7 @@ public:
     std::array<double, 3> weights = {internal::dot(b, c), -internal::dot(a, c),
                                      internal::dot(a, b)};
     const double doubled_area = std::hypot(normal[0], normal[1], normal[2]);
-    return quotients(weights, 2 * doubled_area, 1, 0, std::sqrt(1.0 / 12));
+    return quotients(weights, 2 * doubled_area, 1, smallest, std::sqrt(1.0 / 12));
   }
 
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(0,3)\f$, \f$(1,2)\f$,
@@ -82,7 +83,8 @@ public:
       {internal::dot(a, a), internal::dot(b, b), internal::dot(c, c), squared_distance(p1, p2),
        squared_distance(p1, p3), squared_distance(p2, p3)}));
     const double rounding = 1e-12 * longest_edge * longest_edge; // of an area
-    return quotients(weights, 6 * std::abs(internal::dot(a, g1)), longest_edge, rounding * rounding,
+    return quotients(weights, 6 * std::abs(internal::dot(a, g1)), longest_edge,
+                     (std::max)(rounding * rounding, smallest),
                      std::sqrt(1.0 / 288) * longest_edge);
   }
 
@@ -90,6 +92,8 @@ public:
   double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return sum; }
 
 private:
+  static constexpr double smallest = 1e-300; // products below it have lost digits
+
   // Divides the weights by the divisor, or by what makes the largest of them 10^6 units. The more
   // this differs, the more of the weight of a regular simplex is added: a triangle on a line could
   // be sheared along it without any energy. Weights that are nothing but rounding do not count.
@@ -97,11 +101,13 @@ private:
   static std::array<double, N> quotients(std::array<double, N> weights, double divisor, double unit,
                                          double rounding, double regular)
   {
-    double largest = 0;
+    double largest = 0, sum = 0;
     for(double w : weights)
-      if(!(std::abs(w) <= largest)) // also what is not a number
-        largest = std::abs(w);
-    const bool is_nothing_left = largest <= rounding;
+    {
+      largest = (std::max)(largest, std::abs(w));
+      sum += std::abs(w);
+    }
+    const bool is_nothing_left = sum <= rounding; // not if one is not a number
     const double smallest_divisor = 1e-6 * largest / unit;
     const double share = is_nothing_left ? 1 : (std::max)(0.0, 1 - divisor / smallest_divisor);
     for(double& w : weights)

@@ -75,7 +75,7 @@ public:
                      [&] { m_diagnosis = prepare(options.cells); });
   }
 
-  // what is wrong with the region, if anything; then the other members must not be called
+  // what is wrong with the region, if anything; then run() must not be called
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
   const Region& region() const { return m_region; }

@@ -86,9 +86,10 @@ public:
                const std::vector<Coordinates>& soft_targets = {}) const
   {
     const double size = squared_extent({&x, &soft_targets});
-    return size <= m_squared_extent ? m_scale
-         : m_squared_extent > 0     ? m_scale * (size / m_squared_extent)
-                                    : m_sum_of_weights * size;
+    if(size <= m_squared_extent)
+      return m_scale;
+    const double ratio = size / m_squared_extent; // infinite for a rest shape in one point
+    return std::isfinite(ratio) ? m_scale * ratio : m_sum_of_weights * size;
   }
 
   // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it

@@ -144,8 +144,6 @@ public:
     if(prepared.status == Status::no_held_vertex &&
        (!free_vertices.empty() || any_of_entries(is_hard)))
       prepared = prepare(free_vertices, unheld_parts);
-    if(prepared)
-      m_unheld_parts = std::move(unheld_parts);
     return prepared;
   }
 
@@ -283,10 +281,12 @@ private:
         erase_loose_components(region, core->loose_components(), free_vertices, unheld_parts);
       return explain(core->diagnosis(), region, *core);
     }
+    Outcome ready = outcome(Status::success);
     m_region = std::move(region);
     m_positions = std::move(positions);
+    m_unheld_parts = std::move(unheld_parts);
     m_core = std::move(core);
-    return outcome(Status::success);
+    return ready;
   }
 
   void erase_loose_components(const Region_& region, const std::vector<int>& loose_components,

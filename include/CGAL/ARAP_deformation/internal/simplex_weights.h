@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -42,8 +43,7 @@ inline bool is_flat(const std::array<Coordinates, 3>& triangle)
 {
   const Coordinates a = difference(triangle[1], triangle[0]),
                     b = difference(triangle[2], triangle[0]), normal = cross(a, b);
-  const double longest = dot(a, a) + dot(b, b);
-  return !(dot(normal, normal) > 1e-12 * longest * longest);
+  return !(std::hypot(normal[0], normal[1], normal[2]) > 1e-6 * (dot(a, a) + dot(b, b)));
 }
 
 // The weights of a polygon are the average over all its triangulations, in which no corner is
