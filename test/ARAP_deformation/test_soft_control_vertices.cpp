@@ -314,19 +314,22 @@ void test_targets_and_weights()
   CHECK_AT_MOST(soup.distance_to(points_of(shape.points)), 1e-12);
 }
 
-// Something has to hold or to pull each component, with more than nothing.
+// What nothing holds, or pulls with more than nothing, stays where it is.
 void test_components()
 {
   test_case() = "components";
   const Shape shape = two_components(shapes()[4]);
   Soup<2> soup(shape.points, shape.triangles, Options());
   const std::size_t n = shape.points.size();
-  soup.control(0, shape.points[0], 1e-9);
-  CHECK(soup.deformation.deform().status == Status::no_held_vertex);
   soup.control(n - 1, shape.points[n - 1] + Eigen::Vector3d(0, 0, 1), 0);
   CHECK(soup.deformation.deform().status == Status::no_held_vertex);
+  soup.control(0, shape.points[0], 1e-9);
+  const Report report = soup.deformation.deform();
+  CHECK(report);
+  CHECK(report.unheld_parts == std::vector<std::size_t>(1, n / 2));
+  CHECK(soup.points[n - 1] == point(shape.points[n - 1]));
   CHECK(soup.deformation.set_target_weight(n - 1, 3));
-  CHECK(soup.deformation.deform());
+  CHECK(soup.deformation.deform().unheld_parts.empty());
   const Eigen::Vector3d moved = vector(soup.points[n - 1]) - shape.points[n - 1];
   CHECK_AT_MOST((moved - Eigen::Vector3d(0, 0, 1)).norm(), 1e-6); // nothing holds it back
 }
