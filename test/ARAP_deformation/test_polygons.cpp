@@ -92,6 +92,38 @@ void test_one_polygon()
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 1, 3)]), 1e-15);
 }
 
+// Five of eight corners are next to being on a line. What little area their triangles have must not
+// decide at once, by a rounding error, whether they are as stiff as such needles are.
+void test_corners_next_to_a_line()
+{
+  const std::size_t n = 8;
+  for(double height = 1e-9; height < 1e-3; height *= 1.2)
+  {
+    test_case() = "corners off a line by " + std::to_string(height);
+    const auto weights_from = [n](double h, std::size_t first) {
+      std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, -h, 0}, {2, -h, 0}, {3, h, 0},
+                                             {4, 0, 0}, {4, 2, 1},  {2, 3, 0},  {0, 2, 0}};
+      std::rotate(points.begin(), points.begin() + std::ptrdiff_t(first), points.end());
+      return weights_of(points);
+    };
+    const std::vector<double> weights = weights_from(height, 0);
+    const double largest = Eigen::Map<const Eigen::VectorXd>(
+      weights.data(), Eigen::Index(weights.size())).lpNorm<Eigen::Infinity>();
+    for(std::size_t first = 1; first < n; ++first)
+    {
+      const std::vector<double> turned = weights_from(height, first);
+      for(std::size_t a = 0; a < n; ++a)
+        for(std::size_t b = a + 1; b < n; ++b)
+          CHECK_AT_MOST(std::abs(weights[pair_number(n, a, b)] -
+                                 turned[pair_number(n, (a + n - first) % n, (b + n - first) % n)]),
+                        1e-9 * largest);
+    }
+    const std::vector<double> next = weights_from(1.001 * height, 0);
+    for(std::size_t k = 0; k < weights.size(); ++k)
+      CHECK_AT_MOST(std::abs(weights[k] - next[k]), 4e-3 * largest);
+  }
+}
+
 template <typename Mesh_>
 void compare_with_reference(const Shape& shape, const Polygons& polygons)
 {
@@ -111,6 +143,7 @@ void compare_with_reference(const Shape& shape, const Polygons& polygons)
 int main()
 {
   test_one_polygon();
+  test_corners_next_to_a_line();
   Polygons polygons;
   const Shape shape = tube(polygons);
   test_case() = "Surface_mesh";

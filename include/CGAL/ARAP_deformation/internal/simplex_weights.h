@@ -38,12 +38,15 @@ std::array<Coordinates, N> corner_points(const Region& region, const std::array<
   return points;
 }
 
-// whether the doubled area is next to nothing, compared with the sides
-inline bool is_flat(const std::array<Coordinates, 3>& triangle)
+// The doubled area, relative to the squared sides; the same, but for rounding, for each order of the
+// corners.
+inline double relative_area(const std::array<Coordinates, 3>& triangle)
 {
   const Coordinates a = difference(triangle[1], triangle[0]),
-                    b = difference(triangle[2], triangle[0]), normal = cross(a, b);
-  return !(std::hypot(normal[0], normal[1], normal[2]) > 1e-6 * (dot(a, a) + dot(b, b)));
+                    b = difference(triangle[2], triangle[0]),
+                    c = difference(triangle[2], triangle[1]), normal = cross(a, b);
+  const double squared_sides = dot(a, a) + dot(b, b) + dot(c, c);
+  return squared_sides > 0 ? std::hypot(normal[0], normal[1], normal[2]) / squared_sides : 0;
 }
 
 // The weights of a polygon are the average over all its triangulations, in which no corner is
@@ -52,8 +55,9 @@ inline bool is_flat(const std::array<Coordinates, 3>& triangle)
 //   Cat(b - a - 1) Cat(c - b - 1) Cat(n - c + a - 1) / Cat(n - 2)
 // of those of a polygon with n corners. Cat(m) / 4^m is used instead, which does not overflow.
 //
-// Triangles without an area, of corners on a line, are left out, unless there are no others: they
-// have no part in the area that the energy is an integral over, and would be infinitely stiff.
+// Triangles next to none of whose area is left, of corners on a line, fade out, unless there are no
+// others: they have no part in the area that the energy is an integral over, and would be
+// infinitely stiff. To leave them out at once would make the weights depend on a rounding error.
 template <typename EdgeWeight>
 void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int s, double* weights)
 {
@@ -70,12 +74,15 @@ void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int
         for(int c = b + 1; c < n; ++c)
           f(a, b, c, corner_points<3>(region, {corners[a], corners[b], corners[c]}));
   };
-  bool has_area = false;
-  for_each_triangle([&](int, int, int, const auto& triangle) { has_area |= !is_flat(triangle); });
+  double largest_area = 0;
+  for_each_triangle([&](int, int, int, const auto& triangle) {
+    largest_area = (std::max)(largest_area, relative_area(triangle));
+  });
+  const double next_to_none = (std::min)(1e-6, largest_area);
   for_each_triangle([&](int a, int b, int c, const auto& triangle) {
-    if(has_area && is_flat(triangle))
-      return;
-    const double fraction = scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
+    const double area = relative_area(triangle);
+    const double share = area < next_to_none ? (area / next_to_none) * (area / next_to_none) : 1;
+    const double fraction = share * scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
                             scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]);
     const std::array<double, 3> w = weight.simplex_weights(triangle);
     weights[pair(a, b)] += fraction * w[0];
