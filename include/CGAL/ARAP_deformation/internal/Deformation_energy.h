@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Cells.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/Extent.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
 #include <CGAL/ARAP_deformation/internal/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/Star_energy.h>
@@ -29,7 +30,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -58,7 +58,9 @@ public:
       m_soft_positions(std::move(soft_positions))
   {
     assign(m_rest, rest);
-    m_squared_extent = squared_extent({&rest});
+    Extent extent;
+    extent.include(rest);
+    m_squared_length = extent.squared_length();
     for_each_edge([&](int i, int j, double weight) {
       const Coordinates edge = difference(rest[i], rest[j]);
       m_sum_of_weights += std::abs(weight);
@@ -81,29 +83,23 @@ public:
   }
 
   // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
-  // square of the size of what x and the targets span, if that is larger.
-  double scale(const std::vector<Coordinates>& x,
-               const std::vector<Coordinates>& soft_targets = {}) const
+  // square of the size of what positions and targets span, if that is larger.
+  double scale(const Extent& extent) const
   {
-    const double size = squared_extent({&x, &soft_targets});
-    if(size <= m_squared_extent)
+    const double size = extent.squared_length();
+    if(size <= m_squared_length)
       return m_scale;
-    const double ratio = size / m_squared_extent; // infinite for a rest shape in one point
+    const double ratio = size / m_squared_length; // infinite for a rest shape in one point
     return std::isfinite(ratio) ? m_scale * ratio : m_sum_of_weights * size;
   }
 
-  // What rounding the positions x makes of an energy of zero. The residuals are squared, so that it
+  // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
   // is far below the rounding error of the scale. Of the soft positions only the targets count, to
-  // which x may yet go: where a weight is larger than those of the edges, the point fits.
-  double rounding_error_of_zero(const std::vector<Coordinates>& x,
-                                const std::vector<Coordinates>& soft_targets = {}) const
+  // which positions may yet go: where a weight is larger than those of the edges, the point fits.
+  double rounding_error_of_zero(const Extent& extent) const
   {
-    double largest = 0;
-    for(const std::vector<Coordinates>* points : {&x, &soft_targets})
-      for(const Coordinates& p : *points)
-        for(double coordinate : p)
-          largest = (std::max)(largest, std::abs(coordinate));
-    const double error = 4 * std::numeric_limits<double>::epsilon() * largest;
+    const double error =
+      4 * std::numeric_limits<double>::epsilon() * extent.largest_coordinate();
     return m_sum_of_weights * error * error;
   }
 
@@ -146,25 +142,6 @@ public:
 
 private:
   static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
-
-  // the square of the diagonal of the bounding box
-  static double squared_extent(std::initializer_list<const std::vector<Coordinates>*> lists)
-  {
-    double sum = 0;
-    for(std::size_t c = 0; c < 3; ++c)
-    {
-      double least = std::numeric_limits<double>::infinity(), most = -least;
-      for(const std::vector<Coordinates>* points : lists)
-        for(const Coordinates& p : *points)
-        {
-          least = (std::min)(least, p[c]);
-          most = (std::max)(most, p[c]);
-        }
-      if(least < most)
-        sum += (most - least) * (most - least);
-    }
-    return sum;
-  }
 
   // points, with a fourth coordinate that is zero, so that each is loaded at once
   static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)
@@ -211,7 +188,7 @@ private:
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x; // of the last evaluation
   double m_scale = 0;          // in the rest shape
-  double m_squared_extent = 0; // of the rest shape
+  double m_squared_length = 0; // of the extent of the rest shape
   double m_sum_of_weights = 0;
 };
 

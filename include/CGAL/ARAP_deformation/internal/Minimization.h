@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/Extent.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/gap_estimate.h>
 
@@ -57,8 +58,11 @@ public:
       m_energy(energy), m_closest_rotation(closest_rotation), m_solver(solver),
       m_options(options), m_observe(observe), m_soft_targets(soft_targets), m_rotations(rotations)
   {
-    report.energy_scale = energy.scale(x, soft_targets);
-    report.zero_energy = energy.rounding_error_of_zero(x, soft_targets);
+    Extent extent;
+    extent.include(x);
+    extent.include(soft_targets);
+    report.energy_scale = energy.scale(extent);
+    report.zero_energy = energy.rounding_error_of_zero(extent);
   }
 
   // the energy at x with the rotations fitted to x

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/Extent.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
@@ -40,8 +41,10 @@ Status minimize_global_local(Deformation_energy& energy, const ClosestRotation& 
                              Report& report)
 {
   std::vector<Coordinates> force, step;
-  report.energy_scale = energy.scale(x);
-  report.zero_energy = energy.rounding_error_of_zero(x);
+  Extent extent;
+  extent.include(x);
+  report.energy_scale = energy.scale(extent);
+  report.zero_energy = energy.rounding_error_of_zero(extent);
   {
     Scoped_seconds local(report.seconds.local_steps);
     report.energy.push_back(energy.evaluate(x, rotations, force));
