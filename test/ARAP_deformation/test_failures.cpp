@@ -169,7 +169,9 @@ void test_nothing_held()
   e.insert_control_vertex(Vertex(7));
   CHECK(e.set_target_position(Vertex(7), Point(0, 0, 3)));
   const Mesh rest = pair;
-  for(int run = 0; run < 2; ++run) // the second one has nothing to preprocess
+  for(int call = 0; call < 2; ++call) // the second one has nothing to do
+    CHECK(e.preprocess().message.find("nothing holds") != std::string::npos);
+  for(int run = 0; run < 2; ++run) // both have nothing to preprocess
   {
     const auto report = e.deform();
     CHECK(report);

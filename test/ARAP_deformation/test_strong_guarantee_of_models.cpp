@@ -32,7 +32,8 @@ using CGAL::ARAP::Matrix_3x3;
 using CGAL::ARAP::Sparse_matrix;
 using CGAL::ARAP::Visitor_action;
 
-Faults solver_faults, weight_faults, rotation_faults, visitor_faults, domain_faults, put_faults;
+Faults solver_faults, weight_faults, rotation_faults, visitor_faults, domain_faults, put_faults,
+  point_faults;
 
 void throw_if_hit(Faults& faults)
 {
@@ -235,6 +236,54 @@ void test_domain()
   }
 }
 
+// A point whose copies may throw, and what is moved does not.
+struct Faulty_point : Bare_point
+{
+  using Bare_point::Bare_point;
+
+  Faulty_point(Faulty_point&&) noexcept = default;
+  Faulty_point& operator=(Faulty_point&&) noexcept = default;
+
+  Faulty_point(const Faulty_point& other) : Bare_point(other) { throw_if_hit(point_faults); }
+
+  Faulty_point& operator=(const Faulty_point& other)
+  {
+    throw_if_hit(point_faults);
+    Bare_point::operator=(other);
+    return *this;
+  }
+};
+
+struct Solid_of_faulty_points
+{
+  using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Faulty_point>, Solid::Tetrahedra>;
+
+  std::vector<Faulty_point> points;
+  Solid::Tetrahedra tetrahedra;
+  Scenario held;
+
+  Solid_of_faulty_points()
+  {
+    const Solid solid;
+    for(const Point& p : solid.points)
+      points.emplace_back(p.x(), p.y(), p.z());
+    tetrahedra = solid.tetrahedra;
+    held = solid.held;
+  }
+
+  Domain domain() { return Domain(points, tetrahedra); }
+  std::vector<std::size_t> vertices() const { return numbers(points.size()); }
+  const Faulty_point& point(std::size_t v) const { return points[v]; }
+};
+
+// Points are copied to be written, so that they are not all written if one cannot be.
+void test_points()
+{
+  Fault_statistics statistics("copies of points");
+  test_stories(Fault_test<Session<Solid_of_faulty_points>>(point_faults, statistics, false),
+               "points", Cell_scheme::elements());
+}
+
 // the points of a surface, which may fail to be read and written
 struct Faulty_point_map
 {
@@ -296,6 +345,7 @@ int main()
   test_models();
   test_visitors();
   test_domain();
+  test_points();
   test_drop_in_class();
   return faults_result();
 }

@@ -89,8 +89,9 @@ inline const char* to_string(Status status)
 /// It converts to `true` if `succeeded(status)`.
 struct Outcome
 {
-  Status status = Status::not_run;             ///< the status.
-  std::string message = "nothing was run yet"; ///< the sentence.
+  Status status = Status::not_run; ///< the status.
+  /// the sentence; empty where a target or a weight was set, of which there may be many.
+  std::string message = "nothing was run yet";
 
   /// constructs the outcome of a call that was not made.
   Outcome() = default;

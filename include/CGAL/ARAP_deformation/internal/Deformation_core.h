@@ -80,9 +80,6 @@ public:
 
   const Region& region() const { return m_region; }
 
-  // for each free vertex the smallest one of its component if nothing holds that, else -1
-  std::vector<int> loose_components() const { return find_loose_components(m_energy); }
-
   // the solver, of which there is no further use here
   Laplacian_solver<Solver> take_solver() { return std::exchange(m_solver, {}); }
 

@@ -125,25 +125,9 @@ public:
 
   Outcome preprocess()
   {
-    if(m_core)
-      return outcome(Status::success);
-    const auto is_tied = [this](const auto& e) {
-      return e.is_roi && !domain().is_isolated(e.vertex);
-    };
-    std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
-      return !m_vertices.is_hard_control(e) && (is_tied(e) || m_vertices.is_pulled(e));
-    });
-    const auto is_roi = [](const auto& e) { return e.is_roi; };
-    if(any_of_entries(is_roi) && !any_of_entries(is_tied))
-      return outcome(Status::no_simplex);
-
-    // what nothing holds stays where it is, unless there is nothing else
-    std::vector<std::size_t> unheld_parts;
-    Outcome prepared = prepare(free_vertices, unheld_parts);
-    const auto is_hard = [this](const auto& e) { return m_vertices.is_hard_control(e); };
-    if(prepared.status == Status::no_held_vertex &&
-       (!free_vertices.empty() || any_of_entries(is_hard)))
-      prepared = prepare(free_vertices, unheld_parts);
+    Outcome prepared = m_core ? outcome(Status::success) : prepare_held_parts();
+    if(prepared)
+      prepared.message += about_unheld_parts(m_unheld_parts);
     return prepared;
   }
 
@@ -166,14 +150,13 @@ public:
     for(std::size_t k = 0; k < positions.size(); ++k)
       if(const auto* entry = m_vertices.find(m_region.vertices[k]))
         positions[k] = Domain::coordinates(entry->rest);
+    std::vector<Point> points = copies(&Entry::rest), targets = points;
     for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
-    for(auto& entry : m_vertices.entries())
-    {
-      entry.present = entry.rest;
-      if(entry.is_control)
-        m_vertices.target(entry) = entry.rest;
-    }
+    move_to(&Entry::present, points);
+    for(std::size_t k = 0; k < targets.size(); ++k)
+      if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
+        m_vertices.target(entry) = std::move(targets[k]);
     m_positions.swap(positions);
     if(m_core)
       m_core->reset_rotations();
@@ -184,18 +167,14 @@ public:
   {
     if(is_in_a_run())
       return;
+    std::vector<Point> points = copies(&Entry::present);
     if(domain().is_in_place()) // the points may have been changed by others
-    {
-      std::vector<Point> points;
-      points.reserve(m_vertices.entries().size());
-      for(const auto& entry : m_vertices.entries())
-        points.push_back(domain().point(entry.vertex));
       for(std::size_t k = 0; k < points.size(); ++k)
-        m_vertices.entries()[k].present = std::move(points[k]);
-    }
+        points[k] = domain().point(m_vertices.entries()[k].vertex);
+    std::vector<Point> rest = points;
     note_change(true, false);
-    for(auto& entry : m_vertices.entries())
-      entry.rest = entry.present;
+    move_to(&Entry::present, points);
+    move_to(&Entry::rest, rest);
   }
 
   double energy() const { return m_energy; }
@@ -215,6 +194,7 @@ public:
 private:
   friend Iterate;
 
+  using Entry = typename Vertices::Entry;
   using Region_ = Domain_region<Domain>;
   using Core = Deformation_core<Traits>;
 
@@ -223,6 +203,22 @@ private:
   const Domain& domain() const { return m_vertices.domain(); }
 
   std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+
+  // Points of all entries are copied before any is changed: copies may throw.
+  std::vector<Point> copies(Point Entry::*point) const
+  {
+    std::vector<Point> points;
+    points.reserve(m_vertices.entries().size());
+    for(const Entry& entry : m_vertices.entries())
+      points.push_back(entry.*point);
+    return points;
+  }
+
+  void move_to(Point Entry::*point, std::vector<Point>& points)
+  {
+    for(std::size_t k = 0; k < points.size(); ++k)
+      m_vertices.entries()[k].*point = std::move(points[k]);
+  }
 
   // Whether a visitor has called: it works on what the run is working on.
   bool is_in_a_run() const
@@ -244,6 +240,29 @@ private:
       m_energy = not_a_number;
     }
     return is_change;
+  }
+
+  // Makes the core for all that is held. What nothing holds stays where it is, unless there is
+  // nothing else.
+  Outcome prepare_held_parts()
+  {
+    const auto is_tied = [this](const auto& e) {
+      return e.is_roi && !domain().is_isolated(e.vertex);
+    };
+    std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
+      return !m_vertices.is_hard_control(e) && (is_tied(e) || m_vertices.is_pulled(e));
+    });
+    const auto is_roi = [](const auto& e) { return e.is_roi; };
+    if(any_of_entries(is_roi) && !any_of_entries(is_tied))
+      return outcome(Status::no_simplex);
+
+    std::vector<std::size_t> unheld_parts;
+    Outcome prepared = prepare(free_vertices, unheld_parts);
+    const auto is_hard = [this](const auto& e) { return m_vertices.is_hard_control(e); };
+    if(prepared.status == Status::no_held_vertex &&
+       (!free_vertices.empty() || any_of_entries(is_hard)))
+      prepared = prepare(free_vertices, unheld_parts);
+    return prepared;
   }
 
   // Makes the core for these free vertices. If nothing holds some of them, they are erased, and
@@ -278,7 +297,8 @@ private:
     {
       m_idle_solver = core->take_solver();
       if(core->diagnosis().status == Status::no_held_vertex)
-        erase_loose_components(region, core->loose_components(), free_vertices, unheld_parts);
+        erase_loose_components(region, core->diagnosis().loose_components, free_vertices,
+                               unheld_parts);
       return explain(core->diagnosis(), region, *core);
     }
     Outcome ready = outcome(Status::success);

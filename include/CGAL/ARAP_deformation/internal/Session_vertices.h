@@ -123,17 +123,18 @@ public:
     const Entry* known = find(v);
     if(known != nullptr && known->is_control)
       return false;
-    // the target first: one without an entry, if that cannot be inserted, is seen by nobody
-    int target = known != nullptr ? known->target : no_target;
-    if(target == no_target)
+    // what can throw comes before what is changed
+    if(m_targets.size() == m_targets.capacity())
+      m_targets.reserve(2 * m_targets.size() + 1);
+    Target target = {present(v), hard};
+    Entry& entry = find_or_insert(v);
+    if(entry.target == no_target)
     {
-      target = static_cast<int>(m_targets.size());
-      m_targets.push_back({present(v), hard});
+      entry.target = static_cast<int>(m_targets.size());
+      m_targets.push_back(std::move(target));
     }
     else
-      m_targets[target] = {known->present, hard};
-    Entry& entry = find_or_insert(v);
-    entry.target = target;
+      m_targets[entry.target] = std::move(target);
     entry.is_roi = entry.is_control = true;
     return true;
   }

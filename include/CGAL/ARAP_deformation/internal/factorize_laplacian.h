@@ -19,6 +19,8 @@
 #include <CGAL/ARAP_deformation/internal/laplacian.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -30,14 +32,16 @@ struct Diagnosis
   Status status = Status::success;
   int vertex = -1;
   int simplex = -1;
+  std::vector<int> loose_components = {}; // of no_held_vertex, see find_loose_components()
 };
 
 // Why the Laplacian of the free vertices cannot be factorized, where that can be told before.
 inline Diagnosis find_fault(const Deformation_energy& energy, const Sparse_matrix& laplacian)
 {
-  for(int v : find_loose_components(energy))
+  std::vector<int> components = find_loose_components(energy);
+  for(int v : components)
     if(v >= 0)
-      return {Status::no_held_vertex, v};
+      return {Status::no_held_vertex, v, -1, std::move(components)};
   for(int v = 0; v < laplacian.cols(); ++v)
     if(const double d = diagonal_entry(laplacian, v); !(d > 0) || !std::isfinite(d))
       return {Status::singular_matrix, v};
