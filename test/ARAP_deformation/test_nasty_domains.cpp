@@ -1,0 +1,131 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Shapes that are not clean in data structures: surfaces in those for halfedges, also where the
+// points are written to another place, volumes in cell complexes and triangulations.
+
+#include "include/nasty_runs.h"
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>
+#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Linear_cell_complex_for_bgl_combinatorial_map_helper.h>
+#include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/boost/graph/graph_traits_Linear_cell_complex_for_combinatorial_map.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+using Traits = CGAL::Linear_cell_complex_traits<3, Kernel>;
+using Surface_complex =
+  CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper<2, 3, Traits>::type;
+using Volume_complex = CGAL::Linear_cell_complex_for_combinatorial_map<3, 3, Traits>;
+using Triangulation =
+  CGAL::Delaunay_triangulation_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
+
+template <typename Graph>
+void test_as_graph(const Nasty_surface& shape)
+{
+  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+    Graph mesh = make_mesh<Graph>(Shape{"", shape.points, shape.simplices});
+    CGAL::ARAP_deformation<Graph> deformation(mesh);
+    const auto points = get(CGAL::vertex_point, mesh);
+    run(deformation, all_vertices(mesh), [&](auto v) { return get(points, v); }, handles, options);
+  });
+}
+
+void test_with_output_map(const Nasty_surface& shape)
+{
+  const Mesh mesh = make_mesh<Mesh>(Shape{"", shape.points, shape.simplices});
+  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+    std::map<Mesh::Vertex_index, Point> output;
+    const auto output_map = boost::make_assoc_property_map(output);
+    using Domain = CGAL::ARAP::Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default,
+                                                 decltype(output_map)>;
+    CGAL::ARAP_deformation<Domain> deformation(
+      Domain(mesh, mesh.points(), get(boost::vertex_index, mesh), output_map));
+    run(deformation, all_vertices(mesh), [&](auto v) {
+      const auto written = output.find(v);
+      return written == output.end() ? mesh.point(v) : written->second;
+    }, handles, options);
+  });
+}
+
+// A shape with the simplices of a good one, `vertices` of which are in the domain: its points are
+// given to these.
+template <typename Domain>
+void test_in_place_of(const Domain& domain,
+                      const std::vector<typename Domain::vertex_descriptor>& vertices,
+                      const Nasty_volume& shape)
+{
+  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+    for(std::size_t k = 0; k < vertices.size(); ++k)
+    {
+      const Eigen::Vector3d& p = shape.points[k];
+      domain.set_point(vertices[k], Domain::make_point({p.x(), p.y(), p.z()}));
+    }
+    CGAL::ARAP_deformation<Domain> deformation(domain);
+    run(deformation, vertices, [&](auto v) {
+      const auto c = Domain::coordinates(domain.point(v));
+      return Point(c[0], c[1], c[2]);
+    }, handles, options);
+  });
+}
+
+int main()
+{
+  for(const Nasty_surface& shape : nasty_surfaces())
+    if(CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(shape.simplices))
+    {
+      test_as_graph<Mesh>(shape);
+      test_as_graph<CGAL::Polyhedron_3<Kernel>>(shape);
+      test_as_graph<Surface_complex>(shape);
+      test_with_output_map(shape);
+    }
+
+  const std::vector<Nasty_volume> volumes = nasty_volumes();
+  const Nasty_volume& good = volumes.front();
+  Volume_complex complex;
+  for(const auto& t : good.simplices)
+    complex.make_tetrahedron(point(good.points[t[0]]), point(good.points[t[1]]),
+                             point(good.points[t[2]]), point(good.points[t[3]]));
+  complex.sew3_same_facets();
+  const CGAL::ARAP::Linear_cell_complex_domain_3<Volume_complex> cells(complex);
+  std::map<Point, decltype(cells)::vertex_descriptor> places;
+  for(auto v : cells.vertices())
+    places.emplace(cells.point(v), v);
+  std::vector<decltype(cells)::vertex_descriptor> vertices_of_cells;
+
+  Triangulation triangulation;
+  std::vector<Triangulation::Vertex_handle> vertices_of_triangulation;
+  for(const auto& p : good.points)
+  {
+    vertices_of_cells.push_back(places.at(point(p)));
+    vertices_of_triangulation.push_back(
+      triangulation.insert(Triangulation::Point(p.x(), p.y(), p.z())));
+  }
+  for(const Nasty_volume& shape : volumes)
+    if(shape.points.size() == good.points.size() && shape.simplices == good.simplices)
+    {
+      test_in_place_of(cells, vertices_of_cells, shape);
+      test_in_place_of(CGAL::ARAP::make_triangulation_domain(triangulation),
+                       vertices_of_triangulation, shape);
+    }
+  print_ends();
+  return checks_result();
+}
