@@ -10,7 +10,8 @@
 // Author(s)     : The ARAP_deformation authors
 
 // Shapes that are not clean in data structures: surfaces in those for halfedges, also where the
-// points are written to another place, volumes in cell complexes and triangulations.
+// points are written to another place, and volumes in cell complexes and triangulations, whose
+// vertices are moved to where they should not be.
 
 #include "include/nasty_runs.h"
 
@@ -29,6 +30,7 @@
 
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 using Traits = CGAL::Linear_cell_complex_traits<3, Kernel>;
@@ -39,9 +41,9 @@ using Triangulation =
   CGAL::Delaunay_triangulation_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
 
 template <typename Graph>
-void test_as_graph(const Nasty_surface& shape)
+void test_as_graph(const std::string& structure, const Nasty_surface& shape)
 {
-  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
     Graph mesh = make_mesh<Graph>(Shape{"", shape.points, shape.simplices});
     CGAL::ARAP_deformation<Graph> deformation(mesh);
     const auto points = get(CGAL::vertex_point, mesh);
@@ -52,28 +54,28 @@ void test_as_graph(const Nasty_surface& shape)
 void test_with_output_map(const Nasty_surface& shape)
 {
   const Mesh mesh = make_mesh<Mesh>(Shape{"", shape.points, shape.simplices});
-  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+  for_each_case(shape, "output map", [&](const Handles& handles, const Options& options) {
     std::map<Mesh::Vertex_index, Point> output;
     const auto output_map = boost::make_assoc_property_map(output);
     using Domain = CGAL::ARAP::Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default,
                                                  decltype(output_map)>;
     CGAL::ARAP_deformation<Domain> deformation(
       Domain(mesh, mesh.points(), get(boost::vertex_index, mesh), output_map));
-    run(deformation, all_vertices(mesh), [&](auto v) {
+    const bool is_done = run(deformation, all_vertices(mesh), [&](auto v) {
       const auto written = output.find(v);
       return written == output.end() ? mesh.point(v) : written->second;
     }, handles, options);
+    CHECK(output.size() == (is_done ? num_vertices(mesh) : 0));
   });
 }
 
-// A shape with the simplices of a good one, `vertices` of which are in the domain: its points are
-// given to these.
+// A shape whose points are given to the vertices of a complex.
 template <typename Domain>
-void test_in_place_of(const Domain& domain,
+void test_in_place_of(const std::string& structure, const Domain& domain,
                       const std::vector<typename Domain::vertex_descriptor>& vertices,
                       const Nasty_volume& shape)
 {
-  for_each_case(shape, [&](const Handles& handles, const Options& options) {
+  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
     for(std::size_t k = 0; k < vertices.size(); ++k)
     {
       const Eigen::Vector3d& p = shape.points[k];
@@ -92,9 +94,9 @@ int main()
   for(const Nasty_surface& shape : nasty_surfaces())
     if(CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(shape.simplices))
     {
-      test_as_graph<Mesh>(shape);
-      test_as_graph<CGAL::Polyhedron_3<Kernel>>(shape);
-      test_as_graph<Surface_complex>(shape);
+      test_as_graph<Mesh>("Surface_mesh", shape);
+      test_as_graph<CGAL::Polyhedron_3<Kernel>>("Polyhedron_3", shape);
+      test_as_graph<Surface_complex>("linear cell complex", shape);
       test_with_output_map(shape);
     }
 
@@ -122,8 +124,8 @@ int main()
   for(const Nasty_volume& shape : volumes)
     if(shape.points.size() == good.points.size() && shape.simplices == good.simplices)
     {
-      test_in_place_of(cells, vertices_of_cells, shape);
-      test_in_place_of(CGAL::ARAP::make_triangulation_domain(triangulation),
+      test_in_place_of("linear cell complex", cells, vertices_of_cells, shape);
+      test_in_place_of("triangulation", CGAL::ARAP::make_triangulation_domain(triangulation),
                        vertices_of_triangulation, shape);
     }
   print_ends();

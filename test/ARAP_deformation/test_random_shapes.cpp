@@ -28,10 +28,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 using CGAL::ARAP::Initial_guess;
@@ -56,11 +54,17 @@ public:
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(m_engine);
   }
 
-  Eigen::Vector3d vector() { return {number(-1, 1), number(-1, 1), number(-1, 1)}; }
+  Eigen::Vector3d vector()
+  {
+    const double x = number(-1, 1), y = number(-1, 1); // in the order of these lines everywhere
+    return {x, y, number(-1, 1)};
+  }
 
   Eigen::Isometry3d rigid_motion()
   {
-    return ::rigid_motion(number(-3, 3), vector() + Eigen::Vector3d(2, 0, 0), 3 * vector());
+    const double angle = number(-3, 3);
+    const Eigen::Vector3d axis = vector() + Eigen::Vector3d(2, 0, 0);
+    return ::rigid_motion(angle, axis, 3 * vector());
   }
 
   template <typename Range>
@@ -207,15 +211,19 @@ private:
     CHECK(session.points == before);
   }
 
-  // Control vertices are at hard targets, and what is not solved for is where it was.
+  // Control vertices are at hard targets, and what is in no region or no simplex is where it was.
   void check_held(const Session& session)
   {
+    std::vector<char> is_used(session.points.size(), false);
+    for(const auto& simplex : m_problem.shape.simplices)
+      for(std::size_t corner : simplex)
+        is_used[corner] = true;
     for(std::size_t v = 0; v < session.points.size(); ++v)
     {
       const Role& role = m_problem.roles[v];
       if(role.is_control && !std::isfinite(role.weight))
         CHECK(session.points[v] == point(role.target));
-      else if(!role.is_roi)
+      else if(!role.is_roi || (!is_used[v] && !role.is_control))
         CHECK(session.points[v] == point(m_problem.shape.points[v]));
     }
   }

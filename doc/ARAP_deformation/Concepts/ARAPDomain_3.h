@@ -47,7 +47,8 @@ public:
   /// simplex has the same descriptor wherever it is met.
   using simplex_descriptor = unspecified_type;
 
-  /// a point. A model of `CopyConstructible` and `Assignable`.
+  /// a point. A model of `CopyConstructible` and `Assignable`. Copies may throw; if to move a point
+  /// throws, the mesh and the object may be left with a part of what was to change.
   ///
   /// `CGAL::ARAP_deformation::translate()`, and no other function, also needs `operator[]`, which
   /// returns a %Cartesian coordinate, and to be constructed from three of them.

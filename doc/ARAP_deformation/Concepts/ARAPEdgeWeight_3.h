@@ -11,8 +11,8 @@ that belong to the edge set. In the star of a vertex these are all simplices at 
 is this simplex alone.
 
 A polygon has the average weights of all its triangulations, on its edges and on its diagonals. A model
-has nothing to do for it: it is asked about the triangles. Those whose corners are next to being on a line fade
-out, unless there are no others.
+has nothing to do for it: it is asked about the triangles. The share of a
+triangle goes to zero where its corners come to lie on a line, unless those of all others do so, too.
 
 The energy \f$\sum w \|e' - R e\|^2\f$ scales with the weights and its minima do not, so that their unit
 is free. Cotangents have none in triangles and are lengths in tetrahedra: with them the energy is an

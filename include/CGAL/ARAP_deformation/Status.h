@@ -90,7 +90,7 @@ inline const char* to_string(Status status)
 struct Outcome
 {
   Status status = Status::not_run; ///< the status.
-  /// the sentence; empty where a target or a weight was set, of which there may be many.
+  /// the sentence; empty if setting a target or a weight has succeeded.
   std::string message = "nothing was run yet";
 
   /// constructs the outcome of a call that was not made.

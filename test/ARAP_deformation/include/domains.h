@@ -102,6 +102,11 @@ inline std::vector<Point> points_of(const std::vector<Eigen::Vector3d>& vectors)
   return points;
 }
 
+inline bool is_finite_point(const Point& p)
+{
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
 inline std::vector<std::size_t> numbers(std::size_t n)
 {
   std::vector<std::size_t> all(n);

@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-// N = 3 for triangles, 4 for tetrahedra
+// N = 3 for triangles, 4 for tetrahedra, or for quadrangles
 template <std::size_t N>
 struct Nasty_shape
 {
@@ -37,6 +37,7 @@ struct Nasty_shape
 
 using Nasty_surface = Nasty_shape<3>;
 using Nasty_volume = Nasty_shape<4>;
+using Nasty_polygons = Nasty_shape<4>;
 
 inline Nasty_surface sheet_of(int nu, int nv)
 {
@@ -230,6 +231,25 @@ inline std::vector<Nasty_surface> nasty_surfaces()
   }));
   crossing.name = "two sheets through each other";
   shelf.push_back(crossing);
+  return shelf;
+}
+
+inline std::vector<Nasty_polygons> nasty_polygons()
+{
+  const std::size_t nu = 6, nv = 4;
+  Nasty_polygons quadrangles;
+  for(std::size_t i = 0; i <= nu; ++i)
+    for(std::size_t j = 0; j <= nv; ++j)
+      quadrangles.points.emplace_back(0.4 * double(i), 0.3 * double(j),
+                                      0.1 * std::sin(double(i) + 2.0 * double(j)));
+  for(std::size_t i = 0; i < nu; ++i)
+    for(std::size_t j = 0; j < nv; ++j)
+    {
+      const std::size_t v = i * (nv + 1) + j, next = v + nv + 1;
+      quadrangles.simplices.push_back({v, next, next + 1, v + 1});
+    }
+  std::vector<Nasty_polygons> shelf;
+  add_common_shapes(quadrangles, shelf);
   return shelf;
 }
 

@@ -26,7 +26,6 @@
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

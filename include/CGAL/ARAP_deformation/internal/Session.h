@@ -125,7 +125,7 @@ public:
 
   Outcome preprocess()
   {
-    Outcome prepared = m_core ? outcome(Status::success) : prepare_held_parts();
+    Outcome prepared = prepare();
     if(prepared)
       prepared.message += about_unheld_parts(m_unheld_parts);
     return prepared;
@@ -242,10 +242,12 @@ private:
     return is_change;
   }
 
-  // Makes the core for all that is held. What nothing holds stays where it is, unless there is
-  // nothing else.
-  Outcome prepare_held_parts()
+  // Makes the core for all that is held, unless it is up to date. What nothing holds stays where
+  // it is, unless there is nothing else.
+  Outcome prepare()
   {
+    if(m_core)
+      return outcome(Status::success);
     const auto is_tied = [this](const auto& e) {
       return e.is_roi && !domain().is_isolated(e.vertex);
     };
@@ -357,7 +359,7 @@ private:
       return checked;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      if(Outcome prepared = preprocess(); !prepared)
+      if(Outcome prepared = prepare(); !prepared)
         return prepared;
     }
     report.free_vertices = m_core->region().number_of_free_vertices;

@@ -130,8 +130,8 @@ public:
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {
-      entry.target = static_cast<int>(m_targets.size());
       m_targets.push_back(std::move(target));
+      entry.target = static_cast<int>(m_targets.size()) - 1;
     }
     else
       m_targets[entry.target] = std::move(target);

@@ -53,7 +53,7 @@ template <typename Solver>
 Diagnosis factorize_laplacian(const Deformation_energy& energy, Solver& solver)
 {
   const Sparse_matrix laplacian = free_laplacian(energy);
-  if(const Diagnosis fault = find_fault(energy, laplacian); fault.status != Status::success)
+  if(Diagnosis fault = find_fault(energy, laplacian); fault.status != Status::success)
     return fault;
   if(laplacian.rows() > 0 && !(solver.analyze(laplacian) && solver.factorize(laplacian)))
     return {Status::singular_matrix};

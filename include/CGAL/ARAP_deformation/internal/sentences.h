@@ -44,7 +44,7 @@ inline std::string about_unheld_parts(const std::vector<std::size_t>& parts)
 {
   if(parts.empty())
     return std::string();
-  return "; what nothing holds stayed where it was: " +
+  return "; what nothing holds stays where it is: " +
          (parts.size() == 1 ? std::string("the part")
                             : std::to_string(parts.size()) + " parts, the first one") +
          " of " + vertex_name(parts.front());

@@ -38,8 +38,8 @@ std::array<Coordinates, N> corner_points(const Region& region, const std::array<
   return points;
 }
 
-// The doubled area, relative to the squared sides; the same, but for rounding, for each order of the
-// corners.
+// The doubled area, relative to the squared sides: the same, but for rounding, for each order of
+// the corners.
 inline double relative_area(const std::array<Coordinates, 3>& triangle)
 {
   const Coordinates a = difference(triangle[1], triangle[0]),
@@ -55,9 +55,10 @@ inline double relative_area(const std::array<Coordinates, 3>& triangle)
 //   Cat(b - a - 1) Cat(c - b - 1) Cat(n - c + a - 1) / Cat(n - 2)
 // of those of a polygon with n corners. Cat(m) / 4^m is used instead, which does not overflow.
 //
-// Triangles next to none of whose area is left, of corners on a line, fade out, unless there are no
-// others: they have no part in the area that the energy is an integral over, and would be
-// infinitely stiff. To leave them out at once would make the weights depend on a rounding error.
+// The share of a triangle falls to nothing where its corners come to lie on a line: it has no part
+// in the area that the energy is an integral over, and would be infinitely stiff. It falls
+// gradually, or a rounding error would decide. If the polygon has no other triangles, all keep
+// their shares.
 template <typename EdgeWeight>
 void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int s, double* weights)
 {
@@ -74,14 +75,16 @@ void compute_polygon_weights(const EdgeWeight& weight, const Region& region, int
         for(int c = b + 1; c < n; ++c)
           f(a, b, c, corner_points<3>(region, {corners[a], corners[b], corners[c]}));
   };
+  constexpr double next_to_nothing = 1e-6;
   double largest_area = 0;
   for_each_triangle([&](int, int, int, const auto& triangle) {
-    largest_area = (std::max)(largest_area, relative_area(triangle));
+    if(largest_area < next_to_nothing)
+      largest_area = (std::max)(largest_area, relative_area(triangle));
   });
-  const double next_to_none = (std::min)(1e-6, largest_area);
+  const double smallest_share = (std::max)(0.0, 1 - largest_area / next_to_nothing);
   for_each_triangle([&](int a, int b, int c, const auto& triangle) {
-    const double area = relative_area(triangle);
-    const double share = area < next_to_none ? (area / next_to_none) * (area / next_to_none) : 1;
+    const double area = (std::min)(relative_area(triangle) / next_to_nothing, 1.0);
+    const double share = (std::max)(area * area, smallest_share);
     const double fraction = share * scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
                             scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]);
     const std::array<double, 3> w = weight.simplex_weights(triangle);
