@@ -295,8 +295,8 @@ public:
 
   /// collects the region, computes weights and matrix, and factorizes it or takes the last factor
   /// where few vertices have changed, unless that is up to date. `deform()` does so where needed.
-  /// Which failures there are is said at `ARAP::Status`; the sentence of a success names what nothing
-  /// holds, if there is such a part.
+  /// Which failures there are is said at `ARAP::Status`; the sentence of a success names what
+  /// nothing holds, if there is such a part.
   ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
   /// moves the control vertices to their targets, or towards soft ones, and the free vertices after
