@@ -46,6 +46,29 @@ std::size_t pair_number(std::size_t n, std::size_t a, std::size_t b)
   return a > b ? pair_number(n, b, a) : a * (2 * n - a - 1) / 2 + b - a - 1;
 }
 
+// The weights from another corner on, every `step`-th one, and the other way round, are the same.
+void check_turned(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& weights,
+                  std::size_t step, double tolerance)
+{
+  const std::size_t n = points.size();
+  for(std::size_t shift = 1; shift < n; shift += step)
+    for(bool is_reversed : {false, true})
+    {
+      std::vector<Eigen::Vector3d> other = points;
+      std::rotate(other.begin(), other.begin() + std::ptrdiff_t(shift), other.end());
+      if(is_reversed)
+        std::reverse(other.begin(), other.end());
+      const std::vector<double> turned = weights_of(other);
+      const auto place = [&](std::size_t a) {
+        return is_reversed ? (2 * n - 1 - a + shift) % n : (a + n - shift) % n;
+      };
+      for(std::size_t a = 0; a < n; ++a)
+        for(std::size_t b = a + 1; b < n; ++b)
+          CHECK_AT_MOST(std::abs(weights[pair_number(n, a, b)] -
+                                 turned[pair_number(n, place(a), place(b))]), tolerance);
+    }
+}
+
 void test_one_polygon()
 {
   std::mt19937 random(4);
@@ -53,23 +76,12 @@ void test_one_polygon()
   for(std::size_t n : {3, 4, 5, 6, 9, 40})
   {
     test_case() = "a polygon of " + std::to_string(n) + " corners";
-    // in space: from another corner on, and the other way round
+    // in space
     std::vector<Eigen::Vector3d> points;
     for(std::size_t k = 0; k < n; ++k)
       points.emplace_back(std::cos(6.28 * k / n), std::sin(6.28 * k / n), unit(random));
     const std::vector<double> weights = weights_of(points);
-    for(std::size_t shift = 1; shift < n; shift += 1 + n / 7)
-    {
-      std::vector<Eigen::Vector3d> other = points;
-      std::rotate(other.begin(), other.begin() + std::ptrdiff_t(shift), other.end());
-      std::reverse(other.begin(), other.end());
-      const std::vector<double> turned = weights_of(other);
-      const auto place = [&](std::size_t a) { return (2 * n - 1 - a + shift) % n; };
-      for(std::size_t a = 0; a < n; ++a)
-        for(std::size_t b = a + 1; b < n; ++b)
-          CHECK_AT_MOST(std::abs(weights[pair_number(n, a, b)] -
-                                 turned[pair_number(n, place(a), place(b))]), 1e-11);
-    }
+    check_turned(points, weights, 1 + n / 7, 1e-11);
 
     // flat and convex: sum w ||D e||^2 = area ||D||_F^2, as for each of its triangulations
     for(auto& p : points)
@@ -93,24 +105,6 @@ void test_one_polygon()
   const std::vector<double> rectangle = weights_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 0, 2)]), 1e-15);
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 1, 3)]), 1e-15);
-}
-
-// The weights from each of the corners on are those from the first one.
-void check_turned(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& weights,
-                  double tolerance)
-{
-  const std::size_t n = points.size();
-  for(std::size_t first = 1; first < n; ++first)
-  {
-    std::vector<Eigen::Vector3d> other = points;
-    std::rotate(other.begin(), other.begin() + std::ptrdiff_t(first), other.end());
-    const std::vector<double> turned = weights_of(other);
-    for(std::size_t a = 0; a < n; ++a)
-      for(std::size_t b = a + 1; b < n; ++b)
-        CHECK_AT_MOST(std::abs(weights[pair_number(n, a, b)] -
-                               turned[pair_number(n, (a + n - first) % n, (b + n - first) % n)]),
-                      tolerance);
-  }
 }
 
 double largest_of(const std::vector<double>& weights)
@@ -138,7 +132,7 @@ void test_corners_next_to_a_line()
       for(std::size_t k = 0; k < last.size(); ++k)
         CHECK_AT_MOST(std::abs(weights[k] - last[k]), 0.02 * largest);
       if(number_of_shapes++ % 50 == 0)
-        check_turned(points, weights, 1e-8 * largest);
+        check_turned(points, weights, 1, 1e-8 * largest);
       last = weights;
     }
   }
@@ -148,7 +142,7 @@ void test_corners_next_to_a_line()
   for(double t : {0.0, 0.3, 1.1, 2.0, 1.7, 0.9, 0.1})
     points.push_back(t * Eigen::Vector3d(0.3, -1, 0.7) + Eigen::Vector3d(1, 2, 3));
   const std::vector<double> weights = weights_of(points);
-  check_turned(points, weights, 1e-6 * largest_of(weights));
+  check_turned(points, weights, 1, 1e-6 * largest_of(weights));
   for(std::size_t a = 0; a < points.size(); ++a) // no corner is loose
   {
     double sum = 0;

@@ -109,10 +109,7 @@ Problem<N> random_problem(Random& random)
   random.shuffle(simplices);
   simplices.resize(simplices.size() - random.index(simplices.size() / 4));
 
-  Eigen::AlignedBox3d box;
-  for(const auto& p : points)
-    box.extend(p);
-  problem.diameter = box.diagonal().norm();
+  problem.diameter = diameter_of(points);
   for(const auto& p : points)
   {
     Role role;

@@ -173,13 +173,7 @@ struct Block
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::size_t, 4>> tetrahedra;
 
-  double diameter() const
-  {
-    Eigen::AlignedBox3d box;
-    for(const auto& p : points)
-      box.extend(p);
-    return box.diagonal().norm();
-  }
+  double diameter() const { return diameter_of(points); }
 };
 
 inline Block block(int nx, int ny, int nz)

@@ -21,8 +21,6 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/checks.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -57,10 +55,7 @@ struct Handles
 inline std::vector<Handles> handles_for(const std::vector<Eigen::Vector3d>& points, bool is_solid)
 {
   const Scenario s = scenario(Shape{"", points, {}}, 1.2);
-  Eigen::AlignedBox3d box;
-  for(const auto& p : points)
-    box.extend(p);
-  const double diameter = box.diagonal().norm();
+  const double diameter = diameter_of(points);
   std::vector<Handles> all = {{"ends", {}}, {"soft ends", {}}, {"one held", {}}, {"all held", {}},
                               {"far away", {}}, {"all at one point", {}}, {"none", {}},
                               {"not a number", {}}, {"all but one held", {}}};

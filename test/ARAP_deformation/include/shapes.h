@@ -35,19 +35,22 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
+// of the bounding box of points
+inline double diameter_of(const std::vector<Eigen::Vector3d>& points)
+{
+  Eigen::AlignedBox3d box;
+  for(const auto& p : points)
+    box.extend(p);
+  return box.diagonal().norm();
+}
+
 struct Shape
 {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::size_t, 3>> triangles;
 
-  double diameter() const
-  {
-    Eigen::AlignedBox3d box;
-    for(const auto& p : points)
-      box.extend(p);
-    return box.diagonal().norm();
-  }
+  double diameter() const { return diameter_of(points); }
 };
 
 // A sheet of nu x nv quads, each cut in two, at the points f(u, v) with u and v in [0, 1].
