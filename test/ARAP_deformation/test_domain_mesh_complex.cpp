@@ -12,7 +12,7 @@
 // The domain of a complex that 3D mesh generation made: its cells only, one subdomain of several,
 // and weights of points and caches of cells.
 
-#include "include/domains.h"
+#include "include/nasty_runs.h"
 
 #include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -81,8 +81,35 @@ void compare_with_reference(const Domain& domain, const std::set<Triangulation::
   }
 }
 
+// half of the cells, so that some vertices are isolated
+void test_shelf()
+{
+  const std::vector<Nasty_volume> shelf = nasty_points_of_a_volume();
+  Complex complex;
+  std::vector<Vertex> vertices;
+  for(const auto& p : shelf.front().points)
+    vertices.push_back(
+      complex.triangulation().insert(Triangulation::Weighted_point(point_at(p), 0)));
+  const double middle = shelf.front().points[shelf.front().points.size() / 2].x();
+  for(auto cell : complex.triangulation().finite_cell_handles())
+  {
+    bool is_left = true;
+    for(int k = 0; k < 4; ++k)
+      is_left &= cell->vertex(k)->point().x() <= middle;
+    if(is_left)
+      complex.add_to_complex(cell, 1);
+  }
+  const Domain domain = CGAL::ARAP::make_complex_domain(complex);
+  CHECK(complex.number_of_cells_in_complex() > 0);
+  CHECK(domain.is_isolated(vertices.back()));
+  for(const Nasty_volume& shape : shelf)
+    test_in_place_of("mesh complex", domain, vertices, shape);
+  print_ends();
+}
+
 int main()
 {
+  test_shelf();
   Complex complex = make_complex();
   Triangulation& triangulation = complex.triangulation();
   const auto& traits = triangulation.geom_traits();

@@ -11,7 +11,7 @@
 
 // OpenMesh's meshes of triangles and of polygons, with coordinates of both precisions.
 
-#include "include/domains.h"
+#include "include/nasty_runs.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -42,6 +42,22 @@ struct Point_map
   friend void put(Point_map map, key_type v, const value_type& p) { map.mesh->set_point(v, p); }
 };
 
+// faces must be those of a manifold
+template <typename OpenMesh_mesh, typename Faces>
+void add_to(OpenMesh_mesh& mesh, const std::vector<Eigen::Vector3d>& points, const Faces& faces)
+{
+  std::vector<typename OpenMesh_mesh::VertexHandle> vertices;
+  for(const auto& p : points)
+    vertices.push_back(mesh.add_vertex(typename OpenMesh_mesh::Point(p.x(), p.y(), p.z())));
+  for(const auto& face : faces)
+  {
+    std::vector<typename OpenMesh_mesh::VertexHandle> corners;
+    for(std::size_t v : face)
+      corners.push_back(vertices[v]);
+    CHECK(mesh.add_face(corners).is_valid());
+  }
+}
+
 template <typename OpenMesh_mesh>
 void test_mesh_type(const std::string& name, double tolerance)
 {
@@ -52,11 +68,8 @@ void test_mesh_type(const std::string& name, double tolerance)
     for(Cell_scheme cells : all_cell_schemes)
     {
       OpenMesh_mesh mesh;
-      std::vector<typename OpenMesh_mesh::VertexHandle> vertices;
-      for(const auto& p : shape.points)
-        vertices.push_back(mesh.add_vertex(typename OpenMesh_mesh::Point(p.x(), p.y(), p.z())));
-      for(const auto& [a, b, c] : shape.triangles)
-        mesh.add_face(vertices[a], vertices[b], vertices[c]);
+      add_to(mesh, shape.points, shape.triangles);
+      const auto vertices = all_vertices(mesh);
       const OpenMesh_mesh rest = mesh;
       const Result expected = reference<2>(shape.points, shape.triangles, s, cells);
       const CGAL::ARAP::Face_graph_domain<OpenMesh_mesh> domain(mesh);
@@ -88,16 +101,9 @@ void test_polygons()
     mesh.request_edge_status();
     mesh.request_face_status();
     const auto extra = mesh.add_vertex(PolyMesh::Point(9, 9, 9));
-    std::vector<PolyMesh::VertexHandle> vertices;
-    for(const auto& p : shape.points)
-      vertices.push_back(mesh.add_vertex(PolyMesh::Point(p.x(), p.y(), p.z())));
-    for(const auto& polygon : polygons)
-    {
-      std::vector<PolyMesh::VertexHandle> corners;
-      for(std::size_t v : polygon)
-        corners.push_back(vertices[v]);
-      mesh.add_face(corners);
-    }
+    add_to(mesh, shape.points, polygons);
+    const auto all = all_vertices(mesh);
+    const std::vector<PolyMesh::VertexHandle> vertices(all.begin() + 1, all.end());
     mesh.delete_face(PolyMesh::FaceHandle(20), false);
     mesh.delete_vertex(extra, false);
     Polygons kept = polygons;
@@ -110,6 +116,19 @@ void test_polygons()
   }
 }
 
+template <typename OpenMesh_mesh, std::size_t N>
+void test_shelf(const std::string& name, const std::vector<Nasty_shape<N>>& shelf)
+{
+  for(const Nasty_shape<N>& shape : manifold(shelf))
+  {
+    OpenMesh_mesh mesh;
+    add_to(mesh, shape.points, shape.simplices);
+    using Map = Point_map<OpenMesh_mesh>;
+    test_in_place_of(name, CGAL::ARAP::Face_graph_domain<OpenMesh_mesh, Map>(mesh, Map{&mesh}),
+                     all_vertices(mesh), shape);
+  }
+}
+
 int main()
 {
   test_polygons();
@@ -117,5 +136,8 @@ int main()
   test_mesh_type<OpenMesh::PolyMesh_ArrayKernelT<Double_traits>>("PolyMesh, double", 1e-10);
   test_mesh_type<OpenMesh::TriMesh_ArrayKernelT<>>("TriMesh, float", 2e-5);
   test_mesh_type<OpenMesh::PolyMesh_ArrayKernelT<>>("PolyMesh, float", 2e-5);
+  test_shelf<OpenMesh::TriMesh_ArrayKernelT<Double_traits>>("TriMesh", nasty_surfaces());
+  test_shelf<OpenMesh::PolyMesh_ArrayKernelT<Double_traits>>("PolyMesh", nasty_polygons());
+  print_ends();
   return checks_result();
 }

@@ -22,7 +22,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Linear_cell_complex_for_bgl_combinatorial_map_helper.h>
 #include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/boost/graph/graph_traits_Linear_cell_complex_for_combinatorial_map.h>
 
@@ -40,20 +39,18 @@ using Volume_complex = CGAL::Linear_cell_complex_for_combinatorial_map<3, 3, Tra
 using Triangulation =
   CGAL::Delaunay_triangulation_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
 
-template <typename Graph>
-void test_as_graph(const std::string& structure, const Nasty_surface& shape)
+template <typename Graph, std::size_t N>
+void test_as_graph(const std::string& structure, const Nasty_shape<N>& shape)
 {
-  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
-    Graph mesh = make_mesh<Graph>(Shape{"", shape.points, shape.simplices});
-    CGAL::ARAP_deformation<Graph> deformation(mesh);
-    const auto points = get(CGAL::vertex_point, mesh);
-    run(deformation, all_vertices(mesh), [&](auto v) { return get(points, v); }, handles, options);
-  });
+  Graph mesh = make_mesh<Graph>(shape.points, shape.simplices);
+  test_in_place_of(structure, CGAL::ARAP::Face_graph_domain<Graph>(mesh), all_vertices(mesh),
+                   shape);
 }
 
-void test_with_output_map(const Nasty_surface& shape)
+template <std::size_t N>
+void test_with_output_map(const Nasty_shape<N>& shape)
 {
-  const Mesh mesh = make_mesh<Mesh>(Shape{"", shape.points, shape.simplices});
+  const Mesh mesh = make_mesh<Mesh>(shape.points, shape.simplices);
   for_each_case(shape, "output map", [&](const Handles& handles, const Options& options) {
     std::map<Mesh::Vertex_index, Point> output;
     const auto output_map = boost::make_assoc_property_map(output);
@@ -69,38 +66,24 @@ void test_with_output_map(const Nasty_surface& shape)
   });
 }
 
-// A shape whose points are given to the vertices of a complex.
-template <typename Domain>
-void test_in_place_of(const std::string& structure, const Domain& domain,
-                      const std::vector<typename Domain::vertex_descriptor>& vertices,
-                      const Nasty_volume& shape)
+template <std::size_t N>
+void test_as_graphs(const std::vector<Nasty_shape<N>>& shelf)
 {
-  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
-    for(std::size_t k = 0; k < vertices.size(); ++k)
-    {
-      const Eigen::Vector3d& p = shape.points[k];
-      domain.set_point(vertices[k], Domain::make_point({p.x(), p.y(), p.z()}));
-    }
-    CGAL::ARAP_deformation<Domain> deformation(domain);
-    run(deformation, vertices, [&](auto v) {
-      const auto c = Domain::coordinates(domain.point(v));
-      return Point(c[0], c[1], c[2]);
-    }, handles, options);
-  });
+  for(const Nasty_shape<N>& shape : manifold(shelf))
+  {
+    test_as_graph<Mesh>("Surface_mesh", shape);
+    test_as_graph<CGAL::Polyhedron_3<Kernel>>("Polyhedron_3", shape);
+    test_as_graph<Surface_complex>("linear cell complex", shape);
+    test_with_output_map(shape);
+  }
 }
 
 int main()
 {
-  for(const Nasty_surface& shape : nasty_surfaces())
-    if(CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(shape.simplices))
-    {
-      test_as_graph<Mesh>("Surface_mesh", shape);
-      test_as_graph<CGAL::Polyhedron_3<Kernel>>("Polyhedron_3", shape);
-      test_as_graph<Surface_complex>("linear cell complex", shape);
-      test_with_output_map(shape);
-    }
+  test_as_graphs(nasty_surfaces());
+  test_as_graphs(nasty_polygons());
 
-  const std::vector<Nasty_volume> volumes = nasty_volumes();
+  const std::vector<Nasty_volume> volumes = nasty_points_of_a_volume();
   const Nasty_volume& good = volumes.front();
   Volume_complex complex;
   for(const auto& t : good.simplices)
@@ -122,12 +105,11 @@ int main()
       triangulation.insert(Triangulation::Point(p.x(), p.y(), p.z())));
   }
   for(const Nasty_volume& shape : volumes)
-    if(shape.points.size() == good.points.size() && shape.simplices == good.simplices)
-    {
-      test_in_place_of("linear cell complex", cells, vertices_of_cells, shape);
-      test_in_place_of("triangulation", CGAL::ARAP::make_triangulation_domain(triangulation),
-                       vertices_of_triangulation, shape);
-    }
+  {
+    test_in_place_of("linear cell complex", cells, vertices_of_cells, shape);
+    test_in_place_of("triangulation", CGAL::ARAP::make_triangulation_domain(triangulation),
+                     vertices_of_triangulation, shape);
+  }
   print_ends();
   return checks_result();
 }

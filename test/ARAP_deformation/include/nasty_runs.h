@@ -193,4 +193,24 @@ void for_each_case(const Nasty_shape<N>& shape, const std::string& structure, co
         }
 }
 
+// Runs of a shape whose points are given to the vertices of a mesh or complex.
+template <typename Domain, std::size_t N>
+void test_in_place_of(const std::string& structure, const Domain& domain,
+                      const std::vector<typename Domain::vertex_descriptor>& vertices,
+                      const Nasty_shape<N>& shape)
+{
+  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
+    for(std::size_t k = 0; k < vertices.size(); ++k)
+    {
+      const Eigen::Vector3d& p = shape.points[k];
+      domain.set_point(vertices[k], Domain::make_point({p.x(), p.y(), p.z()}));
+    }
+    CGAL::ARAP_deformation<Domain> deformation(domain);
+    run(deformation, vertices, [&](auto v) {
+      const auto c = Domain::coordinates(domain.point(v));
+      return Point(c[0], c[1], c[2]);
+    }, handles, options);
+  });
+}
+
 #endif // CGAL_ARAP_DEFORMATION_TEST_NASTY_RUNS_H

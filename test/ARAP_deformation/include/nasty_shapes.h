@@ -17,6 +17,8 @@
 #include "domains.h"
 #include "shapes.h"
 
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -268,6 +270,27 @@ inline std::vector<Nasty_volume> nasty_volumes()
   shelf.push_back({"two tetrahedra at an edge",
                    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, -1, 0}, {0, -1, 1}},
                    {{0, 1, 2, 3}, {0, 1, 4, 5}}});
+  return shelf;
+}
+
+// those that differ from the first one in nothing but points
+inline std::vector<Nasty_volume> nasty_points_of_a_volume()
+{
+  std::vector<Nasty_volume> shelf = nasty_volumes();
+  const Nasty_volume good = shelf.front();
+  shelf.erase(std::remove_if(shelf.begin(), shelf.end(), [&good](const Nasty_volume& shape) {
+    return shape.points.size() != good.points.size() || shape.simplices != good.simplices;
+  }), shelf.end());
+  return shelf;
+}
+
+// those that can be stored in a data structure for halfedges
+template <std::size_t N>
+std::vector<Nasty_shape<N>> manifold(std::vector<Nasty_shape<N>> shelf)
+{
+  shelf.erase(std::remove_if(shelf.begin(), shelf.end(), [](const Nasty_shape<N>& shape) {
+    return !CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(shape.simplices);
+  }), shelf.end());
   return shelf;
 }
 

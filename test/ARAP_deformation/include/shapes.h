@@ -163,17 +163,23 @@ inline std::vector<Shape> shapes()
   return all;
 }
 
+template <typename FaceGraph, typename Faces>
+FaceGraph make_mesh(const std::vector<Eigen::Vector3d>& vectors, const Faces& faces)
+{
+  using Mesh_point = typename boost::property_traits<
+    typename boost::property_map<FaceGraph, CGAL::vertex_point_t>::type>::value_type;
+  std::vector<Mesh_point> points;
+  for(const auto& p : vectors)
+    points.emplace_back(p.x(), p.y(), p.z());
+  FaceGraph mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, faces, mesh);
+  return mesh;
+}
+
 template <typename TriangleMesh>
 TriangleMesh make_mesh(const Shape& shape)
 {
-  using Mesh_point = typename boost::property_traits<
-    typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type>::value_type;
-  std::vector<Mesh_point> points;
-  for(const auto& p : shape.points)
-    points.emplace_back(p.x(), p.y(), p.z());
-  TriangleMesh mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, shape.triangles, mesh);
-  return mesh;
+  return make_mesh<TriangleMesh>(shape.points, shape.triangles);
 }
 
 inline Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
