@@ -54,6 +54,13 @@ void parallel_for(std::size_t begin, std::size_t end, const Function& f)
     std::rethrow_exception(exception);
 }
 
+// what CGAL calls in loops of its own, which are not what is tested: the whole range at once
+template <typename Range, typename Function>
+void parallel_for(const Range& range, const Function& f)
+{
+  f(range);
+}
+
 } // namespace tbb
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_TBB_PARALLEL_FOR_H
