@@ -54,9 +54,10 @@ void parallel_for(std::size_t begin, std::size_t end, const Function& f)
     std::rethrow_exception(exception);
 }
 
-// what CGAL calls in loops of its own, which are not what is tested: the whole range at once
-template <typename Range, typename Function>
-void parallel_for(const Range& range, const Function& f)
+// What CGAL calls in loops of its own, which are not what is tested: the whole range at once. The
+// pack, always empty, lets TBB's function be the better match where CGAL has included it otherwise.
+template <typename Range, typename Function, typename... Nothing>
+void parallel_for(const Range& range, const Function& f, const Nothing&...)
 {
   f(range);
 }
