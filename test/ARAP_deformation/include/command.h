@@ -72,7 +72,7 @@ inline Run run(const std::string& arguments)
 inline void limit_command()
 {
 #if defined(__linux__)
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) // which reserve terabytes
   const std::string memory = "unlimited";
 #else
   const std::string memory = "1000000";
