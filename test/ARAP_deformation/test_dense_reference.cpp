@@ -136,10 +136,7 @@ void test_polygons()
       else if(j % 3 == 0 && j + 2 <= m)
         polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
                             vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});
-  Eigen::AlignedBox3d box;
-  for(const auto& p : points)
-    box.extend(p);
-  compare_all<2>("polygons", points, polygons, box.diagonal().norm());
+  compare_all<2>("polygons", points, polygons, diameter_of(points));
 }
 
 int main()

@@ -17,6 +17,7 @@
 // already; else operator new only. To be included in one file of a program, which has one thread.
 
 #include "faults.h"
+#include "sanitizer.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -24,15 +25,6 @@
 
 // needs no initialization: there are allocations before that of any variable
 inline Faults allocation_faults;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define CGAL_ARAP_TEST_HAS_OWN_MALLOC
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
-  __has_feature(memory_sanitizer)
-#define CGAL_ARAP_TEST_HAS_OWN_MALLOC
-#endif
-#endif
 
 #if defined(__GLIBC__) && !defined(CGAL_ARAP_TEST_HAS_OWN_MALLOC)
 

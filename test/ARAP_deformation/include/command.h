@@ -15,6 +15,7 @@
 // Runs the command arap_deform as a user does, in a folder of its own.
 
 #include "check.h"
+#include "sanitizer.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/wait.h>
@@ -72,7 +73,7 @@ inline Run run(const std::string& arguments)
 inline void limit_command()
 {
 #if defined(__linux__)
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) // which reserve terabytes
+#ifdef CGAL_ARAP_TEST_HAS_OWN_MALLOC
   const std::string memory = "unlimited";
 #else
   const std::string memory = "1000000";

@@ -1,0 +1,27 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_TEST_SANITIZER_H
+#define CGAL_ARAP_DEFORMATION_TEST_SANITIZER_H
+
+// Defines CGAL_ARAP_TEST_HAS_OWN_MALLOC under a sanitizer that replaces the allocation functions,
+// keeps what is freed and reserves terabytes. clang and g++ tell of it in different ways.
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CGAL_ARAP_TEST_HAS_OWN_MALLOC
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
+  __has_feature(memory_sanitizer)
+#define CGAL_ARAP_TEST_HAS_OWN_MALLOC
+#endif
+#endif
+
+#endif // CGAL_ARAP_DEFORMATION_TEST_SANITIZER_H
