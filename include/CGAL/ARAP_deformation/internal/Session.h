@@ -18,10 +18,8 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Deformation_core.h>
-#include <CGAL/ARAP_deformation/internal/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/Iterate.h>
-#include <CGAL/ARAP_deformation/internal/Laplacian_solver.h>
+#include <CGAL/ARAP_deformation/internal/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/sentences.h>
@@ -29,12 +27,9 @@
 
 #include <CGAL/assertions.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,9 +120,9 @@ public:
 
   Outcome preprocess()
   {
-    Outcome prepared = prepare();
+    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options);
     if(prepared)
-      prepared.message += about_unheld_parts(m_unheld_parts);
+      prepared.message += about_unheld_parts(m_prepared.unheld_parts());
     return prepared;
   }
 
@@ -146,9 +141,9 @@ public:
   {
     if(is_in_a_run())
       return;
-    std::vector<Coordinates> positions = m_positions;
+    std::vector<Coordinates> positions = m_prepared.positions();
     for(std::size_t k = 0; k < positions.size(); ++k)
-      if(const auto* entry = m_vertices.find(m_region.vertices[k]))
+      if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
         positions[k] = Domain::coordinates(entry->rest);
     std::vector<Point> points = copies(&Entry::rest), targets = points;
     for(const auto& entry : m_vertices.entries())
@@ -157,9 +152,9 @@ public:
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
         m_vertices.target(entry) = std::move(targets[k]);
-    m_positions.swap(positions);
-    if(m_core)
-      m_core->reset_rotations();
+    m_prepared.positions().swap(positions);
+    if(m_prepared.core())
+      m_prepared.core()->reset_rotations();
     m_energy = not_a_number;
   }
 
@@ -181,22 +176,20 @@ public:
 
   Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
   {
-    const bool has_cell = m_core && m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell ? m_region.find_vertex(domain(), v) : -1);
+    const bool has_cell = m_options.cells.has_vertex_cells();
+    return rotation_of_cell(has_cell ? m_prepared.region().find_vertex(domain(), v) : -1);
   }
 
   Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
   {
-    const bool has_cell = m_core && !m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell ? m_region.find_simplex(domain(), s) : -1);
+    const bool has_cell = !m_options.cells.has_vertex_cells();
+    return rotation_of_cell(has_cell ? m_prepared.region().find_simplex(domain(), s) : -1);
   }
 
 private:
   friend Iterate;
 
   using Entry = typename Vertices::Entry;
-  using Region_ = Domain_region<Domain>;
-  using Core = Deformation_core<Traits>;
 
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -227,124 +220,14 @@ private:
     return m_is_in_a_run;
   }
 
-  // A factor may be of use for other free vertices, but not for other weights.
   bool note_change(bool is_change, bool are_weights_the_same = true)
   {
     if(is_change)
     {
-      if(!are_weights_the_same)
-        m_idle_solver = {};
-      else if(m_core)
-        m_idle_solver = m_core->take_solver();
-      m_core.reset();
+      m_prepared.discard(are_weights_the_same);
       m_energy = not_a_number;
     }
     return is_change;
-  }
-
-  // Makes the core for all that is held, unless it is up to date. What nothing holds stays where
-  // it is, unless there is nothing else.
-  Outcome prepare()
-  {
-    if(m_core)
-      return outcome(Status::success);
-    const auto is_tied = [this](const auto& e) {
-      return e.is_roi && !domain().is_isolated(e.vertex);
-    };
-    std::vector<vertex_descriptor> free_vertices = m_vertices.select([&](const auto& e) {
-      return !m_vertices.is_hard_control(e) && (is_tied(e) || m_vertices.is_pulled(e));
-    });
-    const auto is_roi = [](const auto& e) { return e.is_roi; };
-    if(any_of_entries(is_roi) && !any_of_entries(is_tied))
-      return outcome(Status::no_simplex);
-
-    std::vector<std::size_t> unheld_parts;
-    Outcome prepared = prepare(free_vertices, unheld_parts);
-    const auto is_hard = [this](const auto& e) { return m_vertices.is_hard_control(e); };
-    if(prepared.status == Status::no_held_vertex &&
-       (!free_vertices.empty() || any_of_entries(is_hard)))
-      prepared = prepare(free_vertices, unheld_parts);
-    return prepared;
-  }
-
-  // Makes the core for these free vertices. If nothing holds some of them, they are erased, and
-  // each of their components adds the smallest index of its vertices to `unheld_parts`.
-  Outcome prepare(std::vector<vertex_descriptor>& free_vertices,
-                  std::vector<std::size_t>& unheld_parts)
-  {
-    Region_ region;
-    if(!region.collect(domain(), free_vertices))
-      return outcome(Status::not_a_simplex, name(region.refused_vertex()));
-
-    std::vector<Coordinates> positions;
-    positions.reserve(region.vertices.size());
-    region.flat.rest.reserve(region.vertices.size());
-    for(vertex_descriptor v : region.vertices)
-    {
-      positions.push_back(Domain::coordinates(m_vertices.present(v)));
-      const auto* entry = m_vertices.find(v);
-      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
-    }
-    if(const int v = find_non_finite(positions); v >= 0)
-      return outcome(Status::non_finite_point, name(region.vertices[v]));
-    for(const auto& entry : m_vertices.entries())
-      if(m_vertices.is_pulled(entry))
-        region.flat.soft_positions.push_back({region.find_vertex(domain(), entry.vertex),
-                                              m_vertices.weight(entry)});
-
-    std::optional<Core> core;
-    core.emplace(m_traits, std::move(region.flat), m_options,
-                 std::exchange(m_idle_solver, {}));
-    if(core->diagnosis().status != Status::success)
-    {
-      m_idle_solver = core->take_solver();
-      if(core->diagnosis().status == Status::no_held_vertex)
-        erase_loose_components(region, core->diagnosis().loose_components, free_vertices,
-                               unheld_parts);
-      return explain(core->diagnosis(), region, *core);
-    }
-    Outcome ready = outcome(Status::success);
-    m_region = std::move(region);
-    m_positions = std::move(positions);
-    m_unheld_parts = std::move(unheld_parts);
-    m_core = std::move(core);
-    return ready;
-  }
-
-  void erase_loose_components(const Region_& region, const std::vector<int>& loose_components,
-                              std::vector<vertex_descriptor>& free_vertices,
-                              std::vector<std::size_t>& unheld_parts) const
-  {
-    std::map<int, std::size_t> smallest_indices; // of the components
-    const auto is_loose = [&](vertex_descriptor v) {
-      const int component = loose_components[region.find_vertex(domain(), v)];
-      if(component < 0)
-        return false;
-      const std::size_t index = domain().index(v);
-      std::size_t& smallest = smallest_indices.emplace(component, index).first->second;
-      smallest = (std::min)(smallest, index);
-      return true;
-    };
-    free_vertices.erase(std::remove_if(free_vertices.begin(), free_vertices.end(), is_loose),
-                        free_vertices.end());
-    for(const auto& component : smallest_indices)
-      unheld_parts.push_back(component.second);
-    std::sort(unheld_parts.begin(), unheld_parts.end());
-  }
-
-  template <typename Predicate>
-  bool any_of_entries(const Predicate& predicate) const
-  {
-    return std::any_of(m_vertices.entries().begin(), m_vertices.entries().end(), predicate);
-  }
-
-  Outcome explain(const Diagnosis& diagnosis, const Region_& region, const Core& core) const
-  {
-    if(diagnosis.vertex >= 0)
-      return outcome(diagnosis.status, name(region.vertices[diagnosis.vertex]));
-    if(diagnosis.simplex < 0)
-      return outcome(diagnosis.status);
-    return outcome(diagnosis.status, simplex_name(core.region(), diagnosis.simplex));
   }
 
   template <typename Visitor>
@@ -359,14 +242,16 @@ private:
       return checked;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      if(Outcome prepared = prepare(); !prepared)
+      if(Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options); !prepared)
         return prepared;
     }
-    report.free_vertices = m_core->region().number_of_free_vertices;
-    report.simplices = m_core->region().number_of_simplices();
-    report.unheld_parts = m_unheld_parts;
+    auto& core = *m_prepared.core();
+    const auto& region = m_prepared.region();
+    report.free_vertices = core.region().number_of_free_vertices;
+    report.simplices = core.region().number_of_simplices();
+    report.unheld_parts = m_prepared.unheld_parts();
 
-    std::vector<Coordinates> positions = m_positions;
+    std::vector<Coordinates> positions = m_prepared.positions();
     for(const auto& entry : m_vertices.entries())
     {
       if(!entry.is_control)
@@ -374,39 +259,39 @@ private:
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(!is_finite(target))
         return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
-      const int v = m_region.find_vertex(domain(), entry.vertex);
+      const int v = region.find_vertex(domain(), entry.vertex);
       if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
     }
     std::vector<Coordinates> soft_targets;
-    for(const Soft_position& soft : m_core->region().soft_positions)
+    for(const Soft_position& soft : core.region().soft_positions)
     {
-      const auto& entry = *m_vertices.find(m_region.vertices[soft.vertex]);
+      const auto& entry = *m_vertices.find(region.vertices[soft.vertex]);
       soft_targets.push_back(Domain::coordinates(m_vertices.target(entry)));
     }
 
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, positions, iteration, energy));
     };
-    std::vector<Matrix_3x3> rotations = m_core->rotations();
+    std::vector<Matrix_3x3> rotations = core.rotations();
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = m_core->run(options, observe, soft_targets, positions, rotations,
-                                            report);
-    Outcome result = explain(diagnosis, m_region, *m_core);
+    const Diagnosis diagnosis = core.run(options, observe, soft_targets, positions, rotations,
+                                         report);
+    Outcome result = m_prepared.explain(diagnosis, domain());
     if(result)
     {
-      result.message += about_unheld_parts(m_unheld_parts);
+      result.message += about_unheld_parts(report.unheld_parts);
       std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
       for(const auto& [k, point] : points)
         domain().set_point(m_vertices.entries()[k].vertex, point);
       for(auto& [k, point] : points)
         m_vertices.entries()[k].present = std::move(point);
-      m_positions.swap(positions);
-      m_core->set_rotations(std::move(rotations));
+      m_prepared.positions().swap(positions);
+      core.set_rotations(std::move(rotations));
       m_energy = report.energy.back();
-      report.inverted_simplices = m_core->number_of_inverted_simplices(m_positions);
+      report.inverted_simplices = core.number_of_inverted_simplices(m_prepared.positions());
     }
     return result;
   }
@@ -421,8 +306,8 @@ private:
     const auto& entries = m_vertices.entries();
     std::vector<std::pair<std::size_t, Point>> points;
     points.reserve(entries.size());
-    for(int v = 0; v < m_core->region().number_of_free_vertices; ++v)
-      points.emplace_back(m_vertices.find(m_region.vertices[v]) - entries.data(),
+    for(int v = 0; v < number_of_free_vertices(); ++v)
+      points.emplace_back(m_vertices.find(m_prepared.region().vertices[v]) - entries.data(),
                           Domain::make_point(positions[v]));
     for(std::size_t k = 0; k < entries.size(); ++k)
       if(m_vertices.is_hard_control(entries[k]))
@@ -435,14 +320,20 @@ private:
   // whether v is solved for
   bool is_free(vertex_descriptor v) const
   {
-    const int number = m_region.find_vertex(domain(), v);
-    return number >= 0 && number < m_core->region().number_of_free_vertices;
+    const int number = m_prepared.region().find_vertex(domain(), v);
+    return number >= 0 && number < number_of_free_vertices();
+  }
+
+  int number_of_free_vertices() const
+  {
+    return m_prepared.core()->region().number_of_free_vertices;
   }
 
   Matrix_3x3 rotation_of_cell(int cell) const
   {
-    return cell >= 0 && cell < m_core->number_of_cells() ? m_core->rotation(cell)
-                                                         : identity_matrix();
+    const auto* core = m_prepared.core();
+    return core && cell >= 0 && cell < core->number_of_cells() ? core->rotation(cell)
+                                                               : identity_matrix();
   }
 
   Vertices m_vertices;
@@ -450,14 +341,7 @@ private:
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;
-
-  Laplacian_solver<typename Traits::Sparse_solver> m_idle_solver; // of a core that was out of date
-
-  // what preprocess() computes; up to date if m_core has a value
-  Region_ m_region;
-  std::vector<std::size_t> m_unheld_parts;
-  std::vector<Coordinates> m_positions; // of the vertices of the region
-  std::optional<Core> m_core;
+  Prepared_region<Domain, Traits> m_prepared;
 };
 
 } // namespace internal
