@@ -300,6 +300,41 @@ void test_solver()
   }
 }
 
+// A solver whose solutions are too large, so that the energy rises, is found out before anything is
+// written.
+struct Overshooting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  static double factor;
+
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
+  {
+    const bool is_solved = CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
+    for(std::size_t v = 0; v < n; ++v)
+      for(double& coordinate : x[v])
+        coordinate *= factor;
+    return is_solved;
+  }
+};
+double Overshooting_solver::factor = 1;
+
+void test_rising_energy()
+{
+  using Traits = CGAL::ARAP_deformation_traits_3<Overshooting_solver>;
+  for(auto minimizer : {CGAL::ARAP::Minimizer::local_global, CGAL::ARAP::Minimizer::quasi_newton})
+  {
+    test_case() = "a solver that makes the energy rise";
+    Mesh mesh = make_mesh<Mesh>(sheet());
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+    CGAL::ARAP::Options options;
+    options.minimizer = minimizer;
+    d.set_options(options);
+    prepare(d, scenario(sheet()), all_vertices(mesh));
+    Overshooting_solver::factor = 10;
+    check_failure(mesh, d, Status::solver_failed, "the solver failed",
+                  [] { Overshooting_solver::factor = 1; });
+  }
+}
+
 int main()
 {
   test_points();
@@ -309,5 +344,6 @@ int main()
   test_nothing_free();
   test_matrices();
   test_solver();
+  test_rising_energy();
   return checks_result();
 }

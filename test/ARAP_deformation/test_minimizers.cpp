@@ -96,7 +96,7 @@ void test_step()
       return v;
     };
     Vector x = Vector::LinSpaced(size, 1, 2);
-    Quasi_newton_memory memory(n);
+    Quasi_newton_memory memory(n, 1e9, 0); // nothing is too far, or lost in rounding
     std::vector<Vector> s, y;
     std::vector<Coordinates> before(n), d;
     for(int iteration = 0; iteration < 12; ++iteration)

@@ -236,7 +236,7 @@ void test_tolerance()
       const Scenario s = scenario(shape, 0.5);
       Soup<2> soup(shape.points, shape.triangles, options_for(Cell_scheme::spokes_and_rims()));
       soup.control(s, weight);
-      const Report report = soup.deformation.deform(1000, 1e-3);
+      const Report report = soup.deformation.deform(2000, 1e-3);
       CHECK(report.status == Status::converged);
       const double minimum = soup.deformation.deform(1000, 0).energy.back();
       if(is_in_one_piece(shape))

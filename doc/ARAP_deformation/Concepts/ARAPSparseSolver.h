@@ -59,7 +59,8 @@ public:
   /// of its rows.
   ///
   /// Returns whether it succeeded. If not, `x` may hold anything, and the run ends with
-  /// `CGAL::ARAP::Status::solver_failed`. The iteration solves for corrections, so that rounding errors
+  /// `CGAL::ARAP::Status::solver_failed`, as it does where a solution makes the energy rise by far more
+  /// than rounding errors. The iteration solves for corrections, so that rounding errors
   /// of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
 

@@ -41,7 +41,8 @@ enum class Status
   non_finite_weight,    ///< a weight of an edge in a simplex is not finite
   no_held_vertex,       ///< nothing in the region is held, or pulled with a positive weight
   singular_matrix,      ///< the matrix of the system is not positive definite
-  solver_failed,        ///< the solver could not solve with the matrix that it had factorized
+  solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
+                        ///< its solution made the energy rise
   non_finite_energy     ///< the numbers overflowed during the run
 };
 

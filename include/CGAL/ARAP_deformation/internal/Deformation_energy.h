@@ -27,6 +27,7 @@
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -97,9 +98,14 @@ public:
   // which positions may yet go: where a weight is larger than those of the edges, the point fits.
   double rounding_error_of_zero(const Extent& extent) const
   {
-    const double error =
-      4 * std::numeric_limits<double>::epsilon() * extent.largest_coordinate();
+    const double error = 4 * rounding_error(extent);
     return m_sum_of_weights * error * error;
+  }
+
+  // What rounding the positions makes of the force at a free vertex, on average.
+  double rounding_error_of_force(const Extent& extent) const
+  {
+    return m_sum_of_weights * rounding_error(extent) / (std::max)(1, m_number_of_free_vertices);
   }
 
   // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
@@ -141,6 +147,11 @@ public:
 
 private:
   static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
+
+  static double rounding_error(const Extent& extent) // of a position
+  {
+    return std::numeric_limits<double>::epsilon() * extent.largest_coordinate();
+  }
 
   // points, with a fourth coordinate that is zero, so that each is loaded at once
   static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)

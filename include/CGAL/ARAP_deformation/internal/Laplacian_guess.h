@@ -17,12 +17,15 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/Region.h>
+#include <CGAL/ARAP_deformation/internal/raise_diagonal.h>
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -60,8 +63,10 @@ public:
     });
     Sparse_matrix columns(m_stars.size(), number_of_rows); // of L, of the free vertices
     columns.setFromTriplets(entries.begin(), entries.end());
-    const Sparse_matrix normal =
+    Sparse_matrix normal =
       (Sparse_matrix(columns.transpose()) * columns).template triangularView<Eigen::Lower>();
+    raise_diagonal(normal);
+    bound_steps(normal);
     m_is_factorized =
       number_of_rows == 0 || (m_solver.analyze(normal) && m_solver.factorize(normal));
   }
@@ -102,6 +107,20 @@ public:
   }
 
 private:
+  // Where an equation with large weights has a small one, its rounding error may be anything
+  // compared to that: the vertex of the small weight must not be flung away to make up for it.
+  void bound_steps(Sparse_matrix& normal) const
+  {
+    std::vector<double> sums(m_stars.size(), 0); // of the weights of each equation
+    m_stars.for_each_edge([&](int i, int, double w) { sums[i] += std::abs(w); });
+    m_stars.for_each_edge([&](int i, int j, double) {
+      const double error = 16 * std::numeric_limits<double>::epsilon() * sums[i];
+      for(int v : {i, j})
+        if(is_free(v))
+          normal.valuePtr()[normal.outerIndexPtr()[m_row[v]]] += error * error;
+    });
+  }
+
   // L x
   std::vector<Coordinates> laplacian(const std::vector<Coordinates>& x) const
   {

@@ -48,6 +48,8 @@ public:
   std::vector<Coordinates>& x;
   const std::size_t number_of_free_vertices;
   Report& report;
+  double force_error; // the rounding error of the force at a vertex
+  double diameter;    // of positions and targets
 
   Minimization(Deformation_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
                std::size_t number_of_free_vertices_, const Options& options,
@@ -63,6 +65,8 @@ public:
     extent.include(soft_targets);
     report.energy_scale = energy.scale(extent);
     report.zero_energy = energy.rounding_error_of_zero(extent);
+    diameter = std::sqrt(extent.squared_length());
+    force_error = energy.rounding_error_of_force(extent);
   }
 
   // the energy at x with the rotations fitted to x
@@ -106,16 +110,20 @@ public:
   // Returns a status if the run is over.
   std::optional<Status> next_iterate(double decrease = 0)
   {
+    bool is_solved = true;
     if(report.energy.empty())
       m_gap = Gap_estimate(report.zero_energy);
     else
     {
       ++report.iterations;
       m_gap.add(decrease);
+      is_solved = !is_far_higher();
     }
     report.energy.push_back(m_value);
     if(!std::isfinite(m_value))
       return Status::non_finite_energy;
+    if(!is_solved)
+      return Status::solver_failed;
     const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
     report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_value);
 
@@ -134,6 +142,14 @@ public:
   }
 
 private:
+  // Whether the energy has risen by far more than rounding errors: what the solver returns is
+  // nothing like the solution, which lowers it.
+  bool is_far_higher() const
+  {
+    const double before = report.energy.back();
+    return m_value > before + 1e-2 * std::abs(before) + 1e4 * energy_resolution(before, report);
+  }
+
   Deformation_energy& m_energy;
   const ClosestRotation& m_closest_rotation;
   Solver& m_solver;

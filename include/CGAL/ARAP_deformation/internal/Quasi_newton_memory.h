@@ -44,7 +44,10 @@ public:
   // the number of pairs: more save few iterations, and cost time and memory
   static constexpr int capacity = 6;
 
-  explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
+  // `diameter` is that of all positions, `force_error` the rounding error of the force at a vertex
+  Quasi_newton_memory(std::size_t number_of_vertices, double diameter, double force_error)
+    : m_length(3 * number_of_vertices), m_diameter(diameter), m_force_error(force_error)
+  {}
 
   bool is_empty() const { return m_number_of_pairs == 0; }
 
@@ -60,7 +63,7 @@ public:
     m_next = m_number_of_pairs < capacity ? unused_slot() : m_order[0];
     std::vector<float>& s = m_slots[m_next].s;
     s.resize(m_length);
-    const Two_sums sums = sum_over_blocks(m_length, [&](std::size_t begin, std::size_t end) {
+    const Move_sums sums = sum_over_blocks(m_length, [&](std::size_t begin, std::size_t end) {
       const std::size_t n = end - begin;
       const double *f_begin = entries(force) + begin, *d_begin = entries(d) + begin;
       double *x_begin = entries(x) + begin, *before_begin = entries(before) + begin;
@@ -73,7 +76,7 @@ public:
         run_kernel<Add_multiple>(c.of_s[i], slot.s.data() + begin, n, p.data());
         run_kernel<Add_multiple>(c.of_z[i], slot.z.data() + begin, n, p.data());
       }
-      Two_sums block;
+      Move_sums block;
       for(std::size_t k = 0; k < n; ++k)
       {
         block.fp += f_begin[k] * p[k];
@@ -81,6 +84,7 @@ public:
         before_begin[k] = x_begin[k];
         x_begin[k] += p[k];
         s[begin + k] = static_cast<float>(p[k] / m_unit);
+        block.longest = (std::max)(block.longest, std::abs(s[begin + k]));
       }
       return block;
     }, block_size);
@@ -91,8 +95,14 @@ public:
     }
     m_slope = sums.fp;
     m_d_slope = sums.fd;
+    m_bound_of_shift = (std::min)(m_diameter, 1e3 * m_longest_shift);
+    m_longest_shift = m_unit * sums.longest;
     return sums.fp;
   }
+
+  // Whether the last move() went further than any has to, or much further than the one before: the
+  // model does not ask where that goes which has hardly any weight.
+  bool went_too_far() const { return !(m_longest_shift <= m_bound_of_shift); }
 
   // Instead of the last move(), makes the one by p = d, and forgets all pairs.
   double move_by(const std::vector<Coordinates>& d, const std::vector<Coordinates>& before,
@@ -107,6 +117,7 @@ public:
       }
     }, block_size);
     m_number_of_pairs = 0;
+    m_longest_shift = largest_entry(d);
     m_slope = m_d_slope;
     return m_slope;
   }
@@ -123,7 +134,7 @@ public:
   }
 
   // Remembers the last move, which was shortened to t p, led to the given force, and changed d to
-  // `new_d`; not if the energy is not convex along it.
+  // `new_d`; not if the energy is not convex along it, or rounding has made the change of force.
   void remember(double t, const std::vector<Coordinates>& force, const std::vector<Coordinates>& d,
                 const std::vector<Coordinates>& new_d)
   {
@@ -140,6 +151,7 @@ public:
         next.s[begin + k] = static_cast<float>(t * next.s[begin + k]);
         next.z[begin + k] = static_cast<float>((d_begin[k] - new_d_begin[k]) / m_unit);
         block.fd += f_begin[k] * d_begin[k];
+        block.ss += double(next.s[begin + k]) * next.s[begin + k];
       }
       for(int i = 0; i <= m_number_of_pairs; ++i)
       {
@@ -161,8 +173,12 @@ public:
       slot.fz = sums.fz[i];
     }
     // Where the energy is convex and its rotations are free, L bounds its curvature, and s y is at
-    // least z y. Much less than that is rounding, or not convex.
-    if(next.zy[m_next] > 0 && next.sy[m_next] > 0.1 * next.zy[m_next])
+    // least z y. Much less than that is rounding, or not convex. Along a step of some length that
+    // changes the force by rounding errors only, what almost nothing holds would be flung away, to
+    // where these errors happen to vanish.
+    const double least = t * m_longest_shift > 1e-8 * m_diameter
+                       ? m_force_error / m_unit * std::sqrt(sums.ss) : 0;
+    if(next.zy[m_next] > 0 && next.sy[m_next] > (std::max)(0.1 * next.zy[m_next], least))
       ++m_number_of_pairs;
   }
 
@@ -184,24 +200,26 @@ private:
     std::array<double, capacity> of_s, of_z; // from the oldest to the newest
   };
 
-  struct Two_sums
+  struct Move_sums
   {
     double fp = 0, fd = 0;
+    float longest = 0;
 
-    friend Two_sums operator+(const Two_sums& a, const Two_sums& b)
+    friend Move_sums operator+(const Move_sums& a, const Move_sums& b)
     {
-      return {a.fp + b.fp, a.fd + b.fd};
+      return {a.fp + b.fp, a.fd + b.fd, (std::max)(a.longest, b.longest)};
     }
   };
 
   struct Sums
   {
-    double fd = 0;
+    double fd = 0, ss = 0;
     std::array<double, capacity> fs{}, fz{};
 
     friend Sums operator+(Sums a, const Sums& b)
     {
       a.fd += b.fd;
+      a.ss += b.ss;
       for(int i = 0; i < capacity; ++i)
       {
         a.fs[i] += b.fs[i];
@@ -217,12 +235,18 @@ private:
     return points.data()->data();
   }
 
-  static double unit(const std::vector<Coordinates>& d)
+  static double largest_entry(const std::vector<Coordinates>& d)
   {
     double largest = 0;
     for(const Coordinates& p : d)
       for(double entry : p)
         largest = (std::max)(largest, std::abs(entry));
+    return largest;
+  }
+
+  static double unit(const std::vector<Coordinates>& d)
+  {
+    const double largest = largest_entry(d);
     return largest > 0 && std::isfinite(largest) ? largest : 1;
   }
 
@@ -274,12 +298,14 @@ private:
   }
 
   std::size_t m_length; // of the vectors
+  double m_diameter, m_force_error;
   double m_unit = 0;    // 0: not yet known
   std::array<Slot, capacity> m_slots;
   std::array<int, capacity> m_order{}; // the slots of the pairs, from the oldest to the newest
   int m_number_of_pairs = 0;
   int m_next = 0;                    // the slot of the last move
   double m_slope = 0, m_d_slope = 0; // f p and f d at the last move
+  double m_longest_shift = 0, m_bound_of_shift = 0; // of a coordinate, by the last move
 };
 
 } // namespace internal

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/Groups.h>
 #include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/raise_diagonal.h>
 
 #include <Eigen/SparseCore>
 
@@ -33,7 +34,7 @@ namespace internal {
 
 // Half the Hessian of the energy with its rotations fixed, for the free vertices: the matrix of
 // Equation (9) of the paper, from which the held vertices' rows and columns are left out, so that
-// it is symmetric positive definite. The lower triangle.
+// it is symmetric positive definite. The lower triangle, with its diagonal raised.
 inline Sparse_matrix free_laplacian(const Deformation_energy& energy)
 {
   // the off-diagonal entries of each column, with one entry for each edge set
@@ -80,12 +81,8 @@ inline Sparse_matrix free_laplacian(const Deformation_energy& energy)
       }
     }
   });
+  raise_diagonal(laplacian);
   return laplacian;
-}
-
-inline double diagonal_entry(const Sparse_matrix& laplacian, int v)
-{
-  return laplacian.valuePtr()[laplacian.outerIndexPtr()[v]]; // the first of its column
 }
 
 // For each free vertex -1 if a chain of edges of non-zero weight ties it, over other free vertices,

@@ -48,7 +48,7 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 template <typename ClosestRotation, typename Solver>
 Status minimize_quasi_newton(Minimization<ClosestRotation, Solver>& run)
 {
-  Quasi_newton_memory memory(run.number_of_free_vertices);
+  Quasi_newton_memory memory(run.number_of_free_vertices, run.diameter, run.force_error);
   std::vector<Coordinates> d, next_d, before(run.number_of_free_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
@@ -69,20 +69,23 @@ Status minimize_quasi_newton(Minimization<ClosestRotation, Solver>& run)
       is_safe = memory.is_empty();
       slope = memory.move(run.force(), d, run.x, before);
     }
+    const auto replace = [&] {
+      is_safe = true;
+      slope = memory.move_by(d, before, run.x);
+      t = 1;
+    };
     double decrease = 0;
     const auto shorten_or_replace = [&] {
       const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
       const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
-      is_safe = !(slope > 0) || t * ratio < 0.05;
       t *= ratio;
-      if(!is_safe)
-        return shorten(ratio, before, run.x);
-      slope = memory.move_by(d, before, run.x);
-      t = 1;
+      if(t < 0.05)
+        return replace();
+      shorten(ratio, before, run.x);
     };
     t = 1;
-    if(!is_safe && !(slope > 0))
-      shorten_or_replace();
+    if(!is_safe && (!(slope > 0) || memory.went_too_far()))
+      replace();
     for(;;)
     {
       run.evaluate();
