@@ -658,6 +658,17 @@ void test_failures()
   CHECK(deformation.deform());
   CHECK(mesh.point(left) == point(sphere.points[left]));
 
+  test_case() = "a point that is not finite, and is mended";
+  const Mesh::Vertex_index broken(30);
+  const Point whole = mesh.point(broken);
+  mesh.point(broken) = Point(0, std::nan(""), 0);
+  deformation.overwrite_initial_geometry();
+  CHECK(names(deformation.deform(), 30));
+  deformation.reset();
+  mesh.point(broken) = whole;
+  deformation.overwrite_initial_geometry();
+  CHECK(deformation.deform());
+
   test_case() = "smoothed rotations";
   Mesh smooth = make_mesh<Mesh>(sphere);
   Our_class<Mesh, CGAL::SRE_ARAP> smoothed(smooth);

@@ -180,11 +180,17 @@ public:
       return;
     update_region();
     // what is the user's, maps and weights, may throw: nothing is changed before
-    std::vector<Point> rest = m_region.rest;
+    std::vector<Point> rest = m_region.rest, points = m_region.points;
     for(int k = 0; k < m_region.roi_size; ++k)
-      rest[k] = get(m_point_map, m_region.vertices[k]);
+    {
+      const Vertex v = m_region.vertices[k];
+      rest[k] = get(m_point_map, v);
+      if(!m_roi.is_control(v)) // not its target
+        points[k] = rest[k];
+    }
     m_weights.recompute_at(m_roi.vertices(), [this](Vertex v) { return m_roi.contains(v); });
     m_region.rest.swap(rest);
+    m_region.points.swap(points);
     m_region.reset_rotations();
     region_changed(); // what is around the region of interest is read again too
   }
