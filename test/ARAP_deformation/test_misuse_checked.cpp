@@ -13,7 +13,14 @@
 
 #define CGAL_DEBUG 1
 
+#include "include/domains.h"
 #include "include/misuse.h"
+
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
 
 int main()
 {
@@ -52,5 +59,14 @@ int main()
     });
   }));
   CHECK(d.deform()); // the exception has ended the run
+
+  // a vertex that there is not
+  std::vector<Point> points = points_of(octahedron().points);
+  const auto faces = octahedron().triangles;
+  using Soup = CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, std::decay_t<decltype(faces)>>;
+  CGAL::ARAP_deformation<Soup> soup(Soup(points, faces));
+  CHECK(is_refused([&] { soup.insert_roi_vertex(points.size()); }));
+  CHECK(is_refused([&] { soup.insert_control_vertex(std::size_t(-1)); }));
+  CHECK(soup.roi_vertices().empty());
   return checks_result();
 }

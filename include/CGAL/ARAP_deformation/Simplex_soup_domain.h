@@ -87,7 +87,12 @@ public:
   }
 
   /// returns `v`.
-  std::size_t index(vertex_descriptor v) const { return v; }
+  /// \pre `v` is smaller than the number of points.
+  std::size_t index(vertex_descriptor v) const
+  {
+    CGAL_precondition(v < m_points->size());
+    return v;
+  }
 
   /// returns the point of `v` in the range that is read.
   const Point& point(vertex_descriptor v) const { return (*m_points)[v]; }
