@@ -15,12 +15,14 @@
 // Checks that hold in Release too, where assert() does nothing. A test calls them, goes on after a
 // failure, and returns checks_result() from main().
 
+#include <atomic>
 #include <cstdlib>
 #include <iostream>
 #include <string>
 
-inline int& number_of_checks() { static int n = 0; return n; }
-inline int& number_of_failures() { static int n = 0; return n; }
+// atomic: threads check, too
+inline std::atomic<int>& number_of_checks() { static std::atomic<int> n{0}; return n; }
+inline std::atomic<int>& number_of_failures() { static std::atomic<int> n{0}; return n; }
 
 // what is being tested, printed with a failure
 inline std::string& test_case() { static std::string s; return s; }
