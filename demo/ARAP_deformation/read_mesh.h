@@ -20,6 +20,7 @@
 #include "shape_files.h"
 
 #include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Surface_mesh/IO/OFF.h>
@@ -27,10 +28,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <ios>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
@@ -40,7 +43,7 @@ namespace internal {
 using Polygons = std::vector<std::vector<std::size_t>>;
 
 // Makes a mesh of polygons, as CGAL's readers do. They take for granted that all corners exist.
-inline bool build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
+inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
                        const Polygons& polygons, Mesh& mesh)
 {
   for(const auto& p : points)
@@ -56,15 +59,26 @@ inline bool build_mesh(const std::string& file, const std::vector<Kernel::Point_
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
-      return false;
+      throw std::runtime_error(file + ": face " + std::to_string(f) + " has a vertex twice, or is "
+                               "no oriented manifold surface with the faces before it");
   }
-  return mesh.is_valid(false);
+}
+
+// Normals of vertices are those of the shape at rest: after a deformation they are wrong.
+inline void remove_normals(Mesh& mesh)
+{
+  auto normals = mesh.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
+  mesh.remove_property_map(normals);
 }
 
 // Returns whether CGAL could read it.
 inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
 {
   const std::string extension = lower_case_extension(file);
+  std::error_code ignored;
+  if(std::filesystem::is_other(file, ignored)) // before it is opened, which may wait for a writer
+    throw std::runtime_error(file + ": is not a regular file, as a surface must be: it is read "
+                                    "more than once");
   std::ifstream in = open_for_reading(file);
   in.seekg(0, std::ios::end);
   const auto bytes = static_cast<std::size_t>(in.tellg());
@@ -77,7 +91,13 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
   {
     check_off_file(in, file);
     rewind();
-    return CGAL::IO::read_OFF(in, mesh);
+    if(CGAL::IO::read_OFF(in, mesh)) // with its colours
+    {
+      remove_normals(mesh);
+      return true;
+    }
+    mesh.clear(); // it is read again, to say which face is wrong
+    rewind();
   }
   if(extension == ".ply")
   {
@@ -87,11 +107,14 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
   std::vector<Kernel::Point_3> points;
   Polygons polygons;
   const auto quiet = CGAL::parameters::verbose(false);
-  return (extension == ".obj"   ? CGAL::IO::read_OBJ(in, points, polygons, quiet)
-          : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
-          : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
-                                : false) &&
-         build_mesh(file, points, polygons, mesh);
+  const bool is_read = extension == ".off"   ? CGAL::IO::read_OFF(in, points, polygons, quiet)
+                       : extension == ".obj" ? CGAL::IO::read_OBJ(in, points, polygons, quiet)
+                       : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
+                       : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
+                                             : false;
+  if(is_read)
+    build_mesh(file, points, polygons, mesh);
+  return is_read && mesh.is_valid(false);
 }
 
 } // namespace internal
@@ -112,7 +135,7 @@ inline Mesh read_mesh(const std::string& file)
   if(!is_read)
     throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
                              lower_case_extension(file) + " files, or holds a coordinate that "
-                             "is not a finite number, or is not an oriented manifold surface");
+                             "is not a finite number");
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
     throw std::runtime_error(file + ": has no faces");
   for(Mesh::Vertex_index v : mesh.vertices())

@@ -334,7 +334,7 @@ void test_refusals()
   mesh("index.off", "index.off: ");
   wrong.triangles[5] = wrong.triangles[6];
   write("doubled.off", off(wrong));
-  mesh("doubled.off", "doubled.off: ");
+  mesh("doubled.off", "doubled.off: face 6 has a vertex twice, or is no oriented manifold");
   write("line.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n");
   mesh("line.off", "line.off: ");
 

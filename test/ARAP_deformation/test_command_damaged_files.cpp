@@ -56,6 +56,12 @@ void test_off()
   refuse("off", "STOFF\n3 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 0 1\n3 0 1 2\n",
          "has texture coordinates");
 
+  test_case() = "normals of vertices, which the deformation makes wrong";
+  write("normals.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n");
+  CHECK(run("normals.off --selection three.sel --transform in.def -o new.off").exit_code == 0);
+  CHECK(content(folder / "new.off").substr(0, 3) == "OFF");
+  fs::remove(folder / "new.off");
+
   // colours, which CGAL reads without a look at how many numbers there are
   const auto coloured = [](const std::string& vertex, const std::string& face) {
     return "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 " + vertex +
@@ -77,6 +83,8 @@ void test_obj()
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
   accept("isolated.obj", "v 7 7 7\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\n");
   accept("good.obj", square + "f -4 -2 -1\n");
+  for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
+    refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or is no oriented");
   refuse("obj", square + "f 1 3 5\n", "face 1 has a vertex that there is not");
   refuse("obj", "f 1 2 -3\n" + square, "face 0 has a vertex that there is not");
   for(const std::string corner : {"6", "-5", "-2147483648", "2147483647", "2147483648"})
@@ -167,6 +175,7 @@ int main(int argc, char** argv)
     limit_command();
     write("precious.off", "precious");
     write("in.sel", "0\n0\n1\n2\n");
+    write("three.sel", "0\n0\n2\n");
     write("in.def", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     test_off();
     test_obj();
