@@ -186,7 +186,11 @@ inline Transform read_transform(const std::string& file)
   if(!std::equal(last_row.begin(), last_row.end(), transform.begin() + 12))
     throw std::runtime_error(file + ": the last row of the transform is not 0 0 0 1");
   const Transform& m = transform;
-  const Kernel::Vector_3 x(m[0], m[4], m[8]), y(m[1], m[5], m[9]), z(m[2], m[6], m[10]);
+  const auto column = [&m](int k) { // divided by its largest entry, so that no product overflows
+    const Kernel::Vector_3 v(m[k], m[4 + k], m[8 + k]);
+    return v / (std::max)({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
+  };
+  const Kernel::Vector_3 x = column(0), y = column(1), z = column(2);
   const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
   if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
     throw std::runtime_error(file + ": the transform is singular: it flattens the handle");

@@ -163,6 +163,10 @@ void test_text_files()
   write("odd.def", "1 0 0 0\n0 1 0 \33[2J" + std::string(1000, 'x') + "\n");
   check_refused("good.off --selection in.sel --transform odd.def -o new.off", 1,
                 "odd.def, line 2: '?[2Jxxx");
+  test_case() = "a large transform";
+  write("large.def", "1e60 0 0 0\n0 1e60 0 0\n0 0 1e60 0\n0 0 0 1\n");
+  CHECK(run("good.off --selection in.sel --transform large.def -o new.off").exit_code == 0);
+  fs::remove(folder / "new.off");
   // arguments that Boost.Program_options takes for its own placeholders
   for(const std::string option : {"--iterations %value%", "--%canonical_option% 3"})
     check_refused("good.off " + option + rest, 2, "an option is missing, not known or given twice");
