@@ -12,6 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H
 
+#include "Output_file.h"
+
 #include <CGAL/ARAP_deformation/Options.h>
 
 #include <boost/program_options.hpp>
@@ -22,7 +24,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -126,16 +127,16 @@ inline void print_help(std::ostream& out)
          "of each connected part that nothing holds: it stays where it is), seconds (load,\n"
          "preprocess, deform) and peak_memory_bytes.\n\n"
          "Exit status: 0 done, 1 could not be done, 2 wrong usage. Where it is not 0 no\n"
-         "output file is written, and existing ones are left as they were.\n";
+         "output file is written, and existing ones are left as they were. What is not a\n"
+         "regular file, such as a pipe, is written to as it is, /dev/stdout and the like as\n"
+         "the shell has opened them.\n";
 }
 
 // The outputs must be different files, and none an input; only the mesh may be deformed in place.
 inline void check_outputs(const Command_line& line)
 {
   const auto check = [](const std::string& a, const std::string& b) {
-    std::error_code error;
-    if(!a.empty() && !b.empty() && std::filesystem::weakly_canonical(a, error) ==
-                                     std::filesystem::weakly_canonical(b, error))
+    if(!a.empty() && !b.empty() && is_same_file(a, b))
       throw Usage_error("the file " + a + " is given for two things");
   };
   for(const std::string& output : {line.output, line.report, line.image})

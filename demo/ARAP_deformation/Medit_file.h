@@ -290,7 +290,7 @@ private:
 };
 
 // Writes a new .mesh file, all references 0.
-inline void write_mesh(const Output_file& file, const Tetrahedral_mesh& mesh)
+inline void write_mesh(Output_file& file, const Tetrahedral_mesh& mesh)
 {
   file.write([&](std::ostream& out) {
     out.precision(std::numeric_limits<double>::max_digits10);

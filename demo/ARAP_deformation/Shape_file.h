@@ -46,7 +46,7 @@ public:
   // Throws if a file of this name cannot hold the surface.
   void check_output(const std::string& file) const { check_format(file, m_mesh); }
 
-  void write(const Output_file& output, const std::string& file) const
+  void write(Output_file& output, const std::string& file) const
   {
     write_mesh(output, m_mesh, lower_case_extension(file));
   }
@@ -71,7 +71,7 @@ public:
 
   void check_output(const std::string&) const {}
 
-  void write(const Output_file& output, const std::string&) const
+  void write(Output_file& output, const std::string&) const
   {
     output.write([this](std::ostream& out) { m_file.write(out, m_mesh.points); });
   }

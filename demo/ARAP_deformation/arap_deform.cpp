@@ -12,6 +12,7 @@
 // The command arap_deform: deforms a mesh file as rigidly as possible. See arap_deform --help.
 
 #include "Command_line.h"
+#include "Output_file.h"
 #include "Scene.h"
 #include "Shape_file.h"
 #include "mesh_panel.h"
@@ -34,11 +35,11 @@
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -117,7 +118,7 @@ std::optional<long long> peak_memory_bytes()
   return std::nullopt;
 }
 
-void write_report(const Output_file& file, const Result& result)
+void write_report(Output_file& file, const Result& result)
 {
   const Report& report = result.report;
   nlohmann::ordered_json json;
@@ -140,7 +141,7 @@ void write_report(const Output_file& file, const Result& result)
   json["peak_memory_bytes"] = nullptr;
   if(const auto bytes = peak_memory_bytes())
     json["peak_memory_bytes"] = *bytes;
-  file.write([&json](std::ofstream& out) { out << std::setw(2) << json << '\n'; });
+  file.write([&json](std::ostream& out) { out << std::setw(2) << json << '\n'; });
 }
 
 // Deforms the shape of a domain.
@@ -171,6 +172,13 @@ Report deform(const Command_line& line, const Domain& domain, const std::vector<
   return report;
 }
 
+// Throws if not all that was printed has reached the standard output.
+void flush_output()
+{
+  if(!std::cout.flush())
+    throw std::runtime_error("the standard output could not be written to the end");
+}
+
 void print_summary(const Command_line& line, const Result& result)
 {
   const Report& report = result.report;
@@ -190,6 +198,7 @@ void print_summary(const Command_line& line, const Result& result)
     if(!file.empty())
       std::cout << ", " << file;
   std::cout << '\n';
+  flush_output();
 }
 
 // Throws if the mesh or the output is no mesh file, or they are not of one kind.
@@ -238,8 +247,6 @@ void run(const Command_line& line)
   result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
 
   shape.write(output, line.output);
-  if(report)
-    write_report(*report, result);
   if(image)
   {
     const std::vector<Panel> panels = {
@@ -249,13 +256,17 @@ void run(const Command_line& line)
       render(panels, default_view(panels[0].points), out);
     });
   }
+  if(report)
+    write_report(*report, result);
+  if(!line.is_quiet)
+    print_summary(line, result);
+
+  // last, when nothing else can fail
   output.commit();
   if(report)
     report->commit();
   if(image)
     image->commit();
-  if(!line.is_quiet)
-    print_summary(line, result);
 }
 
 void run(const Command_line& line)
@@ -279,7 +290,10 @@ int main(int argc, char** argv)
   {
     const Command_line line = parse_command_line(argc, argv);
     if(line.is_help)
+    {
       print_help(std::cout);
+      flush_output();
+    }
     else
       run(line);
     return EXIT_SUCCESS;

@@ -15,6 +15,8 @@
 // The files of the command arap_deform: meshes, selections, transforms. What cannot be read or
 // written is a std::runtime_error whose sentence names the file and, where there is one, the line.
 
+#include "Output_file.h"
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
@@ -26,7 +28,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <random>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -197,71 +199,6 @@ inline Transform read_transform(const std::string& file)
   return transform;
 }
 
-// A file that is written under a temporary name beside its own, and gets its own only by commit():
-// no other program ever sees half of it, and nothing is left if commit() is never reached. Links
-// are followed, permissions kept, and what is not a file, such as /dev/stdout, is written to
-// directly.
-class Output_file
-{
-public:
-  // Throws if the file cannot be written, without touching it.
-  explicit Output_file(const std::string& file) : m_name(file)
-  {
-    std::error_code error;
-    m_file = std::filesystem::weakly_canonical(file, error);
-    const auto status = std::filesystem::status(m_file, error);
-    const bool exists = std::filesystem::exists(status);
-    if(std::filesystem::is_directory(status) ||
-       (exists && !std::ofstream(m_file, std::ios::app)))
-      throw std::runtime_error(file + ": cannot be written");
-    m_temporary = m_file;
-    if(exists && !std::filesystem::is_regular_file(status))
-      return;
-    const std::string unique = std::to_string(std::random_device()());
-    m_temporary.replace_extension("." + unique + m_file.extension().string());
-    if(!std::ofstream(m_temporary))
-      throw std::runtime_error(file + ": cannot be written");
-    if(exists)
-      std::filesystem::permissions(m_temporary, status.permissions(), error);
-  }
-
-  Output_file(const Output_file&) = delete;
-  Output_file& operator=(const Output_file&) = delete;
-
-  ~Output_file()
-  {
-    std::error_code ignored;
-    if(m_temporary != m_file)
-      std::filesystem::remove(m_temporary, ignored);
-  }
-
-  const std::filesystem::path& temporary() const { return m_temporary; }
-
-  // Calls write(stream) and throws if not everything reached the file.
-  template <typename Write>
-  void write(const Write& write) const
-  {
-    std::ofstream out(m_temporary, std::ios::binary);
-    write(out);
-    out.close();
-    if(!out)
-      throw std::runtime_error(m_name + ": could not be written to the end");
-  }
-
-  void commit()
-  {
-    std::error_code error;
-    if(m_temporary != m_file)
-      std::filesystem::rename(m_temporary, m_file, error);
-    if(error)
-      throw std::runtime_error(m_name + ": cannot be written: " + error.message());
-  }
-
-private:
-  std::string m_name; // as the user gave it
-  std::filesystem::path m_file, m_temporary;
-};
-
 // Throws if the format of the file cannot hold the mesh.
 inline void check_format(const std::string& file, const Mesh& mesh)
 {
@@ -275,10 +212,10 @@ inline void check_format(const std::string& file, const Mesh& mesh)
                                "files hold polygons");
 }
 
-inline void write_mesh(const Output_file& file, const Mesh& mesh,
+inline void write_mesh(Output_file& file, const Mesh& mesh,
                        const std::string& extension = ".off")
 {
-  file.write([&](std::ofstream& out) {
+  file.write([&](std::ostream& out) {
     const auto precise = CGAL::parameters::stream_precision(17);
     if(extension == ".ply" || extension == ".stl")
       CGAL::IO::set_binary_mode(out);

@@ -83,7 +83,8 @@ void read(const std::string& file)
   {
     const Mesh mesh = read_mesh(file);
     require(mesh.is_valid(false), "a valid mesh");
-    write_mesh(Output_file((folder / ("out." + format)).string()), mesh, "." + format);
+    Output_file out((folder / ("out." + format)).string());
+    write_mesh(out, mesh, "." + format);
   }
 }
 

@@ -52,11 +52,12 @@ struct Run
   std::string out, err;
 };
 
-inline Run run(const std::string& arguments)
+// Runs a line of the shell in the folder.
+inline Run run_line(const std::string& line)
 {
   const fs::path out = folder / "stdout", err = folder / "stderr";
-  const int status = std::system(("cd \"" + folder.string() + "\" && \"" + command + "\" " +
-                                  arguments + " > stdout 2> stderr").c_str());
+  const int status = std::system(("cd \"" + folder.string() + "\" && ( " + line +
+                                  " ) > stdout 2> stderr").c_str());
 #if defined(__unix__) || defined(__APPLE__)
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 #else
@@ -67,6 +68,8 @@ inline Run run(const std::string& arguments)
   fs::remove(err);
   return result;
 }
+
+inline Run run(const std::string& arguments) { return run_line('"' + command + "\" " + arguments); }
 
 // From now on the command is killed if it takes longer than anything here should, and, unless it is
 // built with a sanitizer, which needs more, has no more than a GB to allocate.

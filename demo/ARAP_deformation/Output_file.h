@@ -1,0 +1,211 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_OUTPUT_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_OUTPUT_FILE_H
+
+// The files that the command arap_deform writes, and what a name of a file stands for.
+
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace CGAL::ARAP::demo {
+
+namespace internal {
+
+// whether the name is that of a file descriptor of this process, as /dev/fd/1 is
+inline bool is_descriptor(const std::filesystem::path& file)
+{
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical("/dev/fd", error);
+  return !folder.empty() && std::filesystem::canonical(file.parent_path(), error) == folder;
+}
+
+// Where the links lead that a name stands for: to a file, which need not exist, or to a descriptor,
+// such as /dev/fd/1 from /dev/stdout. Links in a circle are not followed to an end.
+inline std::filesystem::path followed(const std::string& name)
+{
+  std::error_code error;
+  std::filesystem::path file = std::filesystem::absolute(name, error);
+  const int most_links = 40;
+  for(int links = 0; links < most_links && !is_descriptor(file) &&
+                     std::filesystem::is_symlink(file, error); ++links)
+    file = file.parent_path() / std::filesystem::read_symlink(file, error);
+  return file;
+}
+
+// The only name of a file, or of where it would be created; empty if there is no such place.
+inline std::filesystem::path location(const std::string& name)
+{
+  std::error_code error;
+  return std::filesystem::exists(name, error)
+           ? std::filesystem::canonical(name, error)
+           : std::filesystem::weakly_canonical(followed(name), error);
+}
+
+// A file of the C library: unlike a stream, it can be made of a descriptor, and a signal ends what
+// it waits for.
+struct Close_file
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using C_file = std::unique_ptr<std::FILE, Close_file>;
+
+// What a descriptor stands for, as it was opened: a file is neither emptied nor written to from its
+// start, and what is written to the descriptor later comes behind.
+inline C_file open_descriptor(const std::filesystem::path& file)
+{
+#if defined(__unix__) || defined(__APPLE__)
+  int number;
+  if(boost::conversion::try_lexical_convert(file.filename().string(), number))
+    if(const int copy = dup(number); copy >= 0)
+    {
+      C_file opened(fdopen(copy, "wb"));
+      if(!opened)
+        close(copy);
+      return opened;
+    }
+#else
+  static_cast<void>(file);
+#endif
+  return nullptr;
+}
+
+} // namespace internal
+
+// Whether two names stand for the same file, pipe or device, or would if there were one.
+inline bool is_same_file(const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  if(std::filesystem::exists(a, error) && std::filesystem::exists(b, error))
+    return std::filesystem::equivalent(a, b, error);
+  const std::filesystem::path place = internal::location(a);
+  return !place.empty() && place == internal::location(b);
+}
+
+// A file that is written under a temporary name beside its own, and gets its own only by commit():
+// no other program ever sees half of it, and nothing is left if commit() is never reached. Links
+// are followed, permissions kept. What is not a regular file, such as a pipe, and descriptors, such
+// as /dev/stdout, are opened once, at construction, and written to directly.
+class Output_file
+{
+public:
+  // Throws if the file cannot be written, without touching it.
+  explicit Output_file(const std::string& file) : m_name(file)
+  {
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if(const auto end = internal::followed(file); internal::is_descriptor(end))
+      open_directly(internal::open_descriptor(end));
+    else if(std::filesystem::is_other(status))
+      open_directly(internal::C_file(std::fopen(file.c_str(), "wb")));
+    else
+      create_temporary(status);
+  }
+
+  Output_file(const Output_file&) = delete;
+  Output_file& operator=(const Output_file&) = delete;
+
+  ~Output_file()
+  {
+    std::error_code ignored;
+    if(!m_temporary.empty())
+      std::filesystem::remove(m_temporary, ignored);
+  }
+
+  // Calls write(stream) and throws if not everything reached the file. To be called once.
+  template <typename Write>
+  void write(const Write& write)
+  {
+    if(!(m_direct ? write_directly(write) : write_temporary(write)))
+      throw std::runtime_error(m_name + ": could not be written to the end");
+  }
+
+  void commit()
+  {
+    std::error_code error;
+    if(!m_temporary.empty())
+      std::filesystem::rename(m_temporary, m_file, error);
+    if(error)
+      throw std::runtime_error(m_name + ": cannot be written: " + error.message());
+    m_temporary.clear();
+  }
+
+private:
+  void require(bool condition) const
+  {
+    if(!condition)
+      throw std::runtime_error(m_name + ": cannot be written");
+  }
+
+  void open_directly(internal::C_file file)
+  {
+    m_direct = std::move(file);
+    require(m_direct != nullptr);
+  }
+
+  void create_temporary(std::filesystem::file_status status)
+  {
+    m_file = internal::location(m_name);
+    const bool exists = std::filesystem::is_regular_file(status);
+    require(exists || status.type() == std::filesystem::file_type::not_found);
+    require(!m_file.empty() && (!exists || std::ofstream(m_file, std::ios::app)));
+    // short, as the name of the file may be as long as names can be
+    const auto temporary = m_file.parent_path() /
+                           ("arap_" + std::to_string(std::random_device()()) + ".tmp");
+    require(bool(std::ofstream(temporary)));
+    m_temporary = temporary;
+    std::error_code ignored;
+    if(exists)
+      std::filesystem::permissions(m_temporary, status.permissions(), ignored);
+  }
+
+  template <typename Write>
+  bool write_directly(const Write& write)
+  {
+    std::ostringstream out;
+    write(out);
+    const std::string text = out.str();
+    const bool is_written = std::fwrite(text.data(), 1, text.size(), m_direct.get()) == text.size();
+    return std::fclose(m_direct.release()) == 0 && is_written && out;
+  }
+
+  template <typename Write>
+  bool write_temporary(const Write& write) const
+  {
+    std::ofstream out(m_temporary, std::ios::binary);
+    write(out);
+    out.close();
+    return bool(out);
+  }
+
+  std::string m_name; // as the user gave it
+  std::filesystem::path m_file, m_temporary;
+  internal::C_file m_direct; // in place of these two
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_OUTPUT_FILE_H
