@@ -12,6 +12,7 @@
 // The command arap_deform: deforms a mesh file as rigidly as possible. See arap_deform --help.
 
 #include "Command_line.h"
+#include "Delayed_interruption.h"
 #include "Output_file.h"
 #include "Scene.h"
 #include "Shape_file.h"
@@ -92,9 +93,6 @@ struct Result
   double load_seconds = 0;
 };
 
-// set when the user interrupts the run: no file is left then either
-volatile std::sig_atomic_t is_interrupted = 0;
-
 bool is_terminal()
 {
 #if defined(__unix__) || defined(__APPLE__)
@@ -165,8 +163,7 @@ Report deform(const Command_line& line, const Domain& domain, const std::vector<
   });
   if(is_shown)
     std::cerr << "\r\033[K" << std::flush;
-  if(is_interrupted)
-    throw std::runtime_error("interrupted");
+  check_interrupted();
   if(!report)
     throw std::runtime_error(line.mesh + ": " + report.message);
   return report;
@@ -229,6 +226,7 @@ void run(const Command_line& line)
 
   // opened before the work, so that nothing is computed in vain
   shape.check_output(line.output);
+  const Delayed_interruption until_files_are_closed;
   Output_file output(line.output);
   std::optional<Output_file> report, image;
   if(!line.report.empty())
@@ -260,6 +258,7 @@ void run(const Command_line& line)
     write_report(*report, result);
   if(!line.is_quiet)
     print_summary(line, result);
+  check_interrupted();
 
   // last, when nothing else can fail
   output.commit();
@@ -273,7 +272,11 @@ void run(const Command_line& line)
 {
   check_mesh_files(line);
   if(!line.image.empty())
+  {
+    const Delayed_interruption until_folder_is_removed;
     check_renderer();
+  }
+  check_interrupted();
   if(is_tetrahedra_file(line.mesh))
     run<Tetrahedra_file>(line);
   else
@@ -284,8 +287,9 @@ void run(const Command_line& line)
 
 int main(int argc, char** argv)
 {
-  std::signal(SIGINT, [](int) { is_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
+#if defined(__unix__) || defined(__APPLE__)
+  std::signal(SIGXFSZ, SIG_IGN); // a file that gets too large is a write that fails
+#endif
   try
   {
     const Command_line line = parse_command_line(argc, argv);

@@ -9,7 +9,7 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The command arap_deform with pipes, devices, links and what the shell has opened: it
+// The command arap_deform with pipes, devices, links, what the shell has opened, and signals: it
 // does not hang, and whatever fails, all files are as they were. The path of the command is the
 // argument; without it nothing is tested.
 
@@ -73,6 +73,9 @@ void test_pipes()
   check_done(run_arap("timeout 20 cat fifo > got & " + call + "--report fifo; wait"));
   CHECK(is_report(content(folder / "got")));
   fs::remove(folder / "got");
+  check_failed("{ sleep 0.1; " + call + "--quiet --report /dev/stdout; } | true", 1,
+               "/dev/stdout: could not be written to the end");
+  check_failed("{ sleep 0.1; " + call + "; } | true", 1, "the standard output could not be");
   check_failed(call + "> /dev/full", 1, "the standard output could not be written");
   check_failed(call + "--report /dev/full", 1, "/dev/full: could not be written to the end");
   check_failed("arap fifo.off --selection in.sel -o in.off", 1, "fifo.off: is not a regular file");
@@ -122,10 +125,25 @@ void test_names()
   check_failed("arap in.off --selection in.sel -o circle.off", 1, "circle.off: cannot be written");
 }
 
+// timeout returns 124 for what its signal has ended, and 137 for what it had to kill.
+void test_signals()
+{
+  for(const std::string signal : {"TERM", "HUP"})
+  {
+    const std::string limit = "-s " + signal + " -k 5 0.2";
+    check_failed(call + "--report fifo", 124, "", limit);
+    check_failed("arap in.off --selection fifo -o in.off", 124, "", limit);
+    check_failed(call + "--iterations 100000000 --tolerance 0", 124, "", limit);
+  }
+  // a pipe that nobody reads, and which is full before the end of the report
+  check_failed("timeout 1 sh -c 'sleep 1 < fifo' & " + call +
+               "--iterations 20000 --tolerance 0 --report fifo", 124, "", "-s TERM -k 5 0.4");
+}
+
 int main(int argc, char** argv)
 {
 #if !defined(__linux__)
-  std::cout << "NOTICE: pipes and devices are tested on Linux only; nothing was tested."
+  std::cout << "NOTICE: pipes, devices and signals are tested on Linux only; nothing was tested."
             << std::endl;
   return EXIT_SUCCESS;
 #endif
@@ -137,5 +155,6 @@ int main(int argc, char** argv)
     test_pipes();
     test_descriptors();
     test_names();
+    test_signals();
   });
 }
