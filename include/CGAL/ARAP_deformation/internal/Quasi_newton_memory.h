@@ -95,14 +95,13 @@ public:
     }
     m_slope = sums.fp;
     m_d_slope = sums.fd;
-    m_bound_of_shift = (std::min)(m_diameter, 1e3 * m_longest_shift);
     m_longest_shift = m_unit * sums.longest;
     return sums.fp;
   }
 
-  // Whether the last move() went further than any has to, or much further than the one before: the
-  // model does not ask where that goes which has hardly any weight.
-  bool went_too_far() const { return !(m_longest_shift <= m_bound_of_shift); }
+  // Whether the last move() went further than any has to: the model does not ask where that goes
+  // which has hardly any weight.
+  bool went_too_far() const { return !(m_longest_shift <= m_diameter); }
 
   // Instead of the last move(), makes the one by p = d, and forgets all pairs.
   double move_by(const std::vector<Coordinates>& d, const std::vector<Coordinates>& before,
@@ -305,7 +304,7 @@ private:
   int m_number_of_pairs = 0;
   int m_next = 0;                    // the slot of the last move
   double m_slope = 0, m_d_slope = 0; // f p and f d at the last move
-  double m_longest_shift = 0, m_bound_of_shift = 0; // of a coordinate, by the last move
+  double m_longest_shift = 0; // of a coordinate, by the last move
 };
 
 } // namespace internal
