@@ -210,9 +210,9 @@ void test_frames()
     CHECK(report.energy.back() <= report.energy.front());
     CHECK(report.energy.back() == d.energy());
   }
-  // started where it ended: the energy goes on from there
+  // started where it ended: the energy goes on from there, with rotations fitted once more
   const double before = d.energy();
-  CHECK(d.deform(1, 0).energy[0] == before);
+  CHECK_AT_MOST(std::abs(d.deform(1, 0).energy[0] - before), 1e-14 * before);
 
   // moved elsewhere, the object goes on as well
   Deformation moved(std::move(d));
