@@ -74,10 +74,7 @@ struct Soup
 
   double distance_to(const std::vector<Point>& others) const
   {
-    double largest = 0;
-    for(std::size_t v = 0; v < points.size(); ++v)
-      largest = (std::max)(largest, (vector(points[v]) - vector(others[v])).norm());
-    return largest;
+    return largest_distance(points, others);
   }
 
   std::vector<Eigen::Vector3d> rest;

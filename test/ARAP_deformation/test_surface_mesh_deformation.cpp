@@ -486,14 +486,6 @@ std::vector<Point> run(const Shape& shape, const Prepare& prepare_deformation)
   return {mesh.points().begin(), mesh.points().end()};
 }
 
-double largest_distance(const std::vector<Point>& a, const std::vector<Point>& b)
-{
-  double largest = a.size() == b.size() ? 0 : 1e300;
-  for(std::size_t k = 0; k < a.size() && k < b.size(); ++k)
-    largest = (std::max)(largest, std::sqrt(CGAL::squared_distance(a[k], b[k])));
-  return largest;
-}
-
 std::vector<Point> points_of(const Shape& shape)
 {
   const Mesh mesh = make_mesh<Mesh>(shape);

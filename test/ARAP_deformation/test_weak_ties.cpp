@@ -23,41 +23,14 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
-using CGAL::ARAP::Initial_guess;
-using CGAL::ARAP::Minimizer;
 using CGAL::ARAP::Options;
 using CGAL::ARAP::Report;
-
-// Calls f(options) with all cells, minimizers and initial guesses.
-template <typename Function>
-void for_all_options(const Function& f)
-{
-  for(const Cell_scheme& cells : all_cell_schemes)
-    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
-      for(Initial_guess guess : {Initial_guess::previous, Initial_guess::laplacian})
-      {
-        Options options;
-        options.cells = cells;
-        options.minimizer = minimizer;
-        options.initial_guess = guess;
-        f(options);
-      }
-}
-
-double largest_move(const std::vector<Eigen::Vector3d>& rest, const std::vector<Point>& points)
-{
-  double largest = 0;
-  for(std::size_t v = 0; v < rest.size(); ++v)
-    largest = (std::max)(largest, (vector(points[v]) - rest[v]).norm());
-  return largest;
-}
 
 // Two tetrahedra of the usual size, one of them without a volume, with a tiny one between them.
 template <typename Traits>
@@ -88,7 +61,7 @@ void test_bridge(const std::string& solver)
           const Report report = d.deform(iterations, 0);
           CHECK(report);
           CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-          CHECK_AT_MOST(largest_move(rest, points), 10.0);
+          CHECK_AT_MOST(largest_distance(points, points_of(rest)), 10.0);
         }
       });
 }
@@ -123,7 +96,7 @@ void test_pulls()
         const Report report = d.deform(300, 0);
         CHECK(report);
         CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-        CHECK_AT_MOST(largest_move(shape.points, points), 3 * shift.norm());
+        CHECK_AT_MOST(largest_distance(points, points_of(shape.points)), 3 * shift.norm());
         if(weight >= 1e-12)
           CHECK_AT_MOST((vector(points[20]) - shape.points[20] - shift).norm(), 0.5 * shift.norm());
       });

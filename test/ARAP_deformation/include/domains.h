@@ -37,6 +37,24 @@ using CGAL::ARAP::Cell_scheme;
 inline const std::array<Cell_scheme, 3> all_cell_schemes = {
   Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()};
 
+// Calls f(options) with all cells, minimizers and initial guesses.
+template <typename Function>
+void for_all_options(const Function& f)
+{
+  using CGAL::ARAP::Initial_guess;
+  using CGAL::ARAP::Minimizer;
+  for(const Cell_scheme& cells : all_cell_schemes)
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+      for(Initial_guess guess : {Initial_guess::previous, Initial_guess::laplacian})
+      {
+        CGAL::ARAP::Options options;
+        options.cells = cells;
+        options.minimizer = minimizer;
+        options.initial_guess = guess;
+        f(options);
+      }
+}
+
 // what a domain asks of a point, and nothing else
 class Bare_point
 {

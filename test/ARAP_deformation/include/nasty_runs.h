@@ -179,18 +179,11 @@ template <std::size_t N, typename Function>
 void for_each_case(const Nasty_shape<N>& shape, const std::string& structure, const Function& f)
 {
   for(const Handles& handles : handles_for(shape.points, N == 4))
-    for(Cell_scheme cells : all_cell_schemes)
-      for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
-        for(Initial_guess guess : {Initial_guess::previous, Initial_guess::laplacian})
-        {
-          Options options;
-          options.cells = cells;
-          options.minimizer = minimizer;
-          options.initial_guess = guess;
-          test_case() = structure + ", " + shape.name + ", handles: " + handles.name + ", " +
-                        name_of(options);
-          f(handles, options);
-        }
+    for_all_options([&](const Options& options) {
+      test_case() = structure + ", " + shape.name + ", handles: " + handles.name + ", " +
+                    name_of(options);
+      f(handles, options);
+    });
 }
 
 // Runs of a shape whose points are given to the vertices of a mesh or complex.

@@ -185,6 +185,15 @@ TriangleMesh make_mesh(const Shape& shape)
 inline Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 inline Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+// the largest distance of two points at the same place; vast if their numbers differ
+inline double largest_distance(const std::vector<Point>& a, const std::vector<Point>& b)
+{
+  double largest = a.size() == b.size() ? 0 : 1e300;
+  for(std::size_t k = 0; k < a.size() && k < b.size(); ++k)
+    largest = (std::max)(largest, (vector(a[k]) - vector(b[k])).norm());
+  return largest;
+}
+
 // Which vertices are held, and where: the sixth of the vertices that is lowest along the longest
 // axis of the shape stays (at least two), and as many of the highest are turned and moved.
 struct Scenario
