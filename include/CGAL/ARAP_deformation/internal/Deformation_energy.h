@@ -26,8 +26,8 @@
 #include <CGAL/ARAP_deformation/internal/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/wide_vector.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

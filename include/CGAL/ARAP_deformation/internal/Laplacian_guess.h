@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -114,10 +113,10 @@ private:
     std::vector<double> sums(m_stars.size(), 0); // of the weights of each equation
     m_stars.for_each_edge([&](int i, int, double w) { sums[i] += std::abs(w); });
     m_stars.for_each_edge([&](int i, int j, double) {
-      const double error = 16 * std::numeric_limits<double>::epsilon() * sums[i];
+      const double error = rounding_of_a_sum * sums[i];
       for(int v : {i, j})
         if(is_free(v))
-          normal.valuePtr()[normal.outerIndexPtr()[m_row[v]]] += error * error;
+          diagonal_entry(normal, m_row[v]) += error * error;
     });
   }
 

@@ -110,19 +110,17 @@ public:
   // Returns a status if the run is over.
   std::optional<Status> next_iterate(double decrease = 0)
   {
-    bool is_solved = true;
     if(report.energy.empty())
       m_gap = Gap_estimate(report.zero_energy);
     else
     {
       ++report.iterations;
       m_gap.add(decrease);
-      is_solved = !is_far_higher();
     }
     report.energy.push_back(m_value);
     if(!std::isfinite(m_value))
       return Status::non_finite_energy;
-    if(!is_solved)
+    if(is_far_higher())
       return Status::solver_failed;
     const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
     report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_value);
@@ -142,11 +140,13 @@ public:
   }
 
 private:
-  // Whether the energy has risen by far more than rounding errors: what the solver returns is
-  // nothing like the solution, which lowers it.
+  // Whether the last iterate's energy has risen by far more than rounding errors: what the solver
+  // returns is nothing like the solution, which lowers it.
   bool is_far_higher() const
   {
-    const double before = report.energy.back();
+    if(report.iterations == 0)
+      return false;
+    const double before = report.energy[report.iterations - 1];
     return m_value > before + 1e-2 * std::abs(before) + 1e4 * energy_resolution(before, report);
   }
 

@@ -28,6 +28,14 @@ inline double diagonal_entry(const Sparse_matrix& matrix, int column)
   return matrix.valuePtr()[matrix.outerIndexPtr()[column]];
 }
 
+inline double& diagonal_entry(Sparse_matrix& matrix, int column)
+{
+  return matrix.valuePtr()[matrix.outerIndexPtr()[column]];
+}
+
+// a bound of the rounding error of a sum, as a share of the sum of the absolute values
+constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon();
+
 // Raises the diagonal of a positive definite matrix that is to be factorized, given by its lower
 // triangle, by some units in the last place. Rounding changes each pivot by about that much of the
 // diagonal entry; where large weights hang on small ones nothing else may be left of it. A pivot
@@ -35,9 +43,8 @@ inline double diagonal_entry(const Sparse_matrix& matrix, int column)
 // local/global shorter: they still have the same fixed points, and never raise the energy.
 inline void raise_diagonal(Sparse_matrix& matrix)
 {
-  constexpr double factor = 1 + 16 * std::numeric_limits<double>::epsilon();
   for(int v = 0; v < matrix.cols(); ++v)
-    matrix.valuePtr()[matrix.outerIndexPtr()[v]] *= factor;
+    diagonal_entry(matrix, v) *= 1 + rounding_of_a_sum;
 }
 
 } // namespace internal
