@@ -29,7 +29,7 @@ Libigl_deformation::Libigl_deformation(const Libigl_scenario& scenario, Libigl_e
   m_data = std::make_unique<Data>();
   m_data->energy = energy == Libigl_energy::spokes ? igl::ARAP_ENERGY_TYPE_SPOKES
                                                    : igl::ARAP_ENERGY_TYPE_ELEMENTS;
-  if(!igl::arap_precomputation(scenario.points, scenario.simplices, 3, scenario.held, *m_data))
+  if(!igl::arap_precomputation(scenario.points, scenario.simplices, 3, scenario.fixed, *m_data))
     throw Failure("libigl: arap_precomputation() failed");
   m_preprocess_seconds = stopwatch.seconds();
 }

@@ -138,17 +138,17 @@ Libigl_scenario libigl_bar(const Bar& bar)
   Libigl_scenario result;
   result.points.resize(static_cast<Eigen::Index>(bar.points.size()), 3);
   result.simplices.resize(static_cast<Eigen::Index>(bar.tetrahedra.size()), 4);
-  result.held.resize(static_cast<Eigen::Index>(bar.targets.size()));
-  result.targets.resize(result.held.size(), 3);
+  result.fixed.resize(static_cast<Eigen::Index>(bar.targets.size()));
+  result.targets.resize(result.fixed.size(), 3);
   for(Eigen::Index k = 0; k < result.points.rows(); ++k)
     result.points.row(k) = to_vector(bar.points[static_cast<std::size_t>(k)]);
   for(Eigen::Index k = 0; k < result.simplices.rows(); ++k)
     result.simplices.row(k) = Eigen::Map<const Eigen::RowVector4i>(
       bar.tetrahedra[static_cast<std::size_t>(k)].data());
-  for(Eigen::Index k = 0; k < result.held.size(); ++k)
+  for(Eigen::Index k = 0; k < result.fixed.size(); ++k)
   {
     const auto& [v, target] = bar.targets[static_cast<std::size_t>(k)];
-    result.held[k] = static_cast<int>(v);
+    result.fixed[k] = static_cast<int>(v);
     result.targets.row(k) = to_vector(target);
   }
   return result;

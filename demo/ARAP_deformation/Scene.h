@@ -113,7 +113,7 @@ void write_list(std::ostream& out, const char* name, const Range& range, Write_i
 }
 
 // The triangles with smooth normals. Each corner has the texture of its vertex, and POV-Ray blends.
-// Held vertices that no triangle shows, as none has all corners held alike, are drawn as balls.
+// Fixed vertices that no triangle shows, as none has all corners fixed alike, are drawn as balls.
 inline void write_surface(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
 {
   const std::vector<int>& selection = panel.selection;

@@ -20,7 +20,7 @@
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/Real_timer.h>
 
 #include <nlohmann/json.hpp>
@@ -132,7 +132,7 @@ void write_report(Output_file& file, const Result& result)
     json["estimated_relative_gap"] = report.estimated_relative_gap;
   json["edge_length_error"] = result.edge_length_error;
   json["inverted_simplices"] = report.inverted_simplices;
-  json["unheld_parts"] = report.unheld_parts;
+  json["unconstrained_components"] = report.unconstrained_components;
   json["seconds"] = {{"load", result.load_seconds},
                      {"preprocess", report.seconds.preprocess},
                      {"deform", report.seconds.total - report.seconds.preprocess}};

@@ -13,7 +13,7 @@
 #define CGAL_ARAP_DEFORMATION_DEMO_SHAPES_H
 
 // Shapes to deform in the manner of the figures of Sorkine and Alexa 2007: some are made here, the
-// others are meshes of CGAL's data folder. Each comes with what is held and how the handle moves.
+// others are meshes of CGAL's data folder. Each comes with what is fixed and how the handle moves.
 
 #include "Medit_file.h"
 #include "Scene.h"

@@ -1,7 +1,7 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
-#include <CGAL/ARAP_deformation/check_sparse_solver.h>
+#include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -27,7 +27,7 @@ int main(int argc, char** argv)
   }
 
   // What is above the middle may move; the vertices near the top are the handle. All others, and
-  // only they, are held.
+  // only they, are fixed.
   std::vector<double> heights;
   for(const Point& p : mesh.points())
     heights.push_back(p.y());

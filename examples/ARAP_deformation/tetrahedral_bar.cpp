@@ -59,7 +59,7 @@ int main()
   std::vector<std::size_t> top;
   for(std::size_t v = 0; v < points.size(); ++v)
   {
-    if(points[v].z() > 0) // the bottom is held
+    if(points[v].z() > 0) // the bottom is fixed
       deformation.insert_roi_vertex(v);
     if(points[v].z() == length)
       top.push_back(v);

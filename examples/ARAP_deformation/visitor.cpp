@@ -1,5 +1,5 @@
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/generators.h>

@@ -17,10 +17,10 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
-#include <CGAL/ARAP_deformation/internal/Default_domain.h>
-#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
-#include <CGAL/ARAP_deformation/internal/Session.h>
-#include <CGAL/ARAP_deformation/internal/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/session/Session.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Default.h>
@@ -40,7 +40,7 @@ namespace CGAL {
 ///
 /// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
 /// move: the *control vertices* among them go to their targets, or are only pulled there, see
-/// `set_target_weight()`; the others are *free* and are solved for. All other vertices are *held*
+/// `set_target_weight()`; the others are *free* and are solved for. All other vertices are *fixed*
 /// where they are; so are free vertices without any simplex.
 ///
 /// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an

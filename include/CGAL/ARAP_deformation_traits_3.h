@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation/internal/concept_checks.h>
-#include <CGAL/ARAP_deformation/internal/default_models.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/tags.h>

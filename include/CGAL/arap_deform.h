@@ -18,8 +18,8 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
-#include <CGAL/ARAP_deformation/internal/Default_domain.h>
-#include <CGAL/ARAP_deformation/internal/default_models.h>
+#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -65,7 +65,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \tparam NamedParameters a sequence of named parameters
 ///
 /// \param shape the shape: what it is before the call is the rest shape
-/// \param constrained tells which vertices are held at their targets
+/// \param constrained tells which vertices are fixed at their targets
 /// \param targets gives each constrained vertex its target; for one that stays, its own point
 /// \param options what is chosen at run time
 /// \param np an optional sequence of named parameters among those below

@@ -136,7 +136,7 @@ int main()
         Status::invalid_option);
   for(auto& [v, constrained] : is_constrained)
     constrained = false;
-  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map).status == Status::no_held_vertex);
+  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map).status == Status::no_fixed_vertex);
   CHECK(same_points(mesh, rest));
   return checks_result();
 }

@@ -18,7 +18,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
@@ -99,7 +99,7 @@ Report check_runs(const Points& rest, const Polygons& polygons)
       CGAL::ARAP_deformation<Mesh> deformation(mesh);
       const Report of_mesh = deform(deformation, all_vertices(mesh), s, options);
       CHECK(of_mesh && CGAL::ARAP::first_rise_of_energy(of_mesh) == 0);
-      CHECK(of_mesh.unheld_parts == report.unheld_parts);
+      CHECK(of_mesh.unconstrained_components == report.unconstrained_components);
       CHECK_AT_MOST(std::abs(of_mesh.energy.back() - report.energy.back()),
                     1e-8 * report.energy.front());
     }
@@ -125,11 +125,11 @@ std::string kind(const Points& points, const Polygons& polygons, const Report& r
                                         [](const auto& p) { return p.size() > 3; });
   return !PMP::is_polygon_soup_a_polygon_mesh(polygons)
              ? "deformed as ranges: not manifold, or not consistently oriented"
-         : !report.unheld_parts.empty()
+         : !report.unconstrained_components.empty()
              ? "deformed; parts without a handle stay and are named"
          : has_triangle_without_area(points, polygons)
              ? "deformed; has triangles without area"
-         : report.free_vertices == 0 ? "has no free vertex: all are handles or held"
+         : report.free_vertices == 0 ? "has no free vertex: all are handles or fixed"
          : has_polygons ? "deformed; has polygons" : "deformed; triangles only";
 }
 

@@ -15,9 +15,9 @@
 #include "include/rows.h"
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
-#include <CGAL/ARAP_deformation/internal/concept_checks.h>
-#include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
@@ -173,23 +173,23 @@ struct Border
   Eigen::MatrixXd b, d;
 };
 
-Border random_border(int n, int held, int freed)
+Border random_border(int n, int fixed, int freed)
 {
   std::vector<int> vertices(n);
   for(int i = 0; i < n; ++i)
     vertices[i] = i;
   std::shuffle(vertices.begin(), vertices.end(), random_engine);
-  Border border{Eigen::MatrixXd::Zero(n, held + freed),
-                Eigen::MatrixXd::Zero(held + freed, held + freed)};
-  for(int k = 0; k < held; ++k)
+  Border border{Eigen::MatrixXd::Zero(n, fixed + freed),
+                Eigen::MatrixXd::Zero(fixed + freed, fixed + freed)};
+  for(int k = 0; k < fixed; ++k)
     border.b(vertices[k], k) = 1;
   // diagonally dominant together with what the matrix has of its shift
-  for(int k = held; k < held + freed; ++k)
+  for(int k = fixed; k < fixed + freed; ++k)
   {
     for(int e = 0; e < 5; ++e)
       border.b(random_index(n), k) = -random_number(0.001, 0.01);
     border.d(k, k) = 3;
-    if(k > held)
+    if(k > fixed)
       border.d(k, k - 1) = border.d(k - 1, k) = -random_number(0.1, 1);
   }
   return border;
@@ -207,22 +207,22 @@ template <typename Solver>
 void test_borders(Solver& solver, const Sparse_matrix& a)
 {
   const int n = static_cast<int>(a.rows());
-  for(const auto& [held, freed] :
+  for(const auto& [fixed, freed] :
       std::vector<std::pair<int, int>>{{1, 0}, {0, 1}, {4, 0}, {3, 2}, {0, 5}, {9, 4}})
   {
-    if(held > n)
+    if(fixed > n)
       continue;
-    const Border border = random_border(n, held, freed);
+    const Border border = random_border(n, fixed, freed);
     Eigen::MatrixXd lower = border.d;
     lower.triangularView<Eigen::StrictlyUpper>().setConstant(7); // is not read
     CHECK(solver.set_border(sparse(border.b), lower));
-    const Rows b = random_rows(static_cast<std::size_t>(n + held + freed));
+    const Rows b = random_rows(static_cast<std::size_t>(n + fixed + freed));
     Rows x = b;
     CHECK(solver.solve(x.size(), x.data()));
     CHECK_AT_MOST(error(bordered(a, border), b, x), 1e-9);
   }
 
-  // the same vertex held twice
+  // the same vertex fixed twice
   Eigen::MatrixXd twice = Eigen::MatrixXd::Zero(n, 2);
   twice.row(n / 2).setOnes();
   CHECK(!solver.set_border(sparse(twice), Eigen::MatrixXd::Zero(2, 2)));

@@ -15,7 +15,7 @@
 #include "include/check.h"
 
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <Eigen/Dense>
 

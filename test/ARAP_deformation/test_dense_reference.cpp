@@ -40,7 +40,7 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
   CHECK(deformation.set_options(options));
   prepare(deformation, s, numbers(points.size()));
 
-  // of the handles every other one; what is not in the region remains held
+  // of the handles every other one; what is not in the region remains fixed
   std::vector<std::size_t> soft;
   std::vector<int> selection = s.selection;
   std::vector<Eigen::Vector3d> x = s.targets;

@@ -87,7 +87,7 @@ void test_non_manifold()
     CHECK(result.energy.back() < 0.9 * result.energy.front());
     CHECK(result.energy.back() > 0);
 
-    // a rigid motion of all held vertices is the motion of all
+    // a rigid motion of all fixed vertices is the motion of all
     Scenario rigid = s;
     for(std::size_t v = 0; v < points.size(); ++v)
     {
@@ -145,7 +145,7 @@ void test_output_range()
   const auto run = [&](auto& deformation) {
     prepare(deformation, s, numbers(points.size()));
     deformation.deform(3, 0);
-    deformation.insert_control_vertex(free); // held where it is: preprocesses again
+    deformation.insert_control_vertex(free); // fixed where it is: preprocesses again
     deformation.deform(3, 0);
     deformation.overwrite_initial_geometry();
     deformation.translate(free, Kernel::Vector_3(0.1, 0, 0));

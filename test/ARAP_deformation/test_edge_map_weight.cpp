@@ -118,7 +118,7 @@ int main()
   prepare(loose, s, numbers(points.size()));
   const CGAL::ARAP::Report report = loose.deform();
   CHECK(report); // each free vertex is a part that nothing holds
-  CHECK(report.unheld_parts.size() ==
+  CHECK(report.unconstrained_components.size() ==
         std::size_t(std::count(s.selection.begin(), s.selection.end(), 1)));
   return checks_result();
 }

@@ -16,7 +16,7 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <array>
 #include <cmath>
@@ -151,17 +151,17 @@ void test_faces()
   CHECK(same_points(mesh, before));
 }
 
-void test_nothing_held()
+void test_nothing_fixed()
 {
-  test_case() = "no held vertex";
+  test_case() = "no fixed vertex";
   const Shape shape = sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
   CGAL::ARAP_deformation<Mesh> d(mesh);
   d.insert_roi_vertices(mesh.vertices().begin(), mesh.vertices().end());
-  check_failure(mesh, d, Status::no_held_vertex, "vertex 0 is free",
+  check_failure(mesh, d, Status::no_fixed_vertex, "vertex 0 is free",
                 [&] { d.insert_control_vertex(Vertex(7)); });
 
-  test_case() = "one of two components is not held";
+  test_case() = "one of two components is not fixed";
   const Shape two = two_components(shape);
   Mesh pair = make_mesh<Mesh>(two);
   CGAL::ARAP_deformation<Mesh> e(pair);
@@ -175,7 +175,7 @@ void test_nothing_held()
   {
     const auto report = e.deform();
     CHECK(report);
-    CHECK(report.unheld_parts == std::vector<std::size_t>(1, shape.points.size()));
+    CHECK(report.unconstrained_components == std::vector<std::size_t>(1, shape.points.size()));
     CHECK(report.message.find("the part of vertex " + std::to_string(shape.points.size())) !=
           std::string::npos);
     CHECK(report.free_vertices == shape.points.size() - 1);
@@ -183,9 +183,9 @@ void test_nothing_held()
   for(std::size_t v = 0; v < two.points.size(); ++v)
     CHECK((pair.point(Vertex(v)) == rest.point(Vertex(v))) == (v >= shape.points.size()));
   e.insert_control_vertex(Vertex(shape.points.size() + 3));
-  const auto all_held = e.deform();
-  CHECK(all_held && all_held.unheld_parts.empty());
-  CHECK(all_held.free_vertices == two.points.size() - 2);
+  const auto all_fixed = e.deform();
+  CHECK(all_fixed && all_fixed.unconstrained_components.empty());
+  CHECK(all_fixed.free_vertices == two.points.size() - 2);
 
   test_case() = "isolated vertices";
   const Vertex isolated = mesh.add_vertex(Point(5, 5, 5));
@@ -340,7 +340,7 @@ int main()
   test_points();
   test_overflow();
   test_faces();
-  test_nothing_held();
+  test_nothing_fixed();
   test_nothing_free();
   test_matrices();
   test_solver();

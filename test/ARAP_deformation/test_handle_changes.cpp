@@ -242,7 +242,7 @@ void test_failure()
   });
   CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
   pair.with_both([](auto& d) { d.clear_control_vertices(); });
-  CHECK(pair.deform_and_compare() == Status::no_held_vertex);
+  CHECK(pair.deform_and_compare() == Status::no_fixed_vertex);
   pair.with_both([](auto& d) {
     d.insert_control_vertex(3);
     d.insert_control_vertex(700);
@@ -267,7 +267,7 @@ struct Changing_weight : CGAL::ARAP::Uniform_weight
   }
 };
 
-// the large sheet with changing weights, of which the vertices given are held
+// the large sheet with changing weights, of which the vertices given are fixed
 using Weighted_pair = Pair<2, Triangles, Solver, Changing_weight>;
 void hold(Weighted_pair& pair, const std::vector<std::size_t>& controls)
 {
@@ -375,7 +375,7 @@ void test_exception()
   }
 }
 
-// A border has at most 256 columns; the only held vertex may be another one.
+// A border has at most 256 columns; the only fixed vertex may be another one.
 void test_limits()
 {
   test_case() = "the largest border";
@@ -387,7 +387,7 @@ void test_limits()
   CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
   CHECK(pair.factorizations() == 1);
   std::vector<std::size_t> controls = numbers(257);
-  hold(pair, controls); // vertex 0 is held already
+  hold(pair, controls); // vertex 0 is fixed already
   CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
   CHECK(pair.factorizations() == 1);
   controls.push_back(257);

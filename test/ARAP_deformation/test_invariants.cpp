@@ -10,14 +10,14 @@
 // Author(s)     : The ARAP_deformation authors
 
 // What holds for every shape, cell scheme and minimizer, over a thousand iterations: the energy
-// never rises, rotations are rotations, held vertices keep their points, and rigid motions change
+// never rises, rotations are rotations, fixed vertices keep their points, and rigid motions change
 // nothing.
 
 #include "include/check.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,7 @@ void check_moved_run(const Shape& shape, Cell_scheme cells, Minimizer minimizer)
   CHECK_AT_MOST(largest_distance(mesh, moved_mesh, motion), accuracy * shape.diameter());
 }
 
-// A rigidly moved guess whose held vertices agree with it stays where it is, at energy zero.
+// A rigidly moved guess whose fixed vertices agree with it stays where it is, at energy zero.
 void check_rigid_guess(const Shape& shape, Cell_scheme cells, Minimizer minimizer)
 {
   const Scenario s = scenario(shape);

@@ -18,8 +18,8 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
-#include <CGAL/ARAP_deformation/internal/Quasi_newton_memory.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
 
 #include <Eigen/Dense>
 
@@ -410,8 +410,8 @@ void test_nothing_to_do()
   CHECK(d.set_options(options_for(Minimizer::quasi_newton)));
   const auto vertices = all_vertices(mesh);
   d.insert_control_vertices(vertices.begin(), vertices.end());
-  const Report held = d.deform(10, 0);
-  CHECK(held.status == Status::converged && held.iterations == 0);
+  const Report fixed = d.deform(10, 0);
+  CHECK(fixed.status == Status::converged && fixed.iterations == 0);
   prepare(d, scenario(shape), all_vertices(mesh));
   const Report none = d.deform(0, 1e-3);
   CHECK(none.iterations == 0 && none.energy.size() == 1);
@@ -419,7 +419,7 @@ void test_nothing_to_do()
 
 // What a tolerance gives: with either minimizer the gap is seldom larger than asked for, and the
 // iterations are not many more than one would take who knows the minimum. Where that is zero, as
-// for the two strips, each of which is held at one end, it is reached up to rounding.
+// for the two strips, each of which is fixed at one end, it is reached up to rounding.
 void test_tolerance()
 {
   int number_of_runs = 0, number_of_larger_gaps = 0;

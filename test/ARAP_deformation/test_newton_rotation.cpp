@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#include <CGAL/ARAP_deformation/internal/Wide_rotation_kernel.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Newton_rotation_kernel.h>
 
 #include <Eigen/Dense>
 
@@ -76,7 +76,7 @@ struct Plain_newton
   void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
   {
     using CGAL::ARAP::internal::Double4;
-    CGAL::ARAP::internal::Wide_rotation_kernel<Double4>::run(n, covariances, rotations);
+    CGAL::ARAP::internal::Newton_rotation_kernel<Double4>::run(n, covariances, rotations);
   }
 };
 

@@ -15,7 +15,7 @@
 #include "include/domains.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
-#include <CGAL/ARAP_deformation/internal/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 

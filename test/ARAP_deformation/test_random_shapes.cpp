@@ -17,7 +17,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <Eigen/Geometry>
 
@@ -187,7 +187,7 @@ public:
     CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
     CHECK(report.energy.back() >= -1e-14 * report.energy_scale);
     CHECK(report.energy.back() == session.deformation.energy());
-    check_held(session);
+    check_fixed(session);
     check_rotations(session);
     check_again(session, report);
     check_moved(session, report);
@@ -209,7 +209,7 @@ private:
   }
 
   // Control vertices are at hard targets, and what is in no region or no simplex is where it was.
-  void check_held(const Session& session)
+  void check_fixed(const Session& session)
   {
     std::vector<char> is_used(session.points.size(), false);
     for(const auto& simplex : m_problem.shape.simplices)

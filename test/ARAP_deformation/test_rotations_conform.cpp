@@ -18,8 +18,8 @@
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#include <CGAL/ARAP_deformation/check_closest_rotation.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
 #include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>

@@ -132,7 +132,7 @@ void test_region()
   for(Vertex v : handle)
     CHECK(mesh.point(v) == rest.point(v) + Kernel::Vector_3(0, 0, 0.3));
 
-  // another region: what was moved stays, and counts as held; the rest shape is still the first
+  // another region: what was moved stays, and counts as fixed; the rest shape is still the first
   const Mesh deformed = mesh;
   d.clear_roi_vertices();
   const auto edge = strip(rest, 1.6, 2), tip = strip(rest, 1.9, 2);

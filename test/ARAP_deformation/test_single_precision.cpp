@@ -20,9 +20,9 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/check_sparse_solver.h>
-#include <CGAL/ARAP_deformation/checks.h>
-#include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
@@ -37,7 +37,7 @@
 
 using namespace CGAL::ARAP;
 
-// the Laplacian of a grid that is held along one side by weights of the size `hold`
+// the Laplacian of a grid that is fixed along one side by weights of the size `hold`
 Sparse_matrix grid_matrix(int columns, int rows, double hold, double factor = 1)
 {
   std::vector<Eigen::Triplet<double>> entries;
@@ -145,7 +145,7 @@ void test_range()
   CHECK(solution(single, zeros) == zeros);
 }
 
-// The worse a grid is held, the worse is the matrix conditioned. Where the factor gives way, its
+// The worse a grid is fixed, the worse is the matrix conditioned. Where the factor gives way, its
 // solutions are those in double precision.
 void test_fallback()
 {
@@ -154,7 +154,7 @@ void test_fallback()
   int number_of_singles = 0, number_of_doubles = 0;
   for(int exponent = 0; exponent >= -13; --exponent)
   {
-    test_case() = "held by 1e" + std::to_string(exponent);
+    test_case() = "fixed by 1e" + std::to_string(exponent);
     const double hold = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(60, 30, hold);
     CHECK(solver.factorize(a));
@@ -182,7 +182,7 @@ void test_fallback()
 // The factor fails in a few rows only, of which the solution for most right-hand sides has little.
 void test_fallback_of_a_part()
 {
-  test_case() = "a small, stiff part that is hardly held";
+  test_case() = "a small, stiff part that is hardly fixed";
   const Sparse_matrix large = grid_matrix(100, 90, 1), small = grid_matrix(5, 5, 1e-12, 1e14);
   for(const bool is_bad : {false, true})
   {
@@ -280,7 +280,7 @@ void test_minima()
   CHECK(number_of_differences > 5); // else nothing was in single precision
 }
 
-// A long strip that is held at its ends, and one with triangles of all shapes, needles among them:
+// A long strip that is fixed at its ends, and one with triangles of all shapes, needles among them:
 // the energy does not rise (see run()), and the minimum is the same.
 void test_badly_conditioned_shapes()
 {

@@ -18,7 +18,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <Eigen/Geometry>
 
@@ -319,14 +319,14 @@ void test_components()
   Soup<2> soup(shape.points, shape.triangles, Options());
   const std::size_t n = shape.points.size();
   soup.control(n - 1, shape.points[n - 1] + Eigen::Vector3d(0, 0, 1), 0);
-  CHECK(soup.deformation.deform().status == Status::no_held_vertex);
+  CHECK(soup.deformation.deform().status == Status::no_fixed_vertex);
   soup.control(0, shape.points[0], 1e-9);
   const Report report = soup.deformation.deform();
   CHECK(report);
-  CHECK(report.unheld_parts == std::vector<std::size_t>(1, n / 2));
+  CHECK(report.unconstrained_components == std::vector<std::size_t>(1, n / 2));
   CHECK(soup.points[n - 1] == point(shape.points[n - 1]));
   CHECK(soup.deformation.set_target_weight(n - 1, 3));
-  CHECK(soup.deformation.deform().unheld_parts.empty());
+  CHECK(soup.deformation.deform().unconstrained_components.empty());
   const Eigen::Vector3d moved = vector(soup.points[n - 1]) - shape.points[n - 1];
   CHECK_AT_MOST((moved - Eigen::Vector3d(0, 0, 1)).norm(), 1e-6); // nothing holds it back
 }

@@ -16,10 +16,10 @@
 #include "include/conformance.h"
 
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
-#include <CGAL/ARAP_deformation/check_sparse_solver.h>
+#include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif

@@ -70,8 +70,8 @@ void test_many_weights()
   Fault_statistics statistics("many weights of targets");
   const auto make = [] {
     Surface surface(small_sheet(11, 11));
-    surface.held.selection.assign(surface.held.selection.size(), 2);
-    surface.held.selection[0] = 0;
+    surface.fixed.selection.assign(surface.fixed.selection.size(), 2);
+    surface.fixed.selection[0] = 0;
     return std::make_unique<Session_>(Session_::Traits(), surface);
   };
   fault_test<Session_>(statistics)(
@@ -93,17 +93,17 @@ void test_arap_deform()
   Fault_statistics statistics("arap_deform()");
   fault_test<Call>(statistics)("arap_deform()", [] { return std::make_unique<Call>(); }, {{
     "deform", [](Call& call) {
-      const Scenario& held = call.surface.held;
+      const Scenario& fixed = call.surface.fixed;
       using Vertex = Mesh::Vertex_index;
       CGAL::ARAP::Options options;
       options.iterations = 3;
       return bool(CGAL::arap_deform(
         call.surface.mesh,
         boost::make_function_property_map<Vertex>([&](Vertex v) {
-          return held.selection[v] != 1;
+          return fixed.selection[v] != 1;
         }),
         boost::make_function_property_map<Vertex>([&](Vertex v) {
-          return point(held.targets[v]);
+          return point(fixed.targets[v]);
         }), options));
     }}});
 }
@@ -183,7 +183,7 @@ void test_embedding()
   }};
   const Step_ put = {"put", [](Embedding_session& s) {
     for(std::size_t v = 0; v < s.solid.points.size(); ++v)
-      s.solid.points[v] = point(s.solid.held.targets[v]);
+      s.solid.points[v] = point(s.solid.fixed.targets[v]);
     s.embedding->put_points(s.points);
     return true;
   }};

@@ -276,7 +276,7 @@ struct Solid_of_faulty_points
 
   Points points;
   Solid::Tetrahedra tetrahedra;
-  Scenario held;
+  Scenario fixed;
 
   Solid_of_faulty_points()
   {
@@ -284,7 +284,7 @@ struct Solid_of_faulty_points
     for(const Point& p : solid.points)
       points.emplace_back(p.x(), p.y(), p.z());
     tetrahedra = solid.tetrahedra;
-    held = solid.held;
+    fixed = solid.fixed;
   }
 
   Domain domain() { return Domain(points, tetrahedra); }

@@ -600,9 +600,9 @@ void test_failures()
   for(auto v : mesh.vertices())
     deformation.insert_roi_vertex(v);
   CHECK(!deformation.preprocess());
-  CHECK(deformation.outcome().status == Status::no_held_vertex);
+  CHECK(deformation.outcome().status == Status::no_fixed_vertex);
   CHECK(names(deformation.outcome(), 0));
-  CHECK(deformation.deform().status == Status::no_held_vertex);
+  CHECK(deformation.deform().status == Status::no_fixed_vertex);
   CHECK(same_points(mesh, make_mesh<Mesh>(sphere)));
 
   test_case() = "no control vertex";
@@ -636,13 +636,13 @@ void test_failures()
   CHECK(same_points(mesh, before));
   CHECK(deformation.roi_vertices().size() == sphere.points.size() - 1);
 
-  test_case() = "nothing held";
+  test_case() = "nothing fixed";
   deformation.insert_roi_vertex(left);
   deformation.set_target_position(b, target);
   deformation.erase_roi_vertex(left);
   deformation.clear_control_vertices();
   deformation.insert_roi_vertex(left);
-  CHECK(deformation.deform().status == Status::no_held_vertex);
+  CHECK(deformation.deform().status == Status::no_fixed_vertex);
   CHECK(same_points(mesh, before));
 
   test_case() = "afterwards";

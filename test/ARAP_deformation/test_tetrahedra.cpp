@@ -108,12 +108,12 @@ std::vector<bool> on_surface(const Block& shape)
 void test_linear_maps()
 {
   const Block shape = block(4, 4, 4);
-  const std::vector<bool> is_held = on_surface(shape);
-  CHECK(std::count(is_held.begin(), is_held.end(), false) == 27);
+  const std::vector<bool> is_fixed = on_surface(shape);
+  CHECK(std::count(is_fixed.begin(), is_fixed.end(), false) == 27);
   std::vector<bool> has_cell(shape.points.size(), false); // free, or next to a free vertex
   for(const auto& t : shape.tetrahedra)
     for(std::size_t v : t)
-      if(!is_held[v])
+      if(!is_fixed[v])
         for(std::size_t w : t)
           has_cell[w] = true;
   double volume_of_elements = 0, volume_of_cells = 0;
@@ -121,7 +121,7 @@ void test_linear_maps()
   {
     const double v = volume({shape.points[t[0]], shape.points[t[1]], shape.points[t[2]],
                              shape.points[t[3]]});
-    if(std::any_of(t.begin(), t.end(), [&](std::size_t c) { return !is_held[c]; }))
+    if(std::any_of(t.begin(), t.end(), [&](std::size_t c) { return !is_fixed[c]; }))
       volume_of_elements += v;
     volume_of_cells += v * double(std::count_if(t.begin(), t.end(),
                                                 [&](std::size_t c) { return has_cell[c]; }));
@@ -140,7 +140,7 @@ void test_linear_maps()
     Scenario s{{}, {}};
     for(std::size_t v = 0; v < shape.points.size(); ++v)
     {
-      s.selection.push_back(is_held[v] ? 2 : 1);
+      s.selection.push_back(is_fixed[v] ? 2 : 1);
       s.targets.push_back(map * shape.points[v]);
     }
     for(Cell_scheme cells : {Cell_scheme::elements(), Cell_scheme::spokes_and_rims()})

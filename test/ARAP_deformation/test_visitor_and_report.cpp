@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ void test_statuses()
     Status::not_run, Status::success, Status::converged, Status::iteration_limit, Status::stopped,
     Status::cancelled, Status::invalid_option, Status::in_a_run, Status::not_a_control_vertex,
     Status::invalid_weight, Status::not_a_simplex, Status::no_simplex, Status::no_tetrahedron,
-    Status::non_finite_point, Status::non_finite_weight, Status::no_held_vertex,
+    Status::non_finite_point, Status::non_finite_weight, Status::no_fixed_vertex,
     Status::singular_matrix, Status::solver_failed, Status::non_finite_energy};
   std::set<std::string> names, sentences;
   for(Status status : all)

@@ -16,8 +16,8 @@
 #include "include/conformance.h"
 
 #include <CGAL/ARAP_deformation/Edge_map_weight.h>
-#include <CGAL/ARAP_deformation/check_deformation_traits.h>
-#include <CGAL/ARAP_deformation/check_edge_weight.h>
+#include <CGAL/ARAP_deformation/conformance/check_deformation_traits.h>
+#include <CGAL/ARAP_deformation/conformance/check_edge_weight.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 

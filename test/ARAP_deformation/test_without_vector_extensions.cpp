@@ -22,8 +22,8 @@
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/check_closest_rotation.h>
-#include <CGAL/ARAP_deformation/check_sparse_solver.h>
+#include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
+#include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 
 #include <cmath>
 #include <cstddef>

@@ -25,12 +25,12 @@ namespace benchmark {
 
 enum class Libigl_energy { spokes, elements };
 
-// the rest shape, whose simplices have three corners or four, and targets of the held vertices
+// the rest shape, whose simplices have three corners or four, and targets of the fixed vertices
 struct Libigl_scenario
 {
   Eigen::MatrixXd points;
   Eigen::MatrixXi simplices;
-  Eigen::VectorXi held;
+  Eigen::VectorXi fixed;
   Eigen::MatrixXd targets;
 };
 
@@ -49,12 +49,12 @@ inline Libigl_scenario libigl_scenario(const Scenario& scenario)
       result.simplices(f.idx(), corner++) = static_cast<int>(v.idx());
   }
   const Eigen::Index n = static_cast<Eigen::Index>(scenario.targets.size());
-  result.held.resize(n);
+  result.fixed.resize(n);
   result.targets.resize(n, 3);
   for(Eigen::Index k = 0; k < n; ++k)
   {
     const auto& [v, target] = scenario.targets[static_cast<std::size_t>(k)];
-    result.held[k] = static_cast<int>(v.idx());
+    result.fixed[k] = static_cast<int>(v.idx());
     result.targets.row(k) = to_vector(target);
   }
   return result;

@@ -16,9 +16,9 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_structure.h>
-#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
 
 #include <Eigen/Core>
 

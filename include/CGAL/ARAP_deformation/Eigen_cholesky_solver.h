@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <Eigen/SparseCholesky>
 

@@ -16,10 +16,10 @@
 
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
-#include <CGAL/ARAP_deformation/internal/Tetrahedron_search.h>
-#include <CGAL/ARAP_deformation/internal/sentences.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/Tetrahedron_search.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <CGAL/assertions.h>
 

@@ -14,7 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>

@@ -16,10 +16,10 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Bordered_substitution.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
-#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
-#include <CGAL/ARAP_deformation/internal/fill_reducing_order.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
 
 #include <Eigen/Core>
 

@@ -15,9 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Wide_rotation_kernel.h>
-#include <CGAL/ARAP_deformation/internal/run_kernel.h>
-#include <CGAL/ARAP_deformation/internal/wide_vector.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Newton_rotation_kernel.h>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
 #include <cstddef>
 
@@ -49,8 +49,8 @@ public:
   /// computes `rotations[k]`, the rotation closest to `covariances[k]`, for `k` in `[0, n)`.
   void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
   {
-    using Kernel = internal::Wide_rotation_kernel<internal::Double8>;
-    using Plain_kernel = internal::Wide_rotation_kernel<internal::Double4>; // compiles faster
+    using Kernel = internal::Newton_rotation_kernel<internal::Double8>;
+    using Plain_kernel = internal::Newton_rotation_kernel<internal::Double4>; // compiles faster
     internal::run_kernel<Kernel, Plain_kernel>(n, covariances, rotations);
   }
 };

@@ -28,7 +28,7 @@ namespace ARAP {
 enum class Initial_guess
 {
   previous, ///< the current positions: right for interaction, where each frame starts from the last
-  laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the held
+  laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the fixed
             ///< positions and with all control vertices at their targets, soft ones too; \f$L\f$ is
             ///< the Laplacian of the weights of stars, whatever the cells, and \f$p\f$ the rest
             ///< shape. It costs a second factorization, of \f$L^T L\f$, at its first use after a

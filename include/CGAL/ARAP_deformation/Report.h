@@ -56,7 +56,7 @@ struct Report : Outcome
   /// \f$z\f$, what rounding the coordinates makes of an energy of zero: it is large where targets,
   /// or all, are far from the origin. Of an energy \f$E\f$ it makes about \f$16 \sqrt{E z}\f$.
   /// Differences that are below this, or below a rounding error of \f$E + s\f$, mean nothing.
-  double zero_energy = 0;
+  double rounding_level = 0;
 
   /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the run tends to,
   /// extrapolated from the decreases of the energy; infinity where too few are known, or where they
@@ -72,10 +72,10 @@ struct Report : Outcome
   std::size_t inverted_simplices = 0;
 
   /// the connected parts of the region that nothing holds, each by the smallest index of its
-  /// vertices: no chain of edges of non-zero weight ties it to a vertex that is held or pulled to a
-  /// target. They stayed where they were, and are not counted above. Always empty for
+  /// vertices: no chain of edges of non-zero weight ties it to a vertex that is fixed or pulled to
+  /// a target. They stayed where they were, and are not counted above. Always empty for
   /// `Surface_mesh_deformation`, which refuses them.
-  std::vector<std::size_t> unheld_parts;
+  std::vector<std::size_t> unconstrained_components;
 
   Phase_seconds seconds; ///< where the time went
 };

@@ -15,7 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Svd_rotation.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <cstddef>
 

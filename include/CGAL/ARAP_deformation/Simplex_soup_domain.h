@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Incidence_table.h>
-#include <CGAL/ARAP_deformation/internal/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/Incidence_table.h>
+#include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 
 #include <CGAL/assertions.h>
 

@@ -16,11 +16,11 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_cholesky.h>
-#include <CGAL/ARAP_deformation/internal/Supernodal_substitution.h>
-#include <CGAL/ARAP_deformation/internal/Unshared_ptr.h>
-#include <CGAL/ARAP_deformation/internal/fill_reducing_order.h>
-#include <CGAL/ARAP_deformation/internal/parallel.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -39,7 +39,7 @@ enum class Status
   no_simplex,           ///< no vertex of the region of interest has a simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< a weight of an edge in a simplex is not finite
-  no_held_vertex,       ///< nothing in the region is held, or pulled with a positive weight
+  no_fixed_vertex,       ///< nothing in the region is fixed, or pulled with a positive weight
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
                         ///< its solution made the energy rise
@@ -76,7 +76,7 @@ inline const char* to_string(Status status)
   case Status::no_simplex: return "no_simplex";
   case Status::non_finite_point: return "non_finite_point";
   case Status::non_finite_weight: return "non_finite_weight";
-  case Status::no_held_vertex: return "no_held_vertex";
+  case Status::no_fixed_vertex: return "no_fixed_vertex";
   case Status::singular_matrix: return "singular_matrix";
   case Status::solver_failed: return "solver_failed";
   case Status::non_finite_energy: return "non_finite_energy";

@@ -16,9 +16,9 @@
 
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
-#include <CGAL/ARAP_deformation/internal/Halfedge_deformation.h>
-#include <CGAL/ARAP_deformation/internal/default_models.h>
-#include <CGAL/ARAP_deformation/internal/select_model.h>
+#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
+#include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_deformation.h>
+#include <CGAL/ARAP_deformation/internal/drop_in/select_model.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Surface_mesh_deformation.h>
@@ -60,7 +60,7 @@ namespace ARAP {
 ///   \cgal's. The defaults are those of `CGAL::ARAP_deformation_traits_3`. A Cholesky
 ///   factorization needs weights for which the matrix is positive definite, as it is with those of
 ///   \cgal; where negative weights make it indefinite, `preprocess()` fails.
-/// - *Free parts.* If a part of the region of interest is not tied to any vertex that is held,
+/// - *Free parts.* If a part of the region of interest is not tied to any vertex that is fixed,
 ///   `preprocess()` always fails, and never depends on rounding.
 /// - *Points.* Within a run positions are `double`; they are rounded to the type of the points
 ///   once, at the end. Points may be of any type that `CGAL::to_double()` knows the coordinates of.

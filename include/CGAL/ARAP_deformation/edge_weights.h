@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
 #include <array>

@@ -125,16 +125,16 @@ public:
         l(i, i) += star_weight(i, j);
         l(i, j) -= star_weight(i, j);
       }
-    Eigen::MatrixXd p(rows, 3), held = Eigen::MatrixXd::Zero(rows, 3), columns(rows, n);
+    Eigen::MatrixXd p(rows, 3), fixed = Eigen::MatrixXd::Zero(rows, 3), columns(rows, n);
     for(std::size_t v = 0; v < m_rest.size(); ++v)
     {
       p.row(v) = m_rest[v].transpose();
       if(m_row[v] < 0)
-        held.row(v) = x[v].transpose();
+        fixed.row(v) = x[v].transpose();
       else
         columns.col(m_row[v]) = l.col(v);
     }
-    const Eigen::MatrixXd solution = columns.colPivHouseholderQr().solve(l * (p - held));
+    const Eigen::MatrixXd solution = columns.colPivHouseholderQr().solve(l * (p - fixed));
     for(Eigen::Index k = 0; k < n; ++k)
       x[m_free[k]] = solution.row(k).transpose();
   }

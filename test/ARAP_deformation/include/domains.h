@@ -20,8 +20,8 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/check_domain.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/check_domain.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <Eigen/Geometry>
 

@@ -39,17 +39,17 @@ inline Shape small_sheet(int nu = 5, int nv = 3)
   });
 }
 
-// a mesh with its domain, and where its vertices are held
+// a mesh with its domain, and where its vertices are fixed
 struct Surface
 {
   using Domain = CGAL::ARAP::Face_graph_domain<Mesh>;
 
   Mesh mesh;
-  Scenario held;
+  Scenario fixed;
 
   Surface() : Surface(small_sheet()) {}
   explicit Surface(const Shape& shape)
-    : mesh(make_mesh<Mesh>(shape)), held(scenario(shape))
+    : mesh(make_mesh<Mesh>(shape)), fixed(scenario(shape))
   {}
 
   Domain domain() { return Domain(mesh); }
@@ -64,11 +64,11 @@ struct Solid
 
   std::vector<Point> points;
   Tetrahedra tetrahedra;
-  Scenario held;
+  Scenario fixed;
 
   Solid() : Solid(block(3, 1, 1)) {}
   explicit Solid(const Block& b)
-    : points(points_of(b.points)), tetrahedra(b.tetrahedra), held(scenario(b))
+    : points(points_of(b.points)), tetrahedra(b.tetrahedra), fixed(scenario(b))
   {}
 
   Domain domain() { return Domain(points, tetrahedra); }
@@ -136,7 +136,7 @@ struct Steps
   static Step_ insert()
   {
     return {"insert vertices", [](Session& s) {
-      prepare(*s.deformation, s.deformed.held, s.deformed.vertices());
+      prepare(*s.deformation, s.deformed.fixed, s.deformed.vertices());
       return true;
     }, false};
   }
@@ -173,7 +173,7 @@ struct Steps
       for(int selected : {1, 2})
       {
         std::size_t k = 0;
-        while(s.deformed.held.selection[k] != selected)
+        while(s.deformed.fixed.selection[k] != selected)
           ++k;
         if(selected == 1)
           s.deformation->insert_control_vertex(vertices[k]);
@@ -255,7 +255,7 @@ struct Drop_in_session
   {
     const auto vertices = deformed.vertices();
     auto v = vertices.begin();
-    while(deformed.held.selection[*v] != 1 || k-- > 0)
+    while(deformed.fixed.selection[*v] != 1 || k-- > 0)
       ++v;
     return *v;
   }

@@ -19,7 +19,7 @@
 #include "nasty_shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/checks.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,9 +56,9 @@ inline std::vector<Handles> handles_for(const std::vector<Eigen::Vector3d>& poin
 {
   const Scenario s = scenario(Shape{"", points, {}}, 1.2);
   const double diameter = diameter_of(points);
-  std::vector<Handles> all = {{"ends", {}}, {"soft ends", {}}, {"one held", {}}, {"all held", {}},
+  std::vector<Handles> all = {{"ends", {}}, {"soft ends", {}}, {"one fixed", {}}, {"all fixed", {}},
                               {"far away", {}}, {"all at one point", {}}, {"none", {}},
-                              {"not a number", {}}, {"all but one held", {}}};
+                              {"not a number", {}}, {"all but one fixed", {}}};
   for(std::size_t v = 0; v < points.size(); ++v)
   {
     all[3].handles.push_back({v, s.targets[v], infinity});
@@ -131,7 +131,7 @@ bool run(Deformation& deformation, const Vertices& vertices, const PointOf& poin
   if(!report)
   {
     CHECK(report.message.size() > 20);
-    const bool is_expected = handles.name == "none" ? report.status == Status::no_held_vertex ||
+    const bool is_expected = handles.name == "none" ? report.status == Status::no_fixed_vertex ||
                                                         report.status == Status::no_simplex
                            : handles.name == "not a number"
                                ? report.status == Status::non_finite_point : false;
@@ -150,16 +150,17 @@ bool run(Deformation& deformation, const Vertices& vertices, const PointOf& poin
   for(const auto& [vertex, target, weight] : handles.handles)
     if(weight == infinity)
       CHECK(point_of_vertex(vertices[vertex]) == point(target));
-  std::size_t unheld = 0;
+  std::size_t unconstrained = 0;
   for(std::size_t k = 0; k < vertices.size(); ++k)
-    if(std::binary_search(report.unheld_parts.begin(), report.unheld_parts.end(),
+    if(std::binary_search(report.unconstrained_components.begin(),
+                          report.unconstrained_components.end(),
                           deformation.domain().index(vertices[k])))
     {
-      ++unheld;
+      ++unconstrained;
       CHECK(point_of_vertex(vertices[k]) == before[k]);
     }
-  CHECK(unheld == report.unheld_parts.size());
-  CHECK(report.unheld_parts.empty() ==
+  CHECK(unconstrained == report.unconstrained_components.size());
+  CHECK(report.unconstrained_components.empty() ==
         (report.message.find("nothing holds") == std::string::npos));
   return true;
 }

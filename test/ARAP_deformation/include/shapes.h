@@ -194,7 +194,7 @@ inline double largest_distance(const std::vector<Point>& a, const std::vector<Po
   return largest;
 }
 
-// Which vertices are held, and where: the sixth of the vertices that is lowest along the longest
+// Which vertices are fixed, and where: the sixth of the vertices that is lowest along the longest
 // axis of the shape stays (at least two), and as many of the highest are turned and moved.
 struct Scenario
 {

@@ -1,0 +1,390 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_CONFORMANCE_CHECK_SPARSE_SOLVER_H
+#define CGAL_ARAP_DEFORMATION_CONFORMANCE_CHECK_SPARSE_SOLVER_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+namespace internal {
+
+template <typename SparseSolver>
+class Sparse_solver_check
+{
+  static_assert(Sparse_solver_requirements<SparseSolver>::are_met);
+
+public:
+  Sparse_solver_check(const SparseSolver& solver, double tolerance)
+    : m_prototype(solver), m_tolerance(tolerance)
+  {}
+
+  std::vector<std::string> operator()()
+  {
+    m_violations.run("the solver", [this] {
+      check_family("a matrix with one row", [this] { return path(1); });
+      check_family("a path", [this] { return path(10); });
+      check_family("a grid", [this] { return grid(9, 7, 0.1); });
+      check_family("a grid of which some edges have the weight zero",
+                   [this] { return grid(12, 11, 0.1, 0.3); });
+      check_family("an ill-conditioned grid", [this] { return grid(14, 14, 1e-5); });
+      check_copies_and_moves();
+      if constexpr(can_have_border<SparseSolver>)
+        check_borders();
+      check_refusals();
+    });
+    return m_violations.sentences();
+  }
+
+private:
+  using Rows = std::vector<Coordinates>;
+
+  double random(double low, double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(m_random);
+  }
+
+  // the Laplacian of a graph with random weights, of which a fraction is zero, plus `shift` times
+  // the identity; the pattern does not depend on the weights
+  Sparse_matrix laplacian(int n, const std::vector<std::pair<int, int>>& edges, double shift,
+                          double fraction_of_zeros)
+  {
+    std::vector<Eigen::Triplet<double, int>> entries;
+    for(const auto& [i, j] : edges)
+    {
+      const double weight = random(0, 1) < fraction_of_zeros ? 0 : random(0.5, 2);
+      entries.emplace_back(i, i, weight);
+      entries.emplace_back(j, j, weight);
+      entries.emplace_back((std::max)(i, j), (std::min)(i, j), -weight);
+    }
+    for(int i = 0; i < n; ++i)
+      entries.emplace_back(i, i, shift * random(1, 2));
+    Sparse_matrix a(n, n);
+    a.setFromTriplets(entries.begin(), entries.end());
+    return a;
+  }
+
+  Sparse_matrix path(int n)
+  {
+    std::vector<std::pair<int, int>> edges;
+    for(int i = 0; i + 1 < n; ++i)
+      edges.emplace_back(i, i + 1);
+    return laplacian(n, edges, 0.5, 0);
+  }
+
+  Sparse_matrix grid(int columns, int rows, double shift, double fraction_of_zeros = 0)
+  {
+    std::vector<std::pair<int, int>> edges;
+    for(int i = 0; i < columns; ++i)
+      for(int j = 0; j < rows; ++j)
+      {
+        if(i + 1 < columns) edges.emplace_back(i * rows + j, (i + 1) * rows + j);
+        if(j + 1 < rows) edges.emplace_back(i * rows + j, i * rows + j + 1);
+      }
+    return laplacian(columns * rows, edges, shift, fraction_of_zeros);
+  }
+
+  Rows random_rows(const Sparse_matrix& a)
+  {
+    Rows rows(static_cast<std::size_t>(a.rows()));
+    for(Coordinates& row : rows)
+      row = {random(-1, 1), random(-10, 10), random(-0.1, 0.1)};
+    return rows;
+  }
+
+  static Rows product(const Sparse_matrix& a, const Rows& x)
+  {
+    Rows y(x.size(), Coordinates{0, 0, 0});
+    for(int column = 0; column < a.outerSize(); ++column)
+      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+        for(int c = 0; c < 3; ++c)
+        {
+          y[entry.row()][c] += entry.value() * x[column][c];
+          if(entry.row() != column)
+            y[column][c] += entry.value() * x[entry.row()][c];
+        }
+    return y;
+  }
+
+  static double largest_in_column(const Rows& rows, int column)
+  {
+    double largest = 0;
+    for(const Coordinates& row : rows)
+    {
+      if(!std::isfinite(row[column]))
+        return row[column];
+      largest = (std::max)(largest, std::abs(row[column]));
+    }
+    return largest;
+  }
+
+  // the residual of each column, relative to the right-hand side
+  static std::array<double, 3> residuals(const Sparse_matrix& a, const Rows& x, const Rows& b)
+  {
+    Rows difference = product(a, x);
+    for(std::size_t k = 0; k < b.size(); ++k)
+      for(int c = 0; c < 3; ++c)
+        difference[k][c] -= b[k][c];
+    std::array<double, 3> result;
+    for(int c = 0; c < 3; ++c)
+    {
+      const double scale = largest_in_column(b, c);
+      result[c] = largest_in_column(difference, c) / (scale > 0 ? scale : 1);
+    }
+    return result;
+  }
+
+  // Solves in an array that is longer than the matrix.
+  void check_solution(SparseSolver& solver, const Sparse_matrix& a, const Rows& b,
+                      const std::string& name)
+  {
+    const std::size_t n = b.size(), margin = 4;
+    const Coordinates untouched = {12345, -6789, 0.125};
+    Rows array(n + 2 * margin, untouched);
+    std::copy(b.begin(), b.end(), array.begin() + margin);
+    if(!solver.solve(n, array.data() + margin))
+      return m_violations.check(false, "solve() returns false for ", name);
+    for(std::size_t k = 0; k < margin; ++k)
+      m_violations.check(array[k] == untouched && array[margin + n + k] == untouched,
+                         "solve() writes outside the n rows of x for ", name);
+    const auto errors = residuals(a, Rows(array.begin() + margin, array.begin() + margin + n), b);
+    for(int c = 0; c < 3; ++c)
+      m_violations.check(errors[c] <= m_tolerance, "solve() leaves in column ", c, " a relative "
+                         "residual of ", errors[c], ", more than ", m_tolerance, ", for ", name);
+  }
+
+  // the product with all entries, one column after the other, and several times
+  void check_solutions(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  {
+    check_solution(solver, a, random_rows(a), name);
+    check_solution(solver, a, random_rows(a), name + ", when it is called again");
+    for(int column = 0; column < 3; ++column)
+    {
+      Rows b = random_rows(a);
+      for(Coordinates& row : b)
+        for(int c = 0; c < 3; ++c)
+          row[c] = c == column ? row[c] : 0;
+      check_solution(solver, a, b, name + " and a right-hand side of which only column " +
+                     std::to_string(column) + " is not zero");
+    }
+    check_solution(solver, a, Rows(static_cast<std::size_t>(a.rows()), Coordinates{0, 0, 0}),
+                   name + " and a right-hand side of zeros");
+  }
+
+  bool prepare(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  {
+    // copies, which do not outlive the calls
+    const bool is_analyzed = solver.analyze(Sparse_matrix(a));
+    m_violations.check(is_analyzed, "analyze() returns false for ", name);
+    return is_analyzed && factorize(solver, a, name);
+  }
+
+  bool factorize(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  {
+    const bool is_factorized = solver.factorize(Sparse_matrix(a));
+    m_violations.check(is_factorized, "factorize() returns false for ", name,
+                       ", which is positive definite");
+    return is_factorized;
+  }
+
+  template <typename Make>
+  void check_family(const std::string& name, const Make& make)
+  {
+    SparseSolver solver(m_prototype);
+    const Sparse_matrix a = make(), same_pattern = make();
+    if(!prepare(solver, a, name))
+      return;
+    check_solutions(solver, a, name);
+    const std::string again = name + ", factorized after another matrix of the same pattern";
+    if(factorize(solver, same_pattern, again))
+      check_solutions(solver, same_pattern, again);
+    const Sparse_matrix other = path(6);
+    const std::string analyzed_again = "a path, analyzed after " + name;
+    if(prepare(solver, other, analyzed_again))
+      check_solutions(solver, other, analyzed_again);
+  }
+
+  void check_copies_and_moves()
+  {
+    // of one size, so that a solver that takes the wrong one does not leave its arrays
+    const Sparse_matrix a = grid(6, 5, 0.2), b = path(30);
+    SparseSolver first(m_prototype), second(m_prototype);
+    if(!prepare(first, a, "a grid") || !prepare(second, b, "a path"))
+      return;
+    check_solution(first, a, random_rows(a), "a grid after a copy has factorized a path");
+    check_solution(second, b, random_rows(b), "a path after a copy has factorized a grid");
+
+    SparseSolver copy(first);
+    if(prepare(copy, b, "a path, in a copy of a solver with a factor"))
+      check_solution(copy, b, random_rows(b), "a path, in a copy of a solver with a factor");
+    check_solution(first, a, random_rows(a), "a grid after a copy has analyzed another matrix");
+
+    SparseSolver moved(std::move(first));
+    check_solution(moved, a, random_rows(a), "a grid after the solver was moved with its factor");
+    second = std::move(moved);
+    check_solution(second, a, random_rows(a),
+                   "a grid after the solver was assigned by a move with its factor");
+  }
+
+  // A border with multipliers and with further unknowns, taken away and given again.
+  void check_borders()
+  {
+    const Sparse_matrix a = grid(9, 8, 0.3);
+    const int n = static_cast<int>(a.rows()), size = 7, number_of_multipliers = 3;
+    const Sparse_matrix none(n, 0);
+    SparseSolver solver(m_prototype);
+    if(!prepare(solver, a, "a grid that gets a border"))
+      return;
+    const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
+      const bool is_set = solver.set_border(b, d);
+      m_violations.check(is_set, "set_border() returns false for ", b.cols(), " columns");
+      return is_set;
+    };
+    for(int repetition = 0; repetition < 2; ++repetition)
+    {
+      std::vector<Eigen::Triplet<double, int>> entries;
+      Eigen::MatrixXd d = Eigen::MatrixXd::Zero(size, size);
+      for(int k = 0; k < number_of_multipliers; ++k)
+        entries.emplace_back(11 * k + repetition, k, 1);
+      for(int k = number_of_multipliers; k < size; ++k)
+      {
+        d(k, k) = 20;
+        for(int j = 0; j < 3; ++j)
+          entries.emplace_back((17 * k + 5 * j + repetition) % n, k, -random(0.5, 1));
+      }
+      d(size - 1, size - 2) = -0.5;
+      Sparse_matrix b(n, size);
+      b.setFromTriplets(entries.begin(), entries.end());
+      if(!set_border(b, d))
+        return;
+      const Sparse_matrix whole = bordered(a, b, d);
+      check_solution(solver, whole, random_rows(whole), "a matrix with a border");
+      SparseSolver moved(std::move(solver));
+      check_solution(moved, whole, random_rows(whole), "a matrix with a border after a move");
+      solver = std::move(moved);
+
+      d(size - 1, size - 1) = -1;
+      m_violations.check(!solver.set_border(b, d), "set_border() returns true for a matrix that is "
+                         "not positive definite");
+      check_solution(solver, a, random_rows(a), "a matrix after a border was refused");
+      d(size - 1, size - 1) = 20;
+      if(set_border(b, d) && set_border(none, Eigen::MatrixXd()))
+        check_solution(solver, a, random_rows(a), "a matrix without the border that it had");
+      if(set_border(b, d) && factorize(solver, a, "a grid that had a border"))
+        check_solution(solver, a, random_rows(a), "a matrix that is factorized with a border");
+    }
+  }
+
+  // the lower triangle
+  static Sparse_matrix bordered(const Sparse_matrix& a, const Sparse_matrix& b,
+                                const Eigen::MatrixXd& d)
+  {
+    std::vector<Eigen::Triplet<double, int>> entries;
+    const int n = static_cast<int>(a.rows()), size = static_cast<int>(b.cols());
+    for(int column = 0; column < n; ++column)
+      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+        entries.emplace_back(entry.row(), column, entry.value());
+    for(int column = 0; column < size; ++column)
+    {
+      for(Sparse_matrix::InnerIterator entry(b, column); entry; ++entry)
+        entries.emplace_back(n + column, entry.row(), entry.value());
+      for(int row = column; row < size; ++row)
+        entries.emplace_back(n + row, n + column, d(row, column));
+    }
+    Sparse_matrix result(n + size, n + size);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
+  // What is not positive definite is refused, or else the solution is right.
+  void check_refusals()
+  {
+    const auto matrix = [](int n, double diagonal, double off_diagonal) {
+      std::vector<Eigen::Triplet<double, int>> entries;
+      for(int i = 0; i < n; ++i)
+      {
+        entries.emplace_back(i, i, diagonal);
+        if(i + 1 < n) entries.emplace_back(i + 1, i, off_diagonal);
+      }
+      Sparse_matrix a(n, n);
+      a.setFromTriplets(entries.begin(), entries.end());
+      return a;
+    };
+    const auto check = [&](const Sparse_matrix& a, const std::string& name) {
+      SparseSolver solver(m_prototype);
+      if(!solver.analyze(a))
+        return;
+      const Rows b = random_rows(a);
+      Rows x = b;
+      if(solver.factorize(a) && solver.solve(x.size(), x.data()))
+        for(double error : residuals(a, x, b))
+          m_violations.check(error <= m_tolerance, "nothing is refused, but the solution is wrong "
+                             "for ", name, ": the relative residual is ", error);
+      const Sparse_matrix good = matrix(static_cast<int>(a.rows()), 3, 1);
+      const std::string after = "a positive definite matrix after " + name;
+      if(factorize(solver, good, after))
+        check_solution(solver, good, random_rows(good), after);
+    };
+    check(matrix(1, 0, 0), "a matrix with the one entry 0");
+    check(matrix(5, 0, 0), "a matrix of zeros");
+    check(matrix(6, -2, 1), "a negative definite matrix");
+    check(matrix(6, 1, 2), "an indefinite matrix");
+    check(matrix(2, 0, 1), "an indefinite matrix with zeros on the diagonal");
+  }
+
+  SparseSolver m_prototype;
+  double m_tolerance;
+  std::mt19937 m_random;
+  Violations m_violations;
+};
+
+} // namespace internal
+
+/// \ingroup PkgARAPDeformationChecks
+/// \brief returns a sentence for each identity that a model of `ARAPSparseSolver` violates, and
+/// nothing if it conforms.
+///
+/// Small positive definite matrices are factorized, explicit zeros and others of the same pattern
+/// among them, and the residuals of all three columns computed. Copies must be independent, moves
+/// keep the factor, and what is not positive definite must be refused or solved right. Borders are
+/// set, refused and removed where the model has them.
+/// Milliseconds.
+///
+/// \param solver the model; its copies are used
+/// \param tolerance the largest residual relative to the right-hand side, both measured by their
+///        largest entries in a column. The matrices have condition numbers up to \f$10^6\f$.
+template <typename SparseSolver>
+std::vector<std::string> check_sparse_solver(const SparseSolver& solver, double tolerance = 1e-9)
+{
+  return internal::Sparse_solver_check<SparseSolver>(solver, tolerance)();
+}
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_CONFORMANCE_CHECK_SPARSE_SOLVER_H

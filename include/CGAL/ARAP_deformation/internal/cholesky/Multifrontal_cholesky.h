@@ -1,0 +1,162 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_MULTIFRONTAL_CHOLESKY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_MULTIFRONTAL_CHOLESKY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/cholesky_kernels.h>
+#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The numeric factorization. Each supernode leaves to its parent what its columns subtract from the
+// rows below, as a dense matrix; so subtrees are independent, and all arithmetic is dense. See Liu,
+// The multifrontal method for sparse matrix solution: theory and practice. All is computed in
+// double, whatever numbers the factor is stored in.
+template <typename Number>
+class Multifrontal_cholesky
+{
+public:
+  Multifrontal_cholesky(const Supernodal_structure& structure, Number* values)
+    : m_structure(structure), m_values(values), m_updates(structure.supernodes().size()),
+      m_first_child(structure.supernodes().size(), -1),
+      m_next_child(structure.supernodes().size(), -1)
+  {
+    for(int s = static_cast<int>(m_next_child.size()); s-- > 0;)
+      if(const int parent = structure.supernodes()[s].parent; parent >= 0)
+      {
+        m_next_child[s] = m_first_child[parent];
+        m_first_child[parent] = s;
+      }
+  }
+
+  // Puts the factor into the array of the constructor, with the reciprocals of its diagonal. They
+  // are positive numbers if the matrix is positive definite. assemble(s, panel) adds the entries of
+  // the matrix to the columns of supernode s, which are zero; it is called from several threads.
+  template <typename Assemble>
+  void factorize(const Assemble& assemble)
+  {
+    m_structure.for_each_block_upwards([&](int k) {
+      const Block& b = m_structure.blocks()[k];
+      std::vector<int> places;
+      std::vector<double> columns; // of a supernode, if they are not computed where they are stored
+      for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
+      {
+        const Supernode& supernode = m_structure.supernodes()[s];
+        const std::size_t size = m_structure.size(supernode);
+        Number* const stored = m_values + supernode.values;
+        double* const panel = place_of_panel(stored, size, columns);
+        std::fill_n(panel, size, 0);
+        assemble(s, panel);
+        factorize_supernode(k, s, panel, places);
+        if constexpr(!std::is_same_v<Number, double>)
+          std::transform(panel, panel + size, stored,
+                         [](double value) { return static_cast<Number>(value); });
+      }
+    });
+  }
+
+private:
+  using Supernode = Supernodal_structure::Supernode;
+  using Block = Supernodal_structure::Block;
+
+  static double* place_of_panel(Number* stored, std::size_t size, std::vector<double>& columns)
+  {
+    if constexpr(std::is_same_v<Number, double>)
+      return stored;
+    else
+    {
+      columns.resize((std::max)(columns.size(), size));
+      return columns.data();
+    }
+  }
+
+  void factorize_supernode(int block, int index, double* panel, std::vector<int>& places)
+  {
+    const Supernode& s = m_structure.supernodes()[index];
+    const std::size_t below = static_cast<std::size_t>(s.below);
+    std::vector<double>& update = m_updates[index];
+    update.assign(below * below, 0);
+    for(int child = m_first_child[index]; child >= 0; child = m_next_child[child])
+    {
+      find_places(block, s, child, places);
+      add_update(s, m_updates[child], places, panel, update.data());
+      std::vector<double>().swap(m_updates[child]);
+    }
+    run_kernel<Factor_panel>(panel, s.width, s.width + s.below);
+    if(below > 0)
+      run_kernel<Subtract_square>(update.data(), s.below,
+                                  static_cast<const double*>(panel + s.width), s.width,
+                                  below + static_cast<std::size_t>(s.width));
+  }
+
+  // The rows of `child` below among the rows of `s`. Both are in ascending order.
+  void find_places(int block, const Supernode& s, int child, std::vector<int>& places) const
+  {
+    const Supernode& c = m_structure.supernodes()[child];
+    const Block& child_block = m_structure.blocks()[m_structure.block_of(child)];
+    const bool is_in_block = m_structure.block_of(child) == block;
+    const int* const rows = m_structure.rows(c);
+    const int* const to_parent = m_structure.to_parent(child_block);
+    const int* const parent_rows = m_structure.rows(s);
+    places.resize(static_cast<std::size_t>(c.below));
+    int k = 0;
+    for(int i = 0; i < c.below; ++i)
+    {
+      const int row = is_in_block ? rows[i] : to_parent[rows[i] - child_block.own];
+      if(row < s.first + s.width)
+      {
+        places[i] = row - s.first;
+        continue;
+      }
+      while(parent_rows[k] != row)
+        ++k;
+      places[i] = s.width + k;
+    }
+  }
+
+  static void add_update(const Supernode& s, const std::vector<double>& child_update,
+                         const std::vector<int>& places, double* panel, double* update)
+  {
+    const std::size_t n = places.size(), height = static_cast<std::size_t>(s.width + s.below);
+    for(std::size_t j = 0; j < n; ++j)
+    {
+      const double* const from = child_update.data() + j * n;
+      const int column = places[j];
+      double* const to = column < s.width
+                       ? panel + column * height
+                       : update + (column - s.width) * static_cast<std::size_t>(s.below) - s.width;
+      for(std::size_t i = j; i < n; ++i)
+        to[places[i]] += from[i];
+    }
+  }
+
+  const Supernodal_structure& m_structure;
+  Number* m_values;
+  std::vector<std::vector<double>> m_updates; // of supernodes whose parent is not factorized yet
+  std::vector<int> m_first_child, m_next_child;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_MULTIFRONTAL_CHOLESKY_H

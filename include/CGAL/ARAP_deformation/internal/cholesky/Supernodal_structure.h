@@ -1,0 +1,362 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_SUPERNODAL_STRUCTURE_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_SUPERNODAL_STRUCTURE_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Supernodes cut into blocks, which are connected parts of the elimination tree: subtrees of about
+// equal work at the bottom, and above them what lies between two branchings. Each block has a local
+// vector of its own columns and, after them, the rows of its topmost supernode below, which are all
+// the others that its supernodes refer to. So the blocks of different branches are independent, and
+// a block needs of its parent no more than those rows.
+class Supernodal_structure
+{
+public:
+  struct Supernode
+  {
+    std::size_t values; // where its values begin
+    std::size_t rows;   // where its rows below the triangle begin; they are places in local vectors
+    int first;          // the place of its first column in local vectors
+    int width;
+    int below;
+    int parent;         // in the elimination tree, or -1
+  };
+
+  struct Block
+  {
+    int supernodes_begin, supernodes_end;
+    int parent;             // -1 for block 0 only, the root
+    int own, boundary;      // the parts of the local vector
+    std::size_t vector;     // where the local vector begins, if all are in a row
+    std::size_t columns;    // where its own columns begin in order()
+    std::size_t to_parent;  // where the places of its boundary in the parent's local vector begin
+    int children_begin, children_end;
+  };
+
+  Supernodal_structure() = default;
+
+  // `order` has for each column of the factor the row of the matrix that it belongs to.
+  Supernodal_structure(const Supernodes& supernodes, const std::vector<int>& order)
+  {
+    const std::vector<int> supernode_of = supernode_of_columns(supernodes.columns);
+    std::vector<int> parent(supernodes.size());
+    for(std::size_t s = 0; s < supernodes.size(); ++s)
+      parent[s] = supernodes.below(s) == 0
+                ? -1 : supernode_of[supernodes.rows[supernodes.rows_begin[s]]];
+    const std::vector<int> block_of = assign_blocks(supernodes, parent);
+    number_supernodes(supernodes, parent, block_of, order);
+    number_rows(supernodes, supernode_of, block_of);
+  }
+
+  const std::vector<Supernode>& supernodes() const { return m_supernodes; }
+  const std::vector<Block>& blocks() const { return m_blocks; }
+
+  // the memory that a sweep over a factor of numbers of that size has to read: what is on and below
+  // the diagonal, and the rows
+  std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
+  {
+    std::size_t bytes = 0;
+    for(const Supernode& s : m_supernodes)
+    {
+      const auto width = static_cast<std::size_t>(s.width);
+      const auto below = static_cast<std::size_t>(s.below);
+      bytes += (width * (width + 1) / 2 + width * below) * size_of_number + below * sizeof(int);
+    }
+    return bytes;
+  }
+
+  // how many values a supernode has
+  static std::size_t size(const Supernode& s)
+  {
+    return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.width + s.below);
+  }
+
+  const int* rows(const Supernode& s) const { return m_rows.data() + s.rows; }
+  const int* to_parent(const Block& b) const { return m_to_parent.data() + b.to_parent; }
+
+  // the rows of the matrix that the own columns of all blocks belong to, block after block
+  const std::vector<int>& order() const { return m_order; }
+
+  // the block of each supernode
+  int block_of(int supernode) const { return m_block_of[supernode]; }
+
+  // the supernode of a column, given by its place in order()
+  int supernode_at(int position) const
+  {
+    const auto p = static_cast<std::size_t>(position);
+    const auto block = std::upper_bound(m_blocks.begin(), m_blocks.end(), p,
+      [](std::size_t column, const Block& b) { return column < b.columns + b.own; });
+    const auto end = m_supernodes.begin() + block->supernodes_end;
+    const auto next = std::upper_bound(m_supernodes.begin() + block->supernodes_begin, end,
+      static_cast<int>(p - block->columns),
+      [](int column, const Supernode& s) { return column < s.first; });
+    return static_cast<int>(next - m_supernodes.begin()) - 1;
+  }
+
+  // the supernode here of each supernode of the constructor
+  const std::vector<int>& numbers() const { return m_numbers; }
+
+  // the length of all local vectors together
+  std::size_t vectors_size() const
+  {
+    return m_blocks.empty() ? 0 : m_blocks.back().vector + m_blocks.back().own
+                                  + m_blocks.back().boundary;
+  }
+
+  // Calls f(block) for all blocks, for children before their parent, and at the same time for those
+  // of different branches.
+  template <typename Function>
+  void for_each_block_upwards(const Function& f, int block = 0) const
+  {
+    const Block& b = m_blocks[block];
+    for_each_task(static_cast<std::size_t>(b.children_end - b.children_begin), [&](std::size_t k) {
+      for_each_block_upwards(f, b.children_begin + static_cast<int>(k));
+    });
+    f(block);
+  }
+
+  // Calls f(block) for all blocks, for parents before their children.
+  template <typename Function>
+  void for_each_block_downwards(const Function& f, int block = 0) const
+  {
+    const Block& b = m_blocks[block];
+    f(block);
+    for_each_task(static_cast<std::size_t>(b.children_end - b.children_begin), [&](std::size_t k) {
+      for_each_block_downwards(f, b.children_begin + static_cast<int>(k));
+    });
+  }
+
+private:
+  // about a hundred subtrees keep a dozen threads busy; below the least work, in numbers to be read
+  // from the factor, the cost of a task shows
+  static constexpr double number_of_subtrees = 100;
+  static constexpr double least_work = 6000;
+
+  // The block of each supernode. The blocks are numbered so that children of one parent are
+  // consecutive, after their parent.
+  std::vector<int> assign_blocks(const Supernodes& supernodes, const std::vector<int>& parent)
+  {
+    const int n = static_cast<int>(supernodes.size());
+    std::vector<double> work(n); // of subtrees
+    double total = 0;
+    for(int s = 0; s < n; ++s)
+    {
+      const int width = supernodes.width(s);
+      total += work[s] = width * (0.5 * width + supernodes.below(s) + 8);
+    }
+    for(int s = 0; s < n; ++s)
+      if(parent[s] >= 0)
+        work[parent[s]] += work[s];
+    const double subtree = (std::max)(total / number_of_subtrees, least_work);
+    // hardly worth a block of its own
+    const double twig = subtree / 8;
+
+    std::vector<int> heavy_children(n + 1, 0); // the last for the roots
+    for(int s = 0; s < n; ++s)
+      heavy_children[parent[s] < 0 ? n : parent[s]] += work[s] > subtree;
+
+    std::vector<int> result(n), block_parent(1, -1);
+    std::vector<char> is_subtree(1, 0);
+    for(int s = n; s-- > 0;)
+    {
+      const int above = parent[s] < 0 ? 0 : result[parent[s]];
+      const bool is_continued = work[s] > subtree
+                              ? heavy_children[parent[s] < 0 ? n : parent[s]] == 1
+                              : work[s] < twig;
+      result[s] = above;
+      if(!is_subtree[above] && !is_continued)
+      {
+        result[s] = static_cast<int>(block_parent.size());
+        block_parent.push_back(above);
+        is_subtree.push_back(work[s] <= subtree);
+      }
+    }
+    return renumbered_blocks(result, block_parent);
+  }
+
+  // breadth first
+  std::vector<int> renumbered_blocks(std::vector<int>& block_of, const std::vector<int>& parent)
+  {
+    const int n = static_cast<int>(parent.size());
+    std::vector<std::vector<int>> children(n);
+    for(int b = 1; b < n; ++b)
+      children[parent[b]].push_back(b);
+    std::vector<int> queue(1, 0), number(n, 0);
+    m_blocks.assign(n, Block());
+    m_blocks[0].parent = -1;
+    for(int k = 0; k < n; ++k)
+    {
+      m_blocks[k].children_begin = static_cast<int>(queue.size());
+      for(int child : children[queue[k]])
+      {
+        number[child] = static_cast<int>(queue.size());
+        m_blocks[number[child]].parent = k;
+        queue.push_back(child);
+      }
+      m_blocks[k].children_end = static_cast<int>(queue.size());
+    }
+    for(int& b : block_of)
+      b = number[b];
+    return std::move(block_of);
+  }
+
+  void number_supernodes(const Supernodes& supernodes, const std::vector<int>& parent,
+                         const std::vector<int>& block_of, const std::vector<int>& order)
+  {
+    const std::size_t n = supernodes.size();
+    for(Block& b : m_blocks)
+      b.supernodes_begin = b.supernodes_end = 0;
+    for(int b : block_of)
+      ++m_blocks[b].supernodes_end;
+    int end = 0;
+    for(Block& b : m_blocks)
+    {
+      b.supernodes_begin = end;
+      end = b.supernodes_end += end;
+    }
+    std::vector<int> next(m_blocks.size());
+    for(std::size_t b = 0; b < m_blocks.size(); ++b)
+      next[b] = m_blocks[b].supernodes_begin;
+    m_numbers.resize(n);
+    m_block_of.resize(n);
+    for(std::size_t s = 0; s < n; ++s)
+    {
+      m_numbers[s] = next[block_of[s]]++;
+      m_block_of[m_numbers[s]] = block_of[s];
+    }
+
+    std::vector<std::size_t> first(m_blocks.size()); // the own columns so far
+    m_supernodes.resize(n);
+    for(std::size_t s = 0; s < n; ++s)
+    {
+      Supernode& supernode = m_supernodes[m_numbers[s]];
+      supernode.values = supernodes.values_begin[s];
+      supernode.width = supernodes.width(s);
+      supernode.below = supernodes.below(s);
+      supernode.first = static_cast<int>(first[block_of[s]]);
+      supernode.parent = parent[s] < 0 ? -1 : m_numbers[parent[s]];
+      first[block_of[s]] += static_cast<std::size_t>(supernode.width);
+    }
+    std::size_t columns = 0;
+    for(std::size_t b = 0; b < m_blocks.size(); ++b)
+    {
+      m_blocks[b].own = static_cast<int>(first[b]);
+      m_blocks[b].columns = columns;
+      columns += first[b];
+    }
+    m_order.resize(order.size());
+    for(std::size_t s = 0; s < n; ++s)
+      std::copy(order.begin() + supernodes.columns[s], order.begin() + supernodes.columns[s + 1],
+                m_order.begin() + m_blocks[block_of[s]].columns + m_supernodes[m_numbers[s]].first);
+  }
+
+  void number_rows(const Supernodes& supernodes, const std::vector<int>& supernode_of,
+                   const std::vector<int>& block_of)
+  {
+    // the first supernode of a block comes last
+    std::vector<std::size_t> top(m_blocks.size(), supernodes.size());
+    for(std::size_t s = 0; s < supernodes.size(); ++s)
+      top[block_of[s]] = s;
+    const auto boundary = [&](int b) {
+      const std::size_t s = top[b];
+      return s == supernodes.size()
+           ? std::make_pair(supernodes.rows.begin(), supernodes.rows.begin())
+           : std::make_pair(supernodes.rows.begin() + supernodes.rows_begin[s],
+                            supernodes.rows.begin() + supernodes.rows_begin[s + 1]);
+    };
+    // the place of a row in the local vector of a block
+    const auto place = [&](int b, int row) {
+      const int s = supernode_of[row];
+      if(block_of[s] == b)
+        return m_supernodes[m_numbers[s]].first + row - supernodes.columns[s];
+      const auto [begin, end] = boundary(b);
+      return m_blocks[b].own + static_cast<int>(std::lower_bound(begin, end, row) - begin);
+    };
+
+    std::size_t vectors = 0;
+    for(std::size_t k = 0; k < m_blocks.size(); ++k)
+    {
+      Block& b = m_blocks[k];
+      const auto [begin, end] = boundary(static_cast<int>(k));
+      b.boundary = static_cast<int>(end - begin);
+      b.vector = vectors;
+      vectors += static_cast<std::size_t>(b.own + b.boundary);
+      b.to_parent = m_to_parent.size();
+      for(auto row = begin; row != end; ++row)
+        m_to_parent.push_back(place(b.parent, *row));
+    }
+    std::size_t rows = 0;
+    for(Supernode& s : m_supernodes)
+    {
+      s.rows = rows;
+      rows += static_cast<std::size_t>(s.below);
+    }
+    m_rows.resize(rows);
+    for_each_block(supernodes.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t s = begin; s < end; ++s)
+        std::transform(supernodes.rows.begin() + supernodes.rows_begin[s],
+                       supernodes.rows.begin() + supernodes.rows_begin[s + 1],
+                       m_rows.begin() + m_supernodes[m_numbers[s]].rows,
+                       [&](int row) { return place(block_of[s], row); });
+    });
+  }
+
+  std::vector<Supernode> m_supernodes; // of one block in a row
+  std::vector<Block> m_blocks;
+  std::vector<int> m_rows, m_to_parent, m_order, m_block_of, m_numbers;
+};
+
+// whether the diagonal of a factor has only numbers that are positive and finite
+template <typename Number>
+bool has_positive_diagonal(const Supernodal_structure& structure, const Number* values)
+{
+  for(const Supernodal_structure::Supernode& s : structure.supernodes())
+    for(int j = 0; j < s.width; ++j)
+    {
+      const Number diagonal =
+        values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
+      if(!(diagonal > 0 && std::isfinite(diagonal)))
+        return false;
+    }
+  return true;
+}
+
+// Replaces the diagonal of a factor by its reciprocals, as the substitution needs it.
+inline void invert_diagonal(const Supernodal_structure& structure, double* values)
+{
+  for(const Supernodal_structure::Supernode& s : structure.supernodes())
+    for(int j = 0; j < s.width; ++j)
+    {
+      double& diagonal = values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
+      diagonal = 1 / diagonal;
+    }
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_SUPERNODAL_STRUCTURE_H

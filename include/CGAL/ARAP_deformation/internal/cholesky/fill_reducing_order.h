@@ -1,0 +1,92 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_FILL_REDUCING_ORDER_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_FILL_REDUCING_ORDER_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+
+#include <Eigen/OrderingMethods>
+
+#ifdef CGAL_METIS_ENABLED
+#include <metis.h>
+#endif
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// These return the row of the matrix for each row of the factor.
+
+inline std::vector<int> minimum_degree_order(const Sparse_matrix& a)
+{
+  Eigen::AMDOrdering<int>::PermutationType order;
+  Eigen::AMDOrdering<int>()(a.selfadjointView<Eigen::Lower>(), order);
+  return std::vector<int>(order.indices().data(), order.indices().data() + order.size());
+}
+
+#ifdef CGAL_METIS_ENABLED
+// empty if METIS fails
+inline std::vector<int> metis_order(const Sparse_matrix& a)
+{
+  // the neighbours of each row, from the lower triangle
+  idx_t n = static_cast<idx_t>(a.cols());
+  std::vector<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbours;
+  const auto for_each_edge = [&](const auto& f) {
+    for(int j = 0; j < a.cols(); ++j)
+      for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
+        if(entry.row() != j)
+          f(static_cast<int>(entry.row()), j);
+  };
+  for_each_edge([&](int i, int j) {
+    ++begin[i + 2];
+    ++begin[j + 2];
+  });
+  for(std::size_t v = 1; v < begin.size(); ++v)
+    begin[v] += begin[v - 1];
+  neighbours.resize(static_cast<std::size_t>(begin.back()));
+  for_each_edge([&](int i, int j) {
+    neighbours[begin[i + 1]++] = j;
+    neighbours[begin[j + 1]++] = i;
+  });
+  if(neighbours.empty()) // METIS does not take a graph without edges
+    return {};
+  std::vector<idx_t> order(static_cast<std::size_t>(n)), position(order.size());
+  if(METIS_NodeND(&n, begin.data(), neighbours.data(), nullptr, nullptr, order.data(),
+                  position.data()) != METIS_OK)
+    return {};
+  return std::vector<int>(order.begin(), order.end());
+}
+#endif
+
+// An ordering for which the factor of the symmetric matrix has few entries that are not zero.
+inline std::vector<int> fill_reducing_order(const Sparse_matrix& a, Fill_reducing_ordering ordering)
+{
+#ifdef CGAL_METIS_ENABLED
+  if(ordering == Fill_reducing_ordering::nested_dissection)
+    if(std::vector<int> order = metis_order(a); !order.empty())
+      return order;
+#endif
+  static_cast<void>(ordering);
+  return minimum_degree_order(a);
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_FILL_REDUCING_ORDER_H

@@ -1,0 +1,154 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DEFAULT_DOMAIN_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DEFAULT_DOMAIN_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+
+#include <CGAL/tags.h>
+
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+
+template <typename Triangulation>
+class Triangulation_domain_3;
+
+template <typename MeshComplex>
+Triangulation_domain_3<typename MeshComplex::Triangulation>
+make_complex_domain(MeshComplex& complex);
+
+template <typename LinearCellComplex>
+class Linear_cell_complex_domain_3;
+
+namespace internal {
+
+template <typename T, typename = void>
+struct Is_domain : std::false_type {};
+template <typename T>
+struct Is_domain<T, std::void_t<typename T::Point, typename T::vertex_descriptor,
+                                typename T::simplex_descriptor, decltype(T::dimension)>>
+  : std::true_type {};
+
+template <typename T, typename = void>
+struct Is_mesh_complex : std::false_type {};
+template <typename T>
+struct Is_mesh_complex<T, std::void_t<typename T::Triangulation, typename T::Subdomain_index,
+                                      typename T::Cells_in_complex_iterator>> : std::true_type {};
+
+template <typename T, typename = void>
+struct Is_triangulation : std::false_type {};
+template <typename T>
+struct Is_triangulation<T, std::void_t<typename T::Geom_traits, typename T::Cell_handle,
+                                       typename T::Finite_cells_iterator>> : std::true_type {};
+
+template <typename T, typename = void>
+struct Is_linear_cell_complex : std::false_type {};
+template <typename T>
+struct Is_linear_cell_complex<T, std::void_t<typename T::Vertex_attribute,
+                                             decltype(T::ambient_dimension)>> : std::true_type {};
+
+template <typename T>
+using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangulation
+
+template <typename T>
+using Begin_of = decltype(std::begin(std::declval<T&>()));
+
+// only a linear cell complex over a combinatorial map has this member
+template <typename T, typename = void>
+struct Is_generalized_map : std::true_type {};
+template <typename T>
+struct Is_generalized_map<T, std::void_t<
+  decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1))>> : std::false_type {};
+
+// Whether a mesh is a linear cell complex that is no FaceGraph: it is of dimension 3, or its map is
+// a generalized one, or its faces have no attributes. CGAL has graph_traits for the first and the
+// last that do not work.
+template <typename Mesh>
+constexpr bool is_complex_without_graph()
+{
+  if constexpr(Is_linear_cell_complex<Mesh>::value)
+    return Mesh::dimension == 3 || Is_generalized_map<Mesh>::value ||
+           std::is_same_v<typename Mesh::template Attribute_type<2>::type, CGAL::Void>;
+  else
+    return false;
+}
+
+template <typename T, typename = void>
+struct Is_complete : std::false_type {};
+template <typename T>
+struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
+
+// The domain of a mesh that ARAP_deformation and arap_deform() take if none is given. Those of
+// volumes have headers of their own, so that programs that deform surfaces do not pay for them.
+template <typename Mesh, typename = void>
+struct Default_domain
+{
+  // boost::graph_traits cannot be asked whether a mesh is a FaceGraph: it then does not compile
+  static_assert(!is_valid<Begin_of, Mesh>,
+                "a range is no mesh: ranges of points and simplices are deformed through their "
+                "domain, CGAL::ARAP::Simplex_soup_domain");
+  using type = Face_graph_domain<Mesh>;
+};
+
+template <typename Domain>
+struct Default_domain<Domain, std::enable_if_t<Is_domain<Domain>::value>>
+{
+  using type = Domain;
+};
+
+template <typename Mesh>
+struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
+{
+  static_assert(!is_valid<Covering_sheets_of, Mesh>,
+                "periodic triangulations cannot be deformed");
+  using type = Triangulation_domain_3<Mesh>;
+  static_assert(Is_complete<type>::value,
+                "to deform a triangulation, "
+                "#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>");
+};
+
+template <typename Mesh>
+struct Default_domain<Mesh, std::enable_if_t<Is_mesh_complex<Mesh>::value>>
+  : Default_domain<typename Mesh::Triangulation>
+{};
+
+template <typename Mesh>
+struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
+{
+  using type = Linear_cell_complex_domain_3<Mesh>;
+  static_assert(Is_complete<type>::value,
+                "to deform this linear cell complex, #include "
+                "<CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>");
+};
+
+template <typename Domain, typename Mesh>
+Domain make_domain(Mesh& mesh)
+{
+  if constexpr(Is_mesh_complex<Mesh>::value)
+    return make_complex_domain(mesh);
+  else
+    return Domain(mesh);
+}
+
+} // namespace internal
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DEFAULT_DOMAIN_H

@@ -1,0 +1,189 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DOMAIN_REGION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DOMAIN_REGION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// A region with the names of its vertices and simplices in a mesh. It is collected by walking over
+// the region only.
+template <typename Domain>
+struct Domain_region
+{
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using simplex_descriptor = typename Domain::simplex_descriptor;
+
+  Region flat;
+  std::vector<vertex_descriptor> vertices;
+  std::vector<simplex_descriptor> simplices;
+  // the simplices whose smallest vertex is v are first_simplex[v] to first_simplex[v + 1] - 1
+  std::vector<int> first_simplex;
+  Paged_index_map numbers; // from Domain::index() to the number in the region
+
+  // Collects the region of the given free vertices, which differ, but for the positions of its
+  // vertices. Free vertices are numbered in breadth-first order, so that what is near in the mesh
+  // is near in memory. Returns false if there is something that is not a simplex:
+  // refused_vertex() is at it.
+  bool collect(const Domain& domain, const std::vector<vertex_descriptor>& free_vertices)
+  {
+    flat.dimension = Domain::dimension;
+    flat.number_of_free_vertices = static_cast<int>(free_vertices.size());
+    vertices = free_vertices;
+    flat.indices.resize(free_vertices.size());
+    for(vertex_descriptor v : free_vertices)
+      numbers.set(domain.index(v), free_without_number);
+
+    int number_of_visited = 0;
+    for(vertex_descriptor v : free_vertices) // a seed in each component
+    {
+      number(domain, v);
+      if(!collect_simplices(domain, number_of_visited, m_number_of_found))
+        return false;
+      number_of_visited = m_number_of_found;
+    }
+    flat.number_of_free_simplices = static_cast<int>(simplices.size());
+    flat.number_of_centres = static_cast<int>(vertices.size());
+    if(!collect_simplices(domain, flat.number_of_free_vertices, flat.number_of_centres))
+      return false;
+    first_simplex.push_back(static_cast<int>(simplices.size()));
+    shrink();
+    return true;
+  }
+
+  // the number of v in the region, or -1
+  int find_vertex(const Domain& domain, vertex_descriptor v) const
+  {
+    return numbers[domain.index(v)];
+  }
+
+  // the number of s in the region, or -1
+  int find_simplex(const Domain& domain, simplex_descriptor s) const
+  {
+    int smallest = static_cast<int>(vertices.size());
+    for(vertex_descriptor v : domain.simplex_vertices(s))
+      smallest = (std::min)(smallest, find_vertex(domain, v));
+    if(smallest == Paged_index_map::none || smallest + 1 >= static_cast<int>(first_simplex.size()))
+      return -1;
+    const auto begin = simplices.begin() + first_simplex[smallest];
+    const auto end = simplices.begin() + first_simplex[smallest + 1];
+    const auto found = std::find(begin, end, s);
+    return found == end ? -1 : static_cast<int>(found - simplices.begin());
+  }
+
+  // the vertex at whose faces collect() stopped
+  vertex_descriptor refused_vertex() const { return vertices[first_simplex.size() - 1]; }
+
+private:
+  static constexpr int free_without_number = -2;
+
+  int number(const Domain& domain, vertex_descriptor v)
+  {
+    const std::size_t index = domain.index(v);
+    int n = numbers[index];
+    if(n == free_without_number)
+    {
+      n = m_number_of_found++;
+      numbers.set(index, n);
+      vertices[n] = v;
+      flat.indices[n] = index;
+    }
+    else if(n == Paged_index_map::none)
+    {
+      n = static_cast<int>(vertices.size());
+      numbers.set(index, n);
+      vertices.push_back(v);
+      flat.indices.push_back(index);
+    }
+    return n;
+  }
+
+  // Visits the vertices from `begin` to `end`, which moves on while free vertices are found. They
+  // are visited in the order of their numbers, and what is not yet numbered gets a larger number:
+  // a simplex is met first at its smallest vertex.
+  bool collect_simplices(const Domain& domain, int begin, const int& end)
+  {
+    for(int v = begin; v < end; ++v)
+    {
+      first_simplex.push_back(static_cast<int>(simplices.size()));
+      bool are_simplices = true;
+      domain.for_each_incident_simplex(
+        vertices[v], [&](simplex_descriptor s, const auto& corners) {
+          // what has a smaller corner was visited there, and all of its corners have numbers
+          bool is_first_visit = true;
+          for(vertex_descriptor corner : corners)
+          {
+            flat.corners.push_back(number(domain, corner));
+            is_first_visit = flat.corners.back() >= v;
+            if(!is_first_visit)
+              break;
+          }
+          if(!is_first_visit)
+            return flat.corners.resize(flat.first_corner.back());
+          are_simplices &= is_simplex(flat.corners.begin() + flat.first_corner.back(),
+                                      flat.corners.end());
+          simplices.push_back(s);
+          flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
+        });
+      if(!are_simplices)
+        return false;
+    }
+    return true;
+  }
+
+  void shrink()
+  {
+    flat.indices.shrink_to_fit();
+    flat.first_corner.shrink_to_fit();
+    flat.corners.shrink_to_fit();
+    vertices.shrink_to_fit();
+    simplices.shrink_to_fit();
+    first_simplex.shrink_to_fit();
+  }
+
+  int m_number_of_found = 0; // free vertices that have a number
+
+  // whether there are as many corners as the dimension asks for, all different
+  template <typename Iterator>
+  static bool is_simplex(Iterator begin, Iterator end)
+  {
+    const auto n = end - begin;
+    if(Domain::dimension == 2 ? n < 3 : n != Domain::dimension + 1)
+      return false;
+    if(n <= 4)
+    {
+      for(Iterator a = begin; a != end; ++a)
+        if(std::find(a + 1, end, *a) != end)
+          return false;
+      return true;
+    }
+    std::vector<int> sorted(begin, end);
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_DOMAIN_REGION_H

@@ -1,0 +1,253 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TETRAHEDRON_SEARCH_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TETRAHEDRON_SEARCH_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Simple_cartesian.h>
+
+#if __has_include(<CGAL/AABB_traits_3.h>) // the name since CGAL 6.0
+#include <CGAL/AABB_traits_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#endif
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+using Barycentric_coordinates = std::array<double, 4>;
+using Tetrahedron_corners = std::array<Coordinates, 4>;
+
+// The barycentric coordinates of a point, or nothing if the tetrahedron has no volume up to
+// rounding. They add up to 1. The solution is backward stable: they reproduce the point also
+// where the tetrahedron is thin.
+inline std::optional<Barycentric_coordinates>
+barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& point)
+{
+  Eigen::Matrix3d edges;
+  Eigen::Vector3d from_first;
+  for(int r = 0; r < 3; ++r)
+  {
+    from_first[r] = point[r] - corners[0][r];
+    for(int c = 0; c < 3; ++c)
+      edges(r, c) = corners[c + 1][r] - corners[0][r];
+  }
+  Eigen::FullPivLU<Eigen::Matrix3d> decomposition;
+  decomposition.setThreshold(1e-12);
+  if(!decomposition.compute(edges).isInvertible())
+    return std::nullopt;
+  const Eigen::Vector3d solution = decomposition.solve(from_first);
+  return Barycentric_coordinates{1 - solution.sum(), solution[0], solution[1], solution[2]};
+}
+
+// Finds the tetrahedron that contains a point, or else the nearest one.
+//
+// Both have the face that is nearest to the point: the segment to the nearest point of all faces
+// crosses no other face, and so does not leave the tetrahedron, or the outside, where it begins.
+// Several faces can be equally near, those at an edge or a vertex for example. Of the tetrahedra of
+// all faces that are nearest up to rounding, the one with the largest smallest barycentric
+// coordinate is taken: it contains the point if one of them does, and else extrapolates least. If
+// there are several even then, the first one is taken.
+class Tetrahedron_search
+{
+public:
+  struct Location
+  {
+    std::size_t tetrahedron;             // its number in the order of the constructor
+    Barycentric_coordinates coordinates;
+    double distance; // from the tetrahedron, 0 if it contains the point up to rounding
+  };
+
+  // Tetrahedra without volume are left out.
+  explicit Tetrahedron_search(std::vector<Tetrahedron_corners> tetrahedra)
+    : m_tetrahedra(std::move(tetrahedra))
+  {
+    fit_to(m_tetrahedra);
+    for(std::size_t t = 0; t < m_tetrahedra.size(); ++t)
+    {
+      const Tetrahedron_corners& c = m_tetrahedra[t];
+      if(barycentric_coordinates(c, c[0]))
+        for(int k = 0; k < 4; ++k)
+        {
+          std::array<Coordinates, 3> corners = {scaled(c[(k + 1) % 4]), scaled(c[(k + 2) % 4]),
+                                                scaled(c[(k + 3) % 4])};
+          std::sort(corners.begin(), corners.end());
+          m_faces.push_back({corners, t});
+        }
+    }
+    std::sort(m_faces.begin(), m_faces.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.corners, a.tetrahedron) < std::tie(b.corners, b.tetrahedron);
+    });
+    for(std::size_t k = 0; k < m_faces.size(); ++k)
+      if(k == 0 || m_faces[k].corners != m_faces[k - 1].corners)
+        m_tree.insert(Primitive(m_faces[k]));
+    m_tree.build();
+  }
+
+  // the tree refers to the faces
+  Tetrahedron_search(const Tetrahedron_search&) = delete;
+  Tetrahedron_search& operator=(const Tetrahedron_search&) = delete;
+
+  bool is_empty() const { return m_tree.empty(); }
+
+  // returns nothing if the point is so far away that the numbers overflow
+  std::optional<Location> locate(const Coordinates& point) const
+  {
+    const Coordinates c = scaled(point);
+    if(!(std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) < 1e100))
+      return std::nullopt;
+    const Point query(c[0], c[1], c[2]);
+    const auto [nearest_point, nearest_face] = m_tree.closest_point_and_primitive(query);
+    const double distance = std::sqrt(CGAL::squared_distance(query, nearest_point));
+
+    constexpr double tolerance = 1e-12;
+    std::vector<const Face*> faces = {nearest_face};
+    Location best = best_at(faces, point);
+    if(smallest_coordinate(best) <= tolerance) // else no other one contains the point
+    {
+      const double upper_bound = distance + tolerance * (1 + distance);
+      m_tree.all_intersected_primitives(Kernel::Sphere_3(query, upper_bound * upper_bound),
+                                        std::back_inserter(faces));
+      best = best_at(faces, point);
+    }
+    const bool is_inside = smallest_coordinate(best) >= 0 || distance <= tolerance;
+    best.distance = is_inside ? 0 : distance * m_extent;
+    if(!std::isfinite(smallest_coordinate(best)))
+      return std::nullopt;
+    return best;
+  }
+
+private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Point = Kernel::Point_3;
+
+  // a face of a tetrahedron
+  struct Face
+  {
+    std::array<Coordinates, 3> corners; // scaled and sorted
+    std::size_t tetrahedron;
+  };
+
+  // The faces with the same corners, given by the first of them: a model of AABBPrimitive.
+  class Primitive
+  {
+  public:
+    using Id = const Face*;
+    using Point = Kernel::Point_3;
+    using Datum = Kernel::Triangle_3;
+
+    explicit Primitive(const Face& face) : m_face(&face) {}
+
+    Id id() const { return m_face; }
+    Datum datum() const { return Datum(corner(0), corner(1), corner(2)); }
+    Point reference_point() const { return corner(0); }
+
+  private:
+    Point corner(int k) const
+    {
+      const Coordinates& c = m_face->corners[k];
+      return Point(c[0], c[1], c[2]);
+    }
+
+    Id m_face;
+  };
+
+#if __has_include(<CGAL/AABB_traits_3.h>)
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
+#else
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+#endif
+
+  // The tree sees the complex at the origin and with the box 1, so that squares neither overflow
+  // nor vanish.
+  void fit_to(const std::vector<Tetrahedron_corners>& tetrahedra)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Coordinates lowest = {infinity, infinity, infinity};
+    Coordinates highest = {-infinity, -infinity, -infinity};
+    for(const Tetrahedron_corners& corners : tetrahedra)
+      for(const Coordinates& c : corners)
+        for(int k = 0; k < 3; ++k)
+        {
+          lowest[k] = (std::min)(lowest[k], c[k]);
+          highest[k] = (std::max)(highest[k], c[k]);
+        }
+    for(int k = 0; k < 3; ++k)
+    {
+      m_centre[k] = 0.5 * lowest[k] + 0.5 * highest[k];
+      m_extent = (std::max)(m_extent, highest[k] - lowest[k]);
+    }
+  }
+
+  Coordinates scaled(const Coordinates& c) const
+  {
+    return {(c[0] - m_centre[0]) / m_extent, (c[1] - m_centre[1]) / m_extent,
+            (c[2] - m_centre[2]) / m_extent};
+  }
+
+  static double smallest_coordinate(const Location& location)
+  {
+    return *std::min_element(location.coordinates.begin(), location.coordinates.end());
+  }
+
+  // the best tetrahedron at one of these faces, but for the distance
+  Location best_at(const std::vector<const Face*>& faces, const Coordinates& point) const
+  {
+    std::vector<std::size_t> candidates;
+    for(const Face* first : faces)
+      for(const Face* face = first;
+          face != m_faces.data() + m_faces.size() && face->corners == first->corners; ++face)
+        candidates.push_back(face->tetrahedron);
+    std::sort(candidates.begin(), candidates.end());
+
+    Location best = {0, {}, 0};
+    best.coordinates.fill(-std::numeric_limits<double>::infinity());
+    for(std::size_t t : candidates)
+    {
+      const Location location = {t, *barycentric_coordinates(m_tetrahedra[t], point), 0};
+      if(smallest_coordinate(location) > smallest_coordinate(best))
+        best = location;
+    }
+    return best;
+  }
+
+  std::vector<Tetrahedron_corners> m_tetrahedra;
+  std::vector<Face> m_faces; // those with the same corners follow each other
+  Coordinates m_centre = {0, 0, 0};
+  double m_extent = 0;
+  Tree m_tree;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TETRAHEDRON_SEARCH_H

@@ -1,0 +1,85 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGULATION_CACHES_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGULATION_CACHES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Vertices and cells have what their base classes give them.
+
+template <typename Cell>
+using Call_subdomain_index = decltype(std::declval<const Cell&>().subdomain_index());
+
+template <typename Cell>
+using Call_invalidate_circumcenter = decltype(std::declval<Cell&>().invalidate_circumcenter());
+
+template <typename Cell>
+using Call_invalidate_weighted_circumcenter_cache =
+  decltype(std::declval<Cell&>().invalidate_weighted_circumcenter_cache());
+
+template <typename Cell>
+using Call_reset_cache_validity = decltype(std::declval<Cell&>().reset_cache_validity());
+
+template <typename Bare_point, typename Point>
+Bare_point bare_point(const Point& point)
+{
+  if constexpr(std::is_same_v<Bare_point, Point>)
+    return point;
+  else
+    return point.point();
+}
+
+template <typename Point, typename Bare_point>
+Point with_weight_of(const Point& point, const Bare_point& place)
+{
+  if constexpr(std::is_same_v<Bare_point, Point>)
+    return place;
+  else
+    return Point(place, point.weight());
+}
+
+// whether the subdomain index of a cell, if it has one, does not stand for the outside
+template <typename Cell>
+bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)
+{
+  if constexpr(is_valid<Call_subdomain_index, Cell>)
+    return cell.subdomain_index() != std::decay_t<Call_subdomain_index<Cell>>();
+  else
+    return true;
+}
+
+// marks what a cell has computed from the points of its vertices as out of date
+template <typename Cell>
+void invalidate_caches([[maybe_unused]] Cell& cell)
+{
+  if constexpr(is_valid<Call_invalidate_circumcenter, Cell>)
+    cell.invalidate_circumcenter();
+  if constexpr(is_valid<Call_invalidate_weighted_circumcenter_cache, Cell>)
+    cell.invalidate_weighted_circumcenter_cache();
+  if constexpr(is_valid<Call_reset_cache_validity, Cell>)
+    cell.reset_cache_validity();
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGULATION_CACHES_H

@@ -1,0 +1,77 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
+#include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
+#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
+
+#include <CGAL/Default.h>
+
+#include <tuple>
+#include <type_traits>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename T>
+constexpr bool is_sparse_solver =
+  is_valid<Call_analyze, T> && is_valid<Call_factorize, T> && is_valid<Call_solve, T>;
+
+template <typename T>
+using Types_of_sparse_linear_algebra =
+  std::tuple<typename T::NT, typename T::Matrix*, typename T::Vector*>;
+
+template <typename T>
+constexpr bool is_closest_rotation = is_valid<Call_closest_rotation, T>;
+
+template <typename T>
+using Types_of_closest_rotation_traits = std::tuple<typename T::Matrix*, typename T::Vector*>;
+
+// the model of ARAPSparseSolver for what a user gave, which may be a model of CGAL's concept
+template <typename T>
+struct Select_sparse_solver
+{
+  static_assert(is_sparse_solver<T> || is_valid<Types_of_sparse_linear_algebra, T>,
+                "The solver ST must be a model of ARAPSparseSolver (functions analyze, factorize, "
+                "solve) or of SparseLinearAlgebraWithFactorTraits_d (types NT, Matrix, Vector).");
+  using type = std::conditional_t<is_sparse_solver<T>, T, Sparse_linear_algebra_adaptor<T>>;
+};
+
+template <>
+struct Select_sparse_solver<Default> { using type = Default_solver; };
+
+// the model of ARAPClosestRotation_3 for what a user gave, which may be a model of CGAL's concept
+template <typename T>
+struct Select_closest_rotation
+{
+  static_assert(is_closest_rotation<T> || is_valid<Types_of_closest_rotation_traits, T>,
+                "The rotation CR must be a model of ARAPClosestRotation_3 (a function object for "
+                "arrays of matrices) or of DeformationClosestRotationTraits_3 (types Matrix, "
+                "Vector).");
+  using type =
+    std::conditional_t<is_closest_rotation<T>, T, Closest_rotation_traits_adaptor<T>>;
+};
+
+template <>
+struct Select_closest_rotation<Default> { using type = Default_closest_rotation; };
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H

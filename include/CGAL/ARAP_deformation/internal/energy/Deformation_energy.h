@@ -1,0 +1,225 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_DEFORMATION_ENERGY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_DEFORMATION_ENERGY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/energy/Cells.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The energy that is minimized,
+//   E(x, R) = sum over cells c, over edge sets u in c, over edges (i, j) in u of
+//             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2
+//           + sum over soft positions s of m_s || x_s - t_s ||^2,
+// with p the rest shape, x the current positions and t the targets. Edges are computed from the
+// positions, and all loops run over flat arrays, block by block and in parallel.
+class Deformation_energy
+{
+public:
+  Deformation_energy() = default;
+
+  // `cells` is a Star_energy or a Simplex_energy
+  template <typename CellEnergy>
+  Deformation_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
+                     int number_of_free_vertices, std::vector<Soft_position> soft_positions = {})
+    : m_cells(std::move(cells)), m_number_of_free_vertices(number_of_free_vertices),
+      m_soft_positions(std::move(soft_positions))
+  {
+    assign(m_rest, rest);
+    Bounding_box box;
+    box.include(rest);
+    m_squared_length = box.squared_length();
+    for_each_edge([&](int i, int j, double weight) {
+      const Coordinates edge = difference(rest[i], rest[j]);
+      m_sum_of_weights += std::abs(weight);
+      m_scale += std::abs(weight) * dot(edge, edge);
+    });
+  }
+
+  const std::vector<Soft_position>& soft_positions() const { return m_soft_positions; }
+
+  int number_of_free_vertices() const { return m_number_of_free_vertices; }
+
+  int number_of_cells() const
+  {
+    return std::visit([](const auto& cells) { return cells.number_of_cells(); }, m_cells);
+  }
+
+  int number_of_edge_sets() const
+  {
+    return std::visit([](const auto& cells) { return cells.number_of_edge_sets(); }, m_cells);
+  }
+
+  // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
+  // square of the size of what positions and targets span, if that is larger.
+  double scale(const Bounding_box& box) const
+  {
+    const double size = box.squared_length();
+    if(size <= m_squared_length)
+      return m_scale;
+    const double ratio = size / m_squared_length; // infinite for a rest shape in one point
+    return std::isfinite(ratio) ? m_scale * ratio : m_sum_of_weights * size;
+  }
+
+  // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
+  // is far below the rounding error of the scale. Of the soft positions only the targets count, to
+  // which positions may yet go: where a weight is larger than those of the edges, the point fits.
+  double rounding_level(const Bounding_box& box) const
+  {
+    const double error = 4 * rounding_error(box);
+    return m_sum_of_weights * error * error;
+  }
+
+  // What rounding the positions makes of the force at a free vertex, on average.
+  double rounding_error_of_force(const Bounding_box& box) const
+  {
+    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
+  }
+
+  // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
+  template <typename Function>
+  void for_each_edge(const Function& f) const
+  {
+    std::visit([&f](const auto& cells) { cells.for_each_edge(f); }, m_cells);
+  }
+
+  // Fits the rotations to the positions x, starting from those given, and returns the energy.
+  // `force` becomes minus half the gradient, for each free vertex. There is a target for each soft
+  // position.
+  template <typename ClosestRotation>
+  double evaluate(const ClosestRotation& closest_rotation, const std::vector<Coordinates>& x,
+                  std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force,
+                  const std::vector<Coordinates>& soft_targets = {})
+  {
+    assign(m_x, x);
+    std::visit([&](auto& cells) {
+      cells.prepare_covariances(m_rest.data(), m_x.data());
+      for_each_block(rotations.size(), [&](std::size_t begin, std::size_t end) {
+        std::array<Matrix_3x3, batch_size> covariances;
+        cells.compute_covariances(m_rest.data(), m_x.data(), static_cast<int>(begin),
+                                  static_cast<int>(end), covariances.data());
+        closest_rotation(end - begin, covariances.data(), rotations.data() + begin);
+      }, batch_size);
+    }, m_cells);
+    return evaluate_with(rotations, x, force, soft_targets);
+  }
+
+  // The same with the rotations given.
+  double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
+                  std::vector<Coordinates>& force,
+                  const std::vector<Coordinates>& soft_targets = {})
+  {
+    assign(m_x, x);
+    return evaluate_with(rotations, x, force, soft_targets);
+  }
+
+private:
+  static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
+
+  static double rounding_error(const Bounding_box& box) // of a position
+  {
+    return std::numeric_limits<double>::epsilon() * box.largest_coordinate();
+  }
+
+  // points, with a fourth coordinate that is zero, so that each is loaded at once
+  static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)
+  {
+    padded.resize(points.size());
+    for_each_block(points.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t k = begin; k < end; ++k)
+        padded[k] = Double4::of(points[k][0], points[k][1], points[k][2]);
+    }, 16 * default_block_size);
+  }
+
+  // m_x is x
+  double evaluate_with(const std::vector<Matrix_3x3>& rotations, const std::vector<Coordinates>& x,
+                       std::vector<Coordinates>& force,
+                       const std::vector<Coordinates>& soft_targets)
+  {
+    force.resize(m_number_of_free_vertices);
+    const double rigidity = std::visit([&](auto& cells) {
+      return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
+    }, m_cells);
+    return rigidity + pull(soft_targets, x, force);
+  }
+
+  // Returns the energy of the soft positions, and adds their forces.
+  double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
+              std::vector<Coordinates>& force) const
+  {
+    return sum_over_blocks(m_soft_positions.size(), [&](std::size_t begin, std::size_t end) {
+      double energy = 0;
+      for(std::size_t k = begin; k < end; ++k)
+      {
+        const auto& [v, weight] = m_soft_positions[k];
+        const Coordinates residual = difference(targets[k], x[v]);
+        add(force[v], weight, residual);
+        energy += weight * dot(residual, residual);
+      }
+      return energy;
+    });
+  }
+
+  std::variant<Star_energy, Simplex_energy> m_cells;
+  int m_number_of_free_vertices = 0;
+  std::vector<Soft_position> m_soft_positions;
+  std::vector<Double4> m_rest;
+  std::vector<Double4> m_x; // of the last evaluation
+  double m_scale = 0;          // in the rest shape
+  double m_squared_length = 0; // of the box of the rest shape
+  double m_sum_of_weights = 0;
+};
+
+template <typename EdgeWeight>
+Deformation_energy make_deformation_energy(const EdgeWeight& weight, Simplices simplices,
+                                           Cell_scheme scheme, const Region& region)
+{
+  const int n = region.number_of_free_vertices;
+  if(scheme.edge_set() == Edge_set::star)
+    return Deformation_energy(Star_energy(star_edge_sets(weight, simplices, region), n),
+                              region.rest, n, region.soft_positions);
+  simplices = simplex_edge_sets(weight, std::move(simplices), region);
+  Cells cells = scheme.grouped_at_vertices()
+                  ? vertex_cells(simplices.corners, region.number_of_centres)
+                  : separate_cells(region.number_of_free_simplices);
+  return Deformation_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest,
+                            n, region.soft_positions);
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_DEFORMATION_ENERGY_H

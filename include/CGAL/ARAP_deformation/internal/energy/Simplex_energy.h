@@ -1,0 +1,254 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SIMPLEX_ENERGY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SIMPLEX_ENERGY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/energy/Cells.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
+#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Simplices as the kernels read them.
+struct Simplex_view
+{
+  const int* first_corner;
+  const int* corners;
+  const int* first_weight;
+  const double* weights;
+  const Double4* rest;
+  const Double4* x;
+};
+
+// N is the number of corners of each simplex, or 0 where it differs.
+template <int N>
+struct Simplex_covariances_kernel
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Simplex_view& simplices, int begin, int end,
+                                          Matrix_3x3* covariances)
+  {
+    for(int s = begin; s < end; ++s)
+    {
+      const int first = simplices.first_corner[s];
+      const int n = N > 0 ? N : simplices.first_corner[s + 1] - first;
+      const int* corners = simplices.corners + first;
+      const double* weight = simplices.weights + simplices.first_weight[s];
+      Matrix_rows sum = Matrix_rows::zero();
+      for(int a = 0; a < n; ++a)
+        for(int b = a + 1; b < n; ++b, ++weight)
+        {
+          const int i = corners[a], j = corners[b];
+          sum.add_outer_product(Double4::all(*weight) * (simplices.x[i] - simplices.x[j]),
+                                simplices.rest[i] - simplices.rest[j]);
+        }
+      sum.store(covariances[s - begin]);
+    }
+  }
+};
+
+// The energies of simplices in all cells that they are in, and the forces on their corners: minus
+// the sum of k w r over the edges there and these cells, with r the residuals.
+template <int N>
+struct Simplex_residuals_kernel
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Simplex_view& simplices, int begin, int end,
+                                          const Index_lists& cells, const double* stiffness,
+                                          const Matrix_3x3* rotations, Double4* corner_forces,
+                                          double* energy)
+  {
+    Double4 energies = Double4::zero();
+    for(int s = begin; s < end; ++s)
+    {
+      const int first = simplices.first_corner[s];
+      const int n = N > 0 ? N : simplices.first_corner[s + 1] - first;
+      const int* corners = simplices.corners + first;
+      Double4 few_forces[N > 0 ? N : 1]; // in registers
+      Double4* forces = N > 0 ? few_forces : corner_forces + first;
+      Double4 simplex_energy = Double4::zero();
+      for(int a = 0; a < n; ++a)
+        forces[a] = Double4::zero();
+      for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+      {
+        const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
+        const double* weight = simplices.weights + simplices.first_weight[s];
+        for(int a = 0; a < n; ++a)
+          for(int b = a + 1; b < n; ++b, ++weight)
+          {
+            const int i = corners[a], j = corners[b];
+            const Double4 residual = subtract_product(simplices.x[i] - simplices.x[j], rotation,
+                                                      simplices.rest[i] - simplices.rest[j]);
+            const Double4 weighted = Double4::all(stiffness[cells.items[k]] * *weight) * residual;
+            simplex_energy = multiply_add(weighted, residual, simplex_energy);
+            forces[a] = forces[a] - weighted;
+            forces[b] = forces[b] + weighted;
+          }
+      }
+      energies = energies + simplex_energy; // sums of sums: less is lost in rounding
+      if(N > 0)
+        for(int a = 0; a < n; ++a)
+          corner_forces[first + a] = forces[a];
+    }
+    *energy = energies[0] + energies[1] + energies[2];
+  }
+};
+
+// Adds up for each vertex the forces on the corners that it is.
+struct Gather_kernel
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Index_lists& corners, int begin, int end,
+                                          const Double4* corner_forces, Coordinates* force)
+  {
+    for(int v = begin; v < end; ++v)
+    {
+      Double4 sum = Double4::zero();
+      for(int k = corners.begin[v]; k < corners.begin[v + 1]; ++k)
+        sum = sum + corner_forces[corners.items[k]];
+      force[v] = {sum[0], sum[1], sum[2]};
+    }
+  }
+};
+
+// The energy of cells that consist of simplices. The force of each simplex on each of its corners
+// has a place of its own, from where the vertices gather theirs: no two write to one place.
+class Simplex_energy
+{
+public:
+  Simplex_energy() = default;
+
+  Simplex_energy(Simplices simplices, Cells cells, int number_of_free_vertices)
+    : m_simplices(std::move(simplices)), m_cells(std::move(cells)),
+      m_cells_of_simplices(lists_with(m_cells.sets, m_simplices.size())),
+      m_corners_of_vertices(places_of(m_simplices.corners, number_of_free_vertices)),
+      m_corner_forces(m_simplices.corners.items.size())
+  {
+    for(int n : {3, 4})
+    {
+      bool are_alike = true;
+      for(int s = 0; s < m_simplices.size() && are_alike; ++s)
+        are_alike = m_simplices.number_of_corners(s) == n;
+      if(are_alike)
+        m_number_of_corners = n;
+    }
+    for(int c = 0; c < m_cells.size(); ++c)
+      m_is_each_a_cell &= m_cells.sets.begin[c + 1] == c + 1 && m_cells.sets.items[c] == c;
+    if(!m_is_each_a_cell)
+      m_covariances.resize(m_simplices.size());
+  }
+
+  int number_of_cells() const { return m_cells.size(); }
+  int number_of_edge_sets() const { return m_simplices.size(); }
+
+  // calls f(i, j, w) for each edge of each simplex, with w the sum over the cells of the simplex
+  template <typename Function>
+  void for_each_edge(const Function& f) const
+  {
+    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
+      double stiffness = 0;
+      for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
+        stiffness += m_cells.stiffness[m_cells_of_simplices.items[k]];
+      f(i, j, stiffness * w);
+    });
+  }
+
+  // to be called once before compute_covariances() is called for the same positions
+  void prepare_covariances(const Double4* rest, const Double4* x)
+  {
+    if(m_is_each_a_cell)
+      return;
+    for_each_block(m_simplices.size(), [&](std::size_t begin, std::size_t end) {
+      run<Simplex_covariances_kernel>(view(rest, x), static_cast<int>(begin),
+                                      static_cast<int>(end), m_covariances.data() + begin);
+    });
+  }
+
+  // for the cells in [begin, end)
+  void compute_covariances(const Double4* rest, const Double4* x, int begin, int end,
+                           Matrix_3x3* covariances) const
+  {
+    if(m_is_each_a_cell)
+      return run<Simplex_covariances_kernel>(view(rest, x), begin, end, covariances);
+    for(int c = begin; c < end; ++c)
+    {
+      Matrix_3x3& sum = covariances[c - begin];
+      sum.fill(0);
+      for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
+        for(int entry = 0; entry < 9; ++entry)
+          sum[entry] += m_covariances[m_cells.sets.items[k]][entry];
+    }
+  }
+
+  // Returns the energy; `force` becomes minus half its gradient, for each free vertex.
+  double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
+                  Coordinates* force)
+  {
+    const double energy =
+      sum_over_blocks(m_simplices.size(), [&](std::size_t begin, std::size_t end) {
+        double block_energy;
+        run<Simplex_residuals_kernel>(view(rest, x), static_cast<int>(begin),
+                                      static_cast<int>(end), m_cells_of_simplices,
+                                      m_cells.stiffness.data(), rotations, m_corner_forces.data(),
+                                      &block_energy);
+        return block_energy;
+      });
+    for_each_block(m_corners_of_vertices.size(), [&](std::size_t begin, std::size_t end) {
+      run_kernel<Gather_kernel>(m_corners_of_vertices, static_cast<int>(begin),
+                                static_cast<int>(end), m_corner_forces.data(), force);
+    });
+    return energy;
+  }
+
+private:
+  template <template <int> class Kernel, typename... Arguments>
+  void run(const Arguments&... arguments) const
+  {
+    switch(m_number_of_corners)
+    {
+    case 3: return run_kernel<Kernel<3>>(arguments...);
+    case 4: return run_kernel<Kernel<4>>(arguments...);
+    default: return run_kernel<Kernel<0>>(arguments...);
+    }
+  }
+
+  Simplex_view view(const Double4* rest, const Double4* x) const
+  {
+    return {m_simplices.corners.begin.data(), m_simplices.corners.items.data(),
+            m_simplices.first_weight.data(), m_simplices.weights.data(), rest, x};
+  }
+
+  Simplices m_simplices;
+  Cells m_cells;
+  Index_lists m_cells_of_simplices;
+  Index_lists m_corners_of_vertices; // places in the list of all corners, for each free vertex
+  std::vector<Double4> m_corner_forces;
+  std::vector<Matrix_3x3> m_covariances; // of the simplices; empty if each is a cell
+  int m_number_of_corners = 0; // of each simplex, 0 if they differ
+  bool m_is_each_a_cell = true;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SIMPLEX_ENERGY_H

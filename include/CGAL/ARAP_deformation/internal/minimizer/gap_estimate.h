@@ -1,0 +1,100 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_GAP_ESTIMATE_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_GAP_ESTIMATE_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Report.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// below this, a difference between two evaluations of the energy means nothing
+inline double energy_resolution(double energy, const Report& report)
+{
+  const double size = std::abs(energy);
+  return std::numeric_limits<double>::epsilon() * (size + report.energy_scale) +
+         16 * std::sqrt(size * report.rounding_level) + report.rounding_level;
+}
+
+// Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to
+// E*. The decreases of the last tenth of the run and those of the tenth before it are taken for two
+// terms of a geometric series, which is summed to its end. Two things keep the estimate from being
+// too small, which is worse than too large: terms are not believed to shrink to less than half, and
+// what counts is the largest of the sums that were found lately. A run often seems to be at its end
+// when it has only taken in what is local, or when it passes a saddle.
+class Gap_estimate
+{
+public:
+  // An energy of at most `zero`, its rounding error, is at its minimum.
+  explicit Gap_estimate(double zero = 0) : m_zero(zero) {}
+
+  void add(double decrease)
+  {
+    m_decreases.push_back(decrease);
+    m_gaps.push_back(extrapolated_gap());
+  }
+
+  // infinity where too little is known, or where the decreases do not shrink
+  double operator()(double energy) const
+  {
+    if(std::abs(energy) <= m_zero || (!m_decreases.empty() && m_decreases.back() == 0))
+      return 0;
+    const std::size_t n = share(15);
+    if(m_gaps.size() < n)
+      return infinity;
+    const double gap = *std::max_element(m_gaps.end() - n, m_gaps.end());
+    const double minimum = energy - gap;
+    return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), m_zero);
+  }
+
+private:
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  // some percent of the number of iterations, but not too few to tell anything
+  std::size_t share(std::size_t percent) const
+  {
+    return (std::max)(std::size_t(5), m_decreases.size() * percent / 100);
+  }
+
+  double extrapolated_gap() const
+  {
+    const std::size_t n = share(10);
+    if(m_decreases.size() < 2 * n)
+      return infinity;
+    const double last = std::accumulate(m_decreases.end() - n, m_decreases.end(), 0.0);
+    const double earlier = std::accumulate(m_decreases.end() - 2 * n, m_decreases.end() - n, 0.0);
+    if(std::abs(last) <= m_zero) // nothing but rounding is left
+      return 0;
+    const double ratio = (std::max)(last / earlier, 0.5);
+    return 0 < last && 0 < earlier && ratio < 1 ? last * ratio / (1 - ratio) : infinity;
+  }
+
+  double m_zero;
+  std::vector<double> m_decreases;
+  std::vector<double> m_gaps; // after each of them
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_GAP_ESTIMATE_H

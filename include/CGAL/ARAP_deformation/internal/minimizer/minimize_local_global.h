@@ -1,0 +1,72 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_LOCAL_GLOBAL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_LOCAL_GLOBAL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The iteration of the paper (Section 3): fit the rotations to the positions, then solve for the
+// free positions that minimize the energy with these rotations. Instead of L x = b the equation
+// L dx = b - L x is solved, whose right-hand side is minus half the gradient, so that the fixed
+// point does not depend on the accuracy of the factor.
+template <typename ClosestRotation, typename Solver>
+Status minimize_local_global(Minimization<ClosestRotation, Solver>& run)
+{
+  std::vector<Coordinates> step;
+  const auto force_along_step = [&] {
+    return sum_over_blocks(step.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for(std::size_t v = begin; v < end; ++v)
+        sum += dot(run.force()[v], step[v]);
+      return sum;
+    });
+  };
+  run.evaluate();
+  for(auto status = run.next_iterate();;)
+  {
+    if(status)
+      return *status;
+    double force_before = 0;
+    {
+      Scoped_seconds global(run.report.seconds.global_steps);
+      if(!run.solve(step))
+        return Status::solver_failed;
+      force_before = force_along_step();
+      for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
+        for(std::size_t v = begin; v < end; ++v)
+          add(run.x[v], 1, step[v]);
+      });
+    }
+    run.evaluate();
+    status = run.next_iterate(run.decrease([&] { return force_before; }, force_along_step));
+  }
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_LOCAL_GLOBAL_H

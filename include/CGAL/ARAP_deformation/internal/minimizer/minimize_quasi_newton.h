@@ -1,0 +1,106 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_QUASI_NEWTON_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_QUASI_NEWTON_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Moves the first points of x to before + ratio (x - before), as many as `before` has.
+inline void shorten(double ratio, const std::vector<Coordinates>& before,
+                    std::vector<Coordinates>& x)
+{
+  for_each_block(before.size(), [&](std::size_t begin, std::size_t end) {
+    for(std::size_t v = begin; v < end; ++v)
+      for(int k = 0; k < 3; ++k)
+        x[v][k] = before[v][k] + ratio * (x[v][k] - before[v][k]);
+  });
+}
+
+// L-BFGS with a multiple of the inverse Laplacian for the initial inverse Hessian (Liu, Bouaziz and
+// Kavan 2017). An iteration costs what one of local/global does, one local step and one solution,
+// unless its step has to be shortened, which costs a local step each time and is rare. Where
+// shortening does not help, or the model is of no use, the local/global step is taken, by which the
+// energy never rises, and the memory starts afresh.
+template <typename ClosestRotation, typename Solver>
+Status minimize_quasi_newton(Minimization<ClosestRotation, Solver>& run)
+{
+  Quasi_newton_memory memory(run.number_of_free_vertices, run.diameter, run.force_error);
+  std::vector<Coordinates> d, next_d, before(run.number_of_free_vertices);
+  double t = 0; // the share of the last step that was taken, 0 before the first one
+
+  run.evaluate();
+  for(auto status = run.next_iterate();;)
+  {
+    if(status)
+      return *status;
+    bool is_safe; // whether this is the step of local/global
+    double slope;
+    {
+      Scoped_seconds global(run.report.seconds.global_steps);
+      if(!run.solve(next_d))
+        return Status::solver_failed;
+      if(t > 0)
+        memory.remember(t, run.force(), d, next_d);
+      d.swap(next_d);
+      is_safe = memory.is_empty();
+      slope = memory.move(run.force(), d, run.x, before);
+    }
+    const auto replace = [&] {
+      is_safe = true;
+      slope = memory.move_by(d, before, run.x);
+      t = 1;
+    };
+    double decrease = 0;
+    const auto shorten_or_replace = [&] {
+      const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
+      const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
+      t *= ratio;
+      if(t < 0.05)
+        return replace();
+      shorten(ratio, before, run.x);
+    };
+    t = 1;
+    if(!is_safe && (!(slope > 0) || memory.went_too_far()))
+      replace();
+    for(;;)
+    {
+      run.evaluate();
+      decrease = run.decrease([&] { return t * slope; },
+                              [&] { return t * memory.slope(run.force()); });
+      if(is_safe || (run.is_not_higher() && decrease >= 2e-4 * t * slope)) // the Armijo condition
+        break;
+      shorten_or_replace();
+    }
+    status = run.next_iterate(decrease);
+  }
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_MINIMIZE_QUASI_NEWTON_H

@@ -1,0 +1,136 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_PARALLEL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_PARALLEL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+// All that knows of threads. With TBB (the target CGAL::TBB_support, which defines
+// CGAL_LINKED_WITH_TBB) work is done at the same time, without it one piece after the other. How
+// work is cut into pieces never depends on the number of threads, and so neither do the results.
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+#ifdef CGAL_LINKED_WITH_TBB
+// A reference to a function object of a type that is forgotten: TBB's templates are instantiated
+// for this one, and not for each piece of parallel work, which would take seconds to compile.
+class Task_reference
+{
+public:
+  template <typename Function>
+  explicit Task_reference(const Function& f) : m_function(&f), m_call(&call<Function>) {}
+
+  void operator()(std::size_t k) const { m_call(m_function, k); }
+
+private:
+  template <typename Function>
+  static void call(const void* f, std::size_t k)
+  {
+    (*static_cast<const Function*>(f))(k);
+  }
+
+  const void* m_function;
+  void (*m_call)(const void*, std::size_t);
+};
+
+inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_reference& f)
+{
+  const std::size_t available =
+    tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  tbb::task_arena arena(static_cast<int>((std::min<std::size_t>)(number_of_threads, available)));
+  arena.execute([&] { f(0); });
+}
+
+// A thread that waits for others here takes no work of the caller's own parallel loops meanwhile.
+inline void run_in_isolation(const Task_reference& f)
+{
+  tbb::this_task_arena::isolate([&] { f(0); });
+}
+
+inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
+{
+  tbb::parallel_for(std::size_t(0), n, f);
+}
+#endif
+
+// Calls f() with at most `number_of_threads` threads at work on what it runs in parallel; 0 for as
+// many as TBB takes by itself.
+template <typename Function>
+void run_with_threads(unsigned int number_of_threads, const Function& f)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  const auto task = [&](std::size_t) { f(); };
+  if(number_of_threads > 0)
+    run_with_tbb_threads(number_of_threads, Task_reference(task));
+  else
+    run_in_isolation(Task_reference(task));
+#else
+  static_cast<void>(number_of_threads);
+  f();
+#endif
+}
+
+// Calls f(k) for k in [0, n), in any order.
+template <typename Function>
+void for_each_task(std::size_t n, const Function& f)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  if(n > 1)
+    return for_each_tbb_task(n, Task_reference(f));
+#endif
+  for(std::size_t k = 0; k < n; ++k)
+    f(k);
+}
+
+// large enough to make the cost of a task negligible where each element costs ten nanoseconds
+constexpr std::size_t default_block_size = 1024;
+
+// Calls f(begin, end) for consecutive blocks of [0, n), in any order.
+template <typename Function>
+void for_each_block(std::size_t n, const Function& f, std::size_t block_size = default_block_size)
+{
+  for_each_task((n + block_size - 1) / block_size, [&](std::size_t k) {
+    f(k * block_size, (std::min)(n, (k + 1) * block_size));
+  });
+}
+
+// The sum of f(begin, end) over consecutive blocks of [0, n), added up in their order; f returns
+// numbers, or what can be added like numbers.
+template <typename Function>
+auto sum_over_blocks(std::size_t n, const Function& f, std::size_t block_size = default_block_size)
+{
+  using Value = decltype(f(n, n));
+  std::vector<Value> sums((n + block_size - 1) / block_size);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    sums[begin / block_size] = f(begin, end);
+  }, block_size);
+  return std::accumulate(sums.begin(), sums.end(), Value());
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_PARALLEL_H

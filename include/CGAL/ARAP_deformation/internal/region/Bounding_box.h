@@ -1,0 +1,71 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_BOUNDING_BOX_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_BOUNDING_BOX_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// the bounding box of points
+class Bounding_box
+{
+public:
+  void include(const std::vector<Coordinates>& points)
+  {
+    for(const Coordinates& p : points)
+      for(std::size_t c = 0; c < 3; ++c)
+      {
+        m_least[c] = (std::min)(m_least[c], p[c]);
+        m_most[c] = (std::max)(m_most[c], p[c]);
+      }
+  }
+
+  // of its diagonal; 0 without any points
+  double squared_length() const
+  {
+    const Coordinates diagonal = difference(m_most, m_least);
+    return diagonal[0] >= 0 ? dot(diagonal, diagonal) : 0;
+  }
+
+  // the largest absolute value of a coordinate
+  double largest_coordinate() const
+  {
+    double largest = 0;
+    if(m_least[0] <= m_most[0])
+      for(std::size_t c = 0; c < 3; ++c)
+        largest = (std::max)({largest, -m_least[c], m_most[c]});
+    return largest;
+  }
+
+private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  Coordinates m_least = {infinity, infinity, infinity};
+  Coordinates m_most = {-infinity, -infinity, -infinity};
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_BOUNDING_BOX_H

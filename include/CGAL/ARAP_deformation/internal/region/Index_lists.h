@@ -1,0 +1,102 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Lists of numbers: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
+struct Index_lists
+{
+  std::vector<int> begin = {0};
+  std::vector<int> items;
+
+  int size() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+// For each number below n what name(k, place) is where list k has it, at that place in `items`.
+template <typename Naming>
+Index_lists inverse(const Index_lists& groups, int n, const Naming& name)
+{
+  Index_lists result;
+  result.begin.assign(n + 1, 0);
+  for(int item : groups.items)
+    if(item < n)
+      ++result.begin[item + 1];
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.items.resize(result.begin.back());
+  std::vector<int> next(result.begin.begin(), result.begin.end() - 1);
+  for(int k = 0; k < groups.size(); ++k)
+    for(int place = groups.begin[k]; place < groups.begin[k + 1]; ++place)
+      if(const int item = groups.items[place]; item < n)
+        result.items[next[item]++] = name(k, place);
+  return result;
+}
+
+// for each place in `items` its list
+inline std::vector<int> list_of_each(const Index_lists& groups)
+{
+  std::vector<int> lists(groups.items.size());
+  for(int k = 0; k < groups.size(); ++k)
+    std::fill(lists.begin() + groups.begin[k], lists.begin() + groups.begin[k + 1], k);
+  return lists;
+}
+
+// for each number below n the lists that have it
+inline Index_lists lists_with(const Index_lists& groups, int n)
+{
+  return inverse(groups, n, [](int list, int) { return list; });
+}
+
+// for each number below n the places in `items` that have it
+inline Index_lists places_of(const Index_lists& groups, int n)
+{
+  return inverse(groups, n, [](int, int place) { return place; });
+}
+
+// Sorts pairs of a number and a value, in place, adds the values of those that have the same number
+// up, and returns how many are left. The sums do not depend on the order. Values may be no numbers.
+template <typename Iterator>
+int sort_and_add_up(Iterator begin, Iterator end)
+{
+  const auto value = [](const auto& pair) {
+    return std::isnan(pair.second) ? std::numeric_limits<double>::infinity() : pair.second;
+  };
+  std::sort(begin, end, [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : value(a) < value(b);
+  });
+  Iterator last = begin;
+  for(Iterator it = begin; it != end;)
+  {
+    auto sum = *it;
+    for(++it; it != end && it->first == sum.first; ++it)
+      sum.second += it->second;
+    *last++ = sum;
+  }
+  return static_cast<int>(last - begin);
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H

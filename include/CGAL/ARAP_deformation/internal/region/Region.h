@@ -1,0 +1,63 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_REGION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_REGION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// A free vertex that the term  weight || x - t ||^2  of the energy pulls to a target t.
+struct Soft_position
+{
+  int vertex;
+  double weight;
+};
+
+// What the numeric core knows of a mesh: the free vertices with two rings of simplices around them.
+// The free vertices come first, then their neighbours, then the neighbours of those. The first two
+// are the centres: the vertices whose simplices are all here. Every vertex that is not free is
+// fixed. The simplices that have a free vertex come first.
+struct Region
+{
+  int dimension = 2; // of the simplices: 2 for triangles and polygons, 3 for tetrahedra
+  int number_of_free_vertices = 0;
+  int number_of_centres = 0;
+  int number_of_free_simplices = 0;
+  std::vector<Coordinates> rest;    // for each vertex its position in the rest shape
+  std::vector<std::size_t> indices; // for each vertex its index in the mesh
+
+  // the corners of simplex s are corners[first_corner[s]] to corners[first_corner[s + 1] - 1],
+  // those of a polygon in their order around it
+  std::vector<int> first_corner = {0};
+  std::vector<int> corners;
+
+  std::vector<Soft_position> soft_positions; // each of another vertex
+
+  int number_of_vertices() const { return static_cast<int>(rest.size()); }
+  int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }
+  int number_of_corners(int s) const { return first_corner[s + 1] - first_corner[s]; }
+  const int* corners_of(int s) const { return corners.data() + first_corner[s]; }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_REGION_H

@@ -1,0 +1,85 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_VECTOR_ALGEBRA_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_VECTOR_ALGEBRA_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+inline double dot(const Coordinates& a, const Coordinates& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Coordinates cross(const Coordinates& a, const Coordinates& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline Coordinates scaled(const Coordinates& a, double factor)
+{
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+
+inline Coordinates difference(const Coordinates& a, const Coordinates& b)
+{
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+// target += factor * a
+inline void add(Coordinates& target, double factor, const Coordinates& a)
+{
+  target[0] += factor * a[0];
+  target[1] += factor * a[1];
+  target[2] += factor * a[2];
+}
+
+inline Coordinates product(const Matrix_3x3& m, const Coordinates& a)
+{
+  return {m[0] * a[0] + m[1] * a[1] + m[2] * a[2],
+          m[3] * a[0] + m[4] * a[1] + m[5] * a[2],
+          m[6] * a[0] + m[7] * a[1] + m[8] * a[2]};
+}
+
+constexpr Matrix_3x3 identity_matrix()
+{
+  return {1, 0, 0, 0, 1, 0, 0, 0, 1};
+}
+
+inline bool is_finite(const Coordinates& a)
+{
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+// the index of the first point with a coordinate that is infinite or not a number, or -1
+inline int find_non_finite(const std::vector<Coordinates>& points)
+{
+  for(std::size_t k = 0; k < points.size(); ++k)
+    if(!is_finite(points[k]))
+      return static_cast<int>(k);
+  return -1;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_VECTOR_ALGEBRA_H

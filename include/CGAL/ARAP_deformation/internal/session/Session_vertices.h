@@ -1,0 +1,221 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_VERTICES_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_VERTICES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The region of interest, the control vertices and their targets, the rest shape and the present
+// one. Vertices keep their entry when they leave the region of interest: they may have been moved,
+// and the entry knows the rest shape.
+template <typename Domain>
+class Session_vertices
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using Point = typename Domain::Point;
+
+  struct Entry
+  {
+    vertex_descriptor vertex;
+    int target; // its place in m_targets, if it was ever a control vertex
+    Point rest;
+    Point present;
+    bool is_roi = false;
+    bool is_control = false;
+  };
+
+  // the weight of the target of a control vertex that is put there, and not only pulled
+  static constexpr double hard = std::numeric_limits<double>::infinity();
+
+  explicit Session_vertices(Domain domain) : m_domain(std::move(domain)) {}
+
+  const Domain& domain() const { return m_domain; }
+
+  // the target of a control vertex
+  Point& target(const Entry& entry) { return m_targets[entry.target].point; }
+  const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
+
+  // the weight of the target of a control vertex
+  double& weight(const Entry& entry) { return m_targets[entry.target].weight; }
+  double weight(const Entry& entry) const { return m_targets[entry.target].weight; }
+
+  bool is_hard_control(const Entry& entry) const
+  {
+    return entry.is_control && weight(entry) == hard;
+  }
+
+  // whether a vertex is solved for, and has a term of its own in the energy
+  bool is_pulled(const Entry& entry) const
+  {
+    return entry.is_control && 0 < weight(entry) && weight(entry) < hard;
+  }
+
+  std::vector<Entry>& entries() { return m_entries; }
+  const std::vector<Entry>& entries() const { return m_entries; }
+
+  const Entry* find(vertex_descriptor v) const
+  {
+    const int slot = m_slots[m_domain.index(v)];
+    return slot == Paged_index_map::none ? nullptr : &m_entries[slot];
+  }
+
+  Entry* find(vertex_descriptor v)
+  {
+    return const_cast<Entry*>(std::as_const(*this).find(v));
+  }
+
+  // where v is: the domain knows the points of vertices only that were not yet moved
+  Point present(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry == nullptr ? m_domain.point(v) : entry->present;
+  }
+
+  // the entry of v if it is a control vertex, else nullptr
+  Entry* find_control(vertex_descriptor v)
+  {
+    Entry* entry = find(v);
+    return entry != nullptr && entry->is_control ? entry : nullptr;
+  }
+
+  bool is_roi(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry != nullptr && entry->is_roi;
+  }
+
+  bool is_control(vertex_descriptor v) const
+  {
+    const Entry* entry = find(v);
+    return entry != nullptr && entry->is_control;
+  }
+
+  // The functions that change the sets return whether they did.
+
+  bool insert_roi(vertex_descriptor v)
+  {
+    return !std::exchange(find_or_insert(v).is_roi, true);
+  }
+
+  bool insert_control(vertex_descriptor v)
+  {
+    const Entry* known = find(v);
+    if(known != nullptr && known->is_control)
+      return false;
+    // what can throw comes before what is changed
+    if(m_targets.size() == m_targets.capacity())
+      m_targets.reserve(2 * m_targets.size() + 1);
+    Target target = {present(v), hard};
+    Entry& entry = find_or_insert(v);
+    if(entry.target == no_target)
+    {
+      m_targets.push_back(std::move(target));
+      entry.target = static_cast<int>(m_targets.size()) - 1;
+    }
+    else
+      m_targets[entry.target] = std::move(target);
+    entry.is_roi = entry.is_control = true;
+    return true;
+  }
+
+  bool erase_roi(vertex_descriptor v)
+  {
+    if(!is_roi(v))
+      return false;
+    Entry& entry = find_or_insert(v);
+    entry.is_roi = entry.is_control = false;
+    return true;
+  }
+
+  bool erase_control(vertex_descriptor v)
+  {
+    Entry* entry = find_control(v);
+    return entry != nullptr && std::exchange(entry->is_control, false);
+  }
+
+  bool clear_roi()
+  {
+    bool is_change = false;
+    for(Entry& entry : m_entries)
+    {
+      is_change |= entry.is_roi;
+      entry.is_roi = entry.is_control = false;
+    }
+    return is_change;
+  }
+
+  bool clear_control()
+  {
+    bool is_change = false;
+    for(Entry& entry : m_entries)
+      is_change |= std::exchange(entry.is_control, false);
+    return is_change;
+  }
+
+  // the vertices whose entries fulfil a predicate, in the order in which they were first inserted
+  template <typename Predicate>
+  std::vector<vertex_descriptor> select(const Predicate& predicate) const
+  {
+    std::vector<vertex_descriptor> selected;
+    for(const Entry& entry : m_entries)
+      if(predicate(entry))
+        selected.push_back(entry.vertex);
+    return selected;
+  }
+
+private:
+  struct Target
+  {
+    Point point;
+    double weight;
+  };
+
+  static constexpr int no_target = -1;
+
+  Entry& find_or_insert(vertex_descriptor v)
+  {
+    const std::size_t index = m_domain.index(v);
+    int slot = m_slots[index];
+    if(slot == Paged_index_map::none)
+    {
+      slot = static_cast<int>(m_entries.size());
+      const Point point = m_domain.point(v);
+      m_slots.reserve(index); // so that what throws throws before anything is changed
+      m_entries.push_back({v, no_target, point, point});
+      m_slots.set(index, slot);
+    }
+    return m_entries[slot];
+  }
+
+  Domain m_domain;
+  Paged_index_map m_slots; // from Domain::index() to the place in m_entries
+  std::vector<Entry> m_entries;
+  std::vector<Target> m_targets;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_VERTICES_H

@@ -1,0 +1,81 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SIMD_MATRIX_3X3_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SIMD_MATRIX_3X3_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The columns of a 3 x 3 matrix: what is needed to multiply a vector. The fourth lane of each may
+// hold anything, and so may that of a product.
+struct Matrix_columns
+{
+  Double4 x, y, z;
+
+  CGAL_ARAP_ALWAYS_INLINE static Matrix_columns of(const Matrix_3x3& m)
+  {
+    const Double4 row_0 = Double4::load(m.data()), row_1 = Double4::load(m.data() + 3);
+    const Double4 row_2 = Double4::load(m.data() + 5); // with the number before it
+    const Double4 even = shuffle<0, 4, 2, 6>(row_0, row_1), odd = shuffle<1, 5, 3, 7>(row_0, row_1);
+    return {shuffle<0, 1, 5, 5>(even, row_2), shuffle<0, 1, 6, 6>(odd, row_2),
+            shuffle<2, 3, 7, 7>(even, row_2)};
+  }
+};
+
+// a - m b
+CGAL_ARAP_ALWAYS_INLINE Double4 subtract_product(const Double4& a, const Matrix_columns& m,
+                                                 const Double4& b)
+{
+  return negative_multiply_add(Double4::all(b[2]), m.z,
+         negative_multiply_add(Double4::all(b[1]), m.y,
+         negative_multiply_add(Double4::all(b[0]), m.x, a)));
+}
+
+// The rows of a 3 x 3 matrix, to which outer products are added.
+struct Matrix_rows
+{
+  Double4 x, y, z;
+
+  CGAL_ARAP_ALWAYS_INLINE static Matrix_rows zero()
+  {
+    return {Double4::zero(), Double4::zero(), Double4::zero()};
+  }
+
+  // adds a b^T
+  CGAL_ARAP_ALWAYS_INLINE void add_outer_product(const Double4& a, const Double4& b)
+  {
+    x = multiply_add(Double4::all(a[0]), b, x);
+    y = multiply_add(Double4::all(a[1]), b, y);
+    z = multiply_add(Double4::all(a[2]), b, z);
+  }
+
+  CGAL_ARAP_ALWAYS_INLINE void store(Matrix_3x3& m) const
+  {
+    x.store(m.data()); // the fourth number of each row is overwritten by the next one
+    y.store(m.data() + 3);
+    m[6] = z[0];
+    m[7] = z[1];
+    m[8] = z[2];
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SIMD_MATRIX_3X3_H

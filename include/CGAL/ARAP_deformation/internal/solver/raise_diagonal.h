@@ -1,0 +1,54 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+
+#include <limits>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// the diagonal entry of a column of a lower triangle: the first one
+inline double diagonal_entry(const Sparse_matrix& matrix, int column)
+{
+  return matrix.valuePtr()[matrix.outerIndexPtr()[column]];
+}
+
+inline double& diagonal_entry(Sparse_matrix& matrix, int column)
+{
+  return matrix.valuePtr()[matrix.outerIndexPtr()[column]];
+}
+
+// a bound of the rounding error of a sum, as a share of the sum of the absolute values
+constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon();
+
+// Raises the diagonal of a positive definite matrix that is to be factorized, given by its lower
+// triangle, by some units in the last place. Rounding changes each pivot by about that much of the
+// diagonal entry; where large weights hang on small ones nothing else may be left of it. A pivot
+// that is too small flings away what hangs there. One that is too large only makes the steps of
+// local/global shorter: they still have the same fixed points, and never raise the energy.
+inline void raise_diagonal(Sparse_matrix& matrix)
+{
+  for(int v = 0; v < matrix.cols(); ++v)
+    diagonal_entry(matrix, v) *= 1 + rounding_of_a_sum;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
