@@ -1,0 +1,12 @@
+# The library ARAP_deformation_core: what of the package is no template, compiled once. Programs that
+# are linked with it compile faster; without it the package is header-only.
+if(NOT TARGET ARAP_deformation_core)
+  include(${CMAKE_CURRENT_LIST_DIR}/ARAP_deformation_accelerators.cmake)
+  add_library(ARAP_deformation_core STATIC EXCLUDE_FROM_ALL
+              ${CMAKE_CURRENT_LIST_DIR}/../src/ARAP_deformation/core.cpp)
+  target_compile_features(ARAP_deformation_core PUBLIC cxx_std_17)
+  target_compile_definitions(ARAP_deformation_core PUBLIC CGAL_ARAP_DEFORMATION_COMPILED)
+  target_include_directories(ARAP_deformation_core PUBLIC ${CMAKE_CURRENT_LIST_DIR}/../include)
+  target_link_libraries(ARAP_deformation_core PUBLIC CGAL::CGAL CGAL::Eigen3_support
+                                                     ARAP_deformation_accelerators)
+endif()

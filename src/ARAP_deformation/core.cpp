@@ -1,0 +1,15 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// What is no template, compiled once: for the target ARAP_deformation_core.
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#define CGAL_ARAP_DEFORMATION_COMPILED
+#endif
