@@ -17,10 +17,11 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
+#include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Default.h>
@@ -128,7 +129,7 @@ public:
   /// inserts `v` in the region of interest. Returns `true` if it was not in it.
   bool insert_roi_vertex(vertex_descriptor v)
   {
-    return m_session.change_vertices([v](auto& vertices) { return vertices.insert_roi(v); });
+    return m_session.insert_roi(v);
   }
 
   /// inserts the vertices of a range in the region of interest.
@@ -142,20 +143,20 @@ public:
   /// it. The vertex stays where it is, `reset()` puts it back to the rest shape.
   bool erase_roi_vertex(vertex_descriptor v)
   {
-    return m_session.change_vertices([v](auto& vertices) { return vertices.erase_roi(v); });
+    return m_session.erase_roi(v);
   }
 
   /// erases all vertices from the region of interest and the control vertices.
   void clear_roi_vertices()
   {
-    m_session.change_vertices([](auto& vertices) { return vertices.clear_roi(); });
+    m_session.clear_roi();
   }
 
   /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Its target is
   /// where it is, with infinite weight. Returns `true` if it was no control vertex.
   bool insert_control_vertex(vertex_descriptor v)
   {
-    return m_session.change_vertices([v](auto& vertices) { return vertices.insert_control(v); });
+    return m_session.insert_control(v);
   }
 
   /// makes the vertices of a range control vertices.
@@ -168,13 +169,13 @@ public:
   /// makes the control vertex `v` a free one. Returns `true` if it was a control vertex.
   bool erase_control_vertex(vertex_descriptor v)
   {
-    return m_session.change_vertices([v](auto& vertices) { return vertices.erase_control(v); });
+    return m_session.erase_control(v);
   }
 
   /// makes all control vertices free ones.
   void clear_control_vertices()
   {
-    m_session.change_vertices([](auto& vertices) { return vertices.clear_control(); });
+    m_session.clear_control();
   }
 
   /// returns whether `v` is in the region of interest.

@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
-#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
+#include <CGAL/ARAP_deformation/internal/session/default_models.h>
+#include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/tags.h>

@@ -18,8 +18,8 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
-#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/session/default_models.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Named_function_parameters.h>

@@ -13,3 +13,6 @@
 #ifndef CGAL_ARAP_DEFORMATION_COMPILED
 #define CGAL_ARAP_DEFORMATION_COMPILED
 #endif
+
+#include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>

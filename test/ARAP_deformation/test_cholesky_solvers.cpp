@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif

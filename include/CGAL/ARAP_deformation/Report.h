@@ -35,6 +35,20 @@ struct Phase_seconds
 };
 
 /// \ingroup PkgARAPDeformationRun
+/// \brief tells which stages a call had to do again; all others served as they were.
+///
+/// Time: `region` and `order` are linear in the region, up to the ordering; `factor` is that of a
+/// sparse Cholesky factorization; `border` follows the number of changed vertices.
+struct Stages
+{
+  bool region = false;        ///< its vertices, simplices, weights and cells
+  bool order = false;         ///< the fill-reducing order and the pattern of the factor
+  bool factor = false;        ///< the numeric factorization
+  bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed
+  bool initial_guess = false; ///< the factorization for the initial guess
+};
+
+/// \ingroup PkgARAPDeformationRun
 /// \brief tells what a call of `CGAL::ARAP_deformation::deform()` or `CGAL::arap_deform()` did.
 ///
 /// Where `succeeded(status)` is `false` the mesh and the object are as they were before the call.
@@ -76,6 +90,8 @@ struct Report : Outcome
   /// a target. They stayed where they were, and are not counted above. Always empty for
   /// `Surface_mesh_deformation`, which refuses them.
   std::vector<std::size_t> unconstrained_components;
+
+  Stages stages; ///< what was done before the iterations, because of what had changed
 
   Phase_seconds seconds; ///< where the time went
 };

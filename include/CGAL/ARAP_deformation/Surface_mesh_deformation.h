@@ -16,9 +16,9 @@
 
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
-#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_deformation.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/select_model.h>
+#include <CGAL/ARAP_deformation/internal/session/default_models.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Surface_mesh_deformation.h>

@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/closest_rotation_requirements.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

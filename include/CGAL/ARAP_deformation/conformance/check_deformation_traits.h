@@ -17,7 +17,7 @@
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/check_edge_weight.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 
 #include <string>
 #include <vector>

@@ -17,7 +17,7 @@
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
 
 #include <algorithm>
 #include <cmath>

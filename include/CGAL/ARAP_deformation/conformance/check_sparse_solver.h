@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 
 #include <Eigen/SparseCore>
 

@@ -40,30 +40,30 @@ struct Domain_region
   std::vector<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
-  // Collects the region of the given free vertices, which differ, but for the positions of its
-  // vertices. Free vertices are numbered in breadth-first order, so that what is near in the mesh
+  // Collects the region of the given movable vertices, which differ, but for the positions of its
+  // vertices. Movable vertices are numbered in breadth-first order, so that what is near in the mesh
   // is near in memory. Returns false if there is something that is not a simplex:
   // refused_vertex() is at it.
-  bool collect(const Domain& domain, const std::vector<vertex_descriptor>& free_vertices)
+  bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices)
   {
     flat.dimension = Domain::dimension;
-    flat.number_of_free_vertices = static_cast<int>(free_vertices.size());
-    vertices = free_vertices;
-    flat.indices.resize(free_vertices.size());
-    for(vertex_descriptor v : free_vertices)
-      numbers.set(domain.index(v), free_without_number);
+    flat.number_of_movable_vertices = static_cast<int>(movable_vertices.size());
+    vertices = movable_vertices;
+    flat.indices.resize(movable_vertices.size());
+    for(vertex_descriptor v : movable_vertices)
+      numbers.set(domain.index(v), movable_without_number);
 
     int number_of_visited = 0;
-    for(vertex_descriptor v : free_vertices) // a seed in each component
+    for(vertex_descriptor v : movable_vertices) // a seed in each component
     {
       number(domain, v);
       if(!collect_simplices(domain, number_of_visited, m_number_of_found))
         return false;
       number_of_visited = m_number_of_found;
     }
-    flat.number_of_free_simplices = static_cast<int>(simplices.size());
+    flat.number_of_movable_simplices = static_cast<int>(simplices.size());
     flat.number_of_centres = static_cast<int>(vertices.size());
-    if(!collect_simplices(domain, flat.number_of_free_vertices, flat.number_of_centres))
+    if(!collect_simplices(domain, flat.number_of_movable_vertices, flat.number_of_centres))
       return false;
     first_simplex.push_back(static_cast<int>(simplices.size()));
     shrink();
@@ -94,13 +94,13 @@ struct Domain_region
   vertex_descriptor refused_vertex() const { return vertices[first_simplex.size() - 1]; }
 
 private:
-  static constexpr int free_without_number = -2;
+  static constexpr int movable_without_number = -2;
 
   int number(const Domain& domain, vertex_descriptor v)
   {
     const std::size_t index = domain.index(v);
     int n = numbers[index];
-    if(n == free_without_number)
+    if(n == movable_without_number)
     {
       n = m_number_of_found++;
       numbers.set(index, n);
@@ -117,7 +117,7 @@ private:
     return n;
   }
 
-  // Visits the vertices from `begin` to `end`, which moves on while free vertices are found. They
+  // Visits the vertices from `begin` to `end`, which moves on while movable vertices are found. They
   // are visited in the order of their numbers, and what is not yet numbered gets a larger number:
   // a simplex is met first at its smallest vertex.
   bool collect_simplices(const Domain& domain, int begin, const int& end)
@@ -160,7 +160,7 @@ private:
     first_simplex.shrink_to_fit();
   }
 
-  int m_number_of_found = 0; // free vertices that have a number
+  int m_number_of_found = 0; // movable vertices that have a number
 
   // whether there are as many corners as the dimension asks for, all different
   template <typename Iterator>

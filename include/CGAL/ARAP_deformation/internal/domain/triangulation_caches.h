@@ -14,7 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <type_traits>
 #include <utility>

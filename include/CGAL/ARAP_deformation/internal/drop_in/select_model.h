@@ -16,8 +16,10 @@
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
-#include <CGAL/ARAP_deformation/internal/concepts/concept_checks.h>
-#include <CGAL/ARAP_deformation/internal/concepts/default_models.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
+#include <CGAL/ARAP_deformation/internal/rotation/closest_rotation_requirements.h>
+#include <CGAL/ARAP_deformation/internal/session/default_models.h>
+#include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 
 #include <CGAL/Default.h>
 

@@ -16,14 +16,17 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/energy/Cells.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <algorithm>
@@ -39,12 +42,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The energy that is minimized,
+// The rigidity, the first sum of the energy that is minimized,
 //   E(x, R) = sum over cells c, over edge sets u in c, over edges (i, j) in u of
-//             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2
-//           + sum over soft positions s of m_s || x_s - t_s ||^2,
-// with p the rest shape, x the current positions and t the targets. Edges are computed from the
-// positions, and all loops run over flat arrays, block by block and in parallel.
+//             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2,
+// with p the rest shape and x the current positions. Cells in which nothing moves do not count. All
+// loops run over flat arrays, block by block and in parallel.
 class Deformation_energy
 {
 public:
@@ -53,9 +55,8 @@ public:
   // `cells` is a Star_energy or a Simplex_energy
   template <typename CellEnergy>
   Deformation_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
-                     int number_of_free_vertices, std::vector<Soft_position> soft_positions = {})
-    : m_cells(std::move(cells)), m_number_of_free_vertices(number_of_free_vertices),
-      m_soft_positions(std::move(soft_positions))
+                     int number_of_movable_vertices)
+    : m_cells(std::move(cells)), m_number_of_movable_vertices(number_of_movable_vertices)
   {
     assign(m_rest, rest);
     Bounding_box box;
@@ -68,18 +69,30 @@ public:
     });
   }
 
-  const std::vector<Soft_position>& soft_positions() const { return m_soft_positions; }
-
-  int number_of_free_vertices() const { return m_number_of_free_vertices; }
+  int number_of_movable_vertices() const { return m_number_of_movable_vertices; }
 
   int number_of_cells() const
   {
     return std::visit([](const auto& cells) { return cells.number_of_cells(); }, m_cells);
   }
 
-  int number_of_edge_sets() const
+  // Says which of the movable vertices are fixed. Only cells in which something moves count from now
+  // on, unless all shall; the others cost nothing, and their rotations become identities.
+  void set_fixed(const std::vector<char>& is_fixed, bool are_all_cells_counted,
+                 std::vector<Matrix_3x3>& rotations)
   {
-    return std::visit([](const auto& cells) { return cells.number_of_edge_sets(); }, m_cells);
+    const auto is_free = [&](int v) { return v < m_number_of_movable_vertices && !is_fixed[v]; };
+    std::vector<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
+    std::visit([&](auto& cells) {
+      for(int c = 0; c < number_of_cells(); ++c)
+      {
+        is_chosen[c] = are_all_cells_counted || cells.is_moving(c, is_free);
+        if(!is_chosen[c])
+          rotations[c] = identity_matrix();
+      }
+      cells.choose_cells(is_chosen);
+    }, m_cells);
+    m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
   }
 
   // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
@@ -94,18 +107,18 @@ public:
   }
 
   // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
-  // is far below the rounding error of the scale. Of the soft positions only the targets count, to
-  // which positions may yet go: where a weight is larger than those of the edges, the point fits.
+  // is far below the rounding error of the scale. Of the rows only the targets count, to which
+  // positions may yet go: where a weight is larger than those of the edges, the point fits.
   double rounding_level(const Bounding_box& box) const
   {
     const double error = 4 * rounding_error(box);
     return m_sum_of_weights * error * error;
   }
 
-  // What rounding the positions makes of the force at a free vertex, on average.
+  // what rounding the positions makes of the force at a movable vertex, on average
   double rounding_error_of_force(const Bounding_box& box) const
   {
-    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
+    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_movable_vertices);
   }
 
   // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
@@ -116,37 +129,34 @@ public:
   }
 
   // Fits the rotations to the positions x, starting from those given, and returns the energy.
-  // `force` becomes minus half the gradient, for each free vertex. There is a target for each soft
-  // position.
-  template <typename ClosestRotation>
-  double evaluate(const ClosestRotation& closest_rotation, const std::vector<Coordinates>& x,
-                  std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force,
-                  const std::vector<Coordinates>& soft_targets = {})
+  // `force` becomes minus half the gradient for each free vertex, and anything for a fixed one.
+  double fit_and_evaluate(const Closest_rotations& closest_rotations,
+                          const std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                          std::vector<Coordinates>& force)
   {
     assign(m_x, x);
     std::visit([&](auto& cells) {
       cells.prepare_covariances(m_rest.data(), m_x.data());
-      for_each_block(rotations.size(), [&](std::size_t begin, std::size_t end) {
+      m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        cells.compute_covariances(m_rest.data(), m_x.data(), static_cast<int>(begin),
-                                  static_cast<int>(end), covariances.data());
-        closest_rotation(end - begin, covariances.data(), rotations.data() + begin);
-      }, batch_size);
+        cells.compute_covariances(m_rest.data(), m_x.data(), begin, end, covariances.data());
+        closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
+                          rotations.data() + begin);
+      });
     }, m_cells);
-    return evaluate_with(rotations, x, force, soft_targets);
+    return evaluate(rotations, force);
   }
 
   // The same with the rotations given.
   double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
-                  std::vector<Coordinates>& force,
-                  const std::vector<Coordinates>& soft_targets = {})
+                  std::vector<Coordinates>& force)
   {
     assign(m_x, x);
-    return evaluate_with(rotations, x, force, soft_targets);
+    return evaluate(rotations, force);
   }
 
 private:
-  static constexpr std::size_t batch_size = 256; // cells whose covariances fit in a core's cache
+  static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
   static double rounding_error(const Bounding_box& box) // of a position
   {
@@ -163,59 +173,39 @@ private:
     }, 16 * default_block_size);
   }
 
-  // m_x is x
-  double evaluate_with(const std::vector<Matrix_3x3>& rotations, const std::vector<Coordinates>& x,
-                       std::vector<Coordinates>& force,
-                       const std::vector<Coordinates>& soft_targets)
+  // at the positions m_x
+  double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
   {
-    force.resize(m_number_of_free_vertices);
-    const double rigidity = std::visit([&](auto& cells) {
+    force.resize(m_number_of_movable_vertices);
+    return std::visit([&](auto& cells) {
       return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
     }, m_cells);
-    return rigidity + pull(soft_targets, x, force);
-  }
-
-  // Returns the energy of the soft positions, and adds their forces.
-  double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
-              std::vector<Coordinates>& force) const
-  {
-    return sum_over_blocks(m_soft_positions.size(), [&](std::size_t begin, std::size_t end) {
-      double energy = 0;
-      for(std::size_t k = begin; k < end; ++k)
-      {
-        const auto& [v, weight] = m_soft_positions[k];
-        const Coordinates residual = difference(targets[k], x[v]);
-        add(force[v], weight, residual);
-        energy += weight * dot(residual, residual);
-      }
-      return energy;
-    });
   }
 
   std::variant<Star_energy, Simplex_energy> m_cells;
-  int m_number_of_free_vertices = 0;
-  std::vector<Soft_position> m_soft_positions;
+  int m_number_of_movable_vertices = 0;
+  Index_ranges m_batches; // of the cells that count
   std::vector<Double4> m_rest;
-  std::vector<Double4> m_x; // of the last evaluation
+  std::vector<Double4> m_x;    // of the last evaluation
   double m_scale = 0;          // in the rest shape
-  double m_squared_length = 0; // of the box of the rest shape
+  double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;
 };
 
-template <typename EdgeWeight>
-Deformation_energy make_deformation_energy(const EdgeWeight& weight, Simplices simplices,
-                                           Cell_scheme scheme, const Region& region)
+inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,
+                                                  Simplices simplices, Cell_scheme scheme,
+                                                  const Region& region)
 {
-  const int n = region.number_of_free_vertices;
+  const int n = region.number_of_movable_vertices;
   if(scheme.edge_set() == Edge_set::star)
-    return Deformation_energy(Star_energy(star_edge_sets(weight, simplices, region), n),
-                              region.rest, n, region.soft_positions);
-  simplices = simplex_edge_sets(weight, std::move(simplices), region);
+    return Deformation_energy(Star_energy(star_edge_sets(model, simplices, region), n), region.rest,
+                              n);
+  simplices = simplex_edge_sets(model, std::move(simplices), region);
   Cells cells = scheme.grouped_at_vertices()
                   ? vertex_cells(simplices.corners, region.number_of_centres)
-                  : separate_cells(region.number_of_free_simplices);
+                  : separate_cells(region.number_of_movable_simplices);
   return Deformation_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest,
-                            n, region.soft_positions);
+                            n);
 }
 
 } // namespace internal

@@ -15,14 +15,15 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/energy/Cells.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -137,10 +138,10 @@ class Simplex_energy
 public:
   Simplex_energy() = default;
 
-  Simplex_energy(Simplices simplices, Cells cells, int number_of_free_vertices)
+  Simplex_energy(Simplices simplices, Cells cells, int number_of_movable_vertices)
     : m_simplices(std::move(simplices)), m_cells(std::move(cells)),
       m_cells_of_simplices(lists_with(m_cells.sets, m_simplices.size())),
-      m_corners_of_vertices(places_of(m_simplices.corners, number_of_free_vertices)),
+      m_corners_of_vertices(places_of(m_simplices.corners, number_of_movable_vertices)),
       m_corner_forces(m_simplices.corners.items.size())
   {
     for(int n : {3, 4})
@@ -158,8 +159,6 @@ public:
   }
 
   int number_of_cells() const { return m_cells.size(); }
-  int number_of_edge_sets() const { return m_simplices.size(); }
-
   // calls f(i, j, w) for each edge of each simplex, with w the sum over the cells of the simplex
   template <typename Function>
   void for_each_edge(const Function& f) const
@@ -172,14 +171,43 @@ public:
     });
   }
 
+  // whether a vertex of cell c moves; is_free(v) tells for all vertices
+  template <typename Predicate>
+  bool is_moving(int c, const Predicate& is_free) const
+  {
+    for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
+    {
+      const int s = m_cells.sets.items[k];
+      const auto corners = m_simplices.corners.items.begin();
+      if(std::any_of(corners + m_simplices.corners.begin[s],
+                     corners + m_simplices.corners.begin[s + 1], is_free))
+        return true;
+    }
+    return false;
+  }
+
+  // the cells that count
+  void choose_cells(const std::vector<char>& is_chosen)
+  {
+    m_stiffness = m_cells.stiffness;
+    for(int c = 0; c < m_cells.size(); ++c)
+      if(!is_chosen[c])
+        m_stiffness[c] = 0;
+    m_chosen.choose(m_simplices.size(), [&](int s) {
+      const auto cells = m_cells_of_simplices.items.begin();
+      return std::any_of(cells + m_cells_of_simplices.begin[s],
+                         cells + m_cells_of_simplices.begin[s + 1],
+                         [&](int c) { return is_chosen[c] != 0; });
+    }, static_cast<int>(default_block_size));
+  }
+
   // to be called once before compute_covariances() is called for the same positions
   void prepare_covariances(const Double4* rest, const Double4* x)
   {
     if(m_is_each_a_cell)
       return;
-    for_each_block(m_simplices.size(), [&](std::size_t begin, std::size_t end) {
-      run<Simplex_covariances_kernel>(view(rest, x), static_cast<int>(begin),
-                                      static_cast<int>(end), m_covariances.data() + begin);
+    m_chosen.for_each([&](int begin, int end) {
+      run<Simplex_covariances_kernel>(view(rest, x), begin, end, m_covariances.data() + begin);
     });
   }
 
@@ -199,19 +227,18 @@ public:
     }
   }
 
-  // Returns the energy; `force` becomes minus half its gradient, for each free vertex.
+  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each movable
+  // vertex that is in chosen cells only.
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
-    const double energy =
-      sum_over_blocks(m_simplices.size(), [&](std::size_t begin, std::size_t end) {
-        double block_energy;
-        run<Simplex_residuals_kernel>(view(rest, x), static_cast<int>(begin),
-                                      static_cast<int>(end), m_cells_of_simplices,
-                                      m_cells.stiffness.data(), rotations, m_corner_forces.data(),
-                                      &block_energy);
-        return block_energy;
-      });
+    const double energy = m_chosen.sum([&](int begin, int end) {
+      double range_energy;
+      run<Simplex_residuals_kernel>(view(rest, x), begin, end, m_cells_of_simplices,
+                                    m_stiffness.data(), rotations, m_corner_forces.data(),
+                                    &range_energy);
+      return range_energy;
+    });
     for_each_block(m_corners_of_vertices.size(), [&](std::size_t begin, std::size_t end) {
       run_kernel<Gather_kernel>(m_corners_of_vertices, static_cast<int>(begin),
                                 static_cast<int>(end), m_corner_forces.data(), force);
@@ -240,7 +267,9 @@ private:
   Simplices m_simplices;
   Cells m_cells;
   Index_lists m_cells_of_simplices;
-  Index_lists m_corners_of_vertices; // places in the list of all corners, for each free vertex
+  Index_lists m_corners_of_vertices; // places in the list of all corners, for each movable vertex
+  std::vector<double> m_stiffness;   // of the cells, 0 for those that do not count
+  Index_ranges m_chosen;             // the simplices of the other cells
   std::vector<Double4> m_corner_forces;
   std::vector<Matrix_3x3> m_covariances; // of the simplices; empty if each is a cell
   int m_number_of_corners = 0; // of each simplex, 0 if they differ

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
 #include <algorithm>
@@ -114,19 +115,33 @@ class Star_energy
 public:
   Star_energy() = default;
 
-  // All neighbours of the first `number_of_free_vertices` vertices have stars.
-  Star_energy(Stars stars, int number_of_free_vertices)
-    : m_stars(std::move(stars)), m_number_of_free_vertices(number_of_free_vertices)
+  // All neighbours of the first `number_of_movable_vertices` vertices have stars.
+  Star_energy(Stars stars, int number_of_movable_vertices)
+    : m_stars(std::move(stars)), m_number_of_movable_vertices(number_of_movable_vertices)
   {
     find_opposite_weights();
   }
 
   int number_of_cells() const { return m_stars.size(); }
-  int number_of_edge_sets() const { return m_stars.size(); }
-
   // calls f(i, j, w) for each edge of each cell
   template <typename Function>
   void for_each_edge(const Function& f) const { m_stars.for_each_edge(f); }
+
+  // whether a vertex of cell i moves; is_free(v) tells for all vertices
+  template <typename Predicate>
+  bool is_moving(int i, const Predicate& is_free) const
+  {
+    const auto begin = m_stars.neighbours.items.begin();
+    return is_free(i) || std::any_of(begin + m_stars.neighbours.begin[i],
+                                     begin + m_stars.neighbours.begin[i + 1], is_free);
+  }
+
+  // the cells that count
+  void choose_cells(const std::vector<char>& is_chosen)
+  {
+    m_chosen.choose(number_of_cells(), [&](int i) { return is_chosen[i] != 0; },
+                    static_cast<int>(default_block_size));
+  }
 
   // nothing to do: cells that consist of several edge sets have
   void prepare_covariances(const Double4*, const Double4*) {}
@@ -138,20 +153,20 @@ public:
     run_kernel<Star_covariances_kernel>(view(rest, x), begin, end, covariances);
   }
 
-  // Returns the energy; `force` becomes minus half its gradient, for each free vertex.
+  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each movable
+  // vertex that has neighbours in chosen cells only.
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
     const Star_view stars = view(rest, x);
-    return sum_over_blocks(number_of_cells(), [&](std::size_t begin, std::size_t end) {
-      const int first = static_cast<int>(begin), last = static_cast<int>(end);
-      const int middle = (std::max)(first, (std::min)(m_number_of_free_vertices, last));
-      double free_energy, fixed_energy;
-      run_kernel<Star_residuals_kernel<true>>(stars, first, middle, rotations, force,
-                                              &free_energy);
-      run_kernel<Star_residuals_kernel<false>>(stars, middle, last, rotations, force,
-                                               &fixed_energy);
-      return free_energy + fixed_energy;
+    return m_chosen.sum([&](int begin, int end) {
+      const int middle = (std::max)(begin, (std::min)(m_number_of_movable_vertices, end));
+      double movable_energy, other_energy;
+      run_kernel<Star_residuals_kernel<true>>(stars, begin, middle, rotations, force,
+                                              &movable_energy);
+      run_kernel<Star_residuals_kernel<false>>(stars, middle, end, rotations, force,
+                                               &other_energy);
+      return movable_energy + other_energy;
     });
   }
 
@@ -159,9 +174,9 @@ private:
   // Most weights are symmetric: then there is nothing else to store.
   void find_opposite_weights()
   {
-    std::vector<double> opposite(m_stars.neighbours.begin[m_number_of_free_vertices]);
+    std::vector<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
     bool is_symmetric = true;
-    for(int i = 0; i < m_number_of_free_vertices; ++i)
+    for(int i = 0; i < m_number_of_movable_vertices; ++i)
       for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
       {
         opposite[e] = m_stars.weights[m_stars.find(m_stars.neighbours.items[e], i)];
@@ -180,8 +195,9 @@ private:
   }
 
   Stars m_stars;
-  std::vector<double> m_opposite_weights; // of the free vertices; empty if they are the same
-  int m_number_of_free_vertices = 0;
+  std::vector<double> m_opposite_weights; // of the movable vertices; empty if they are the same
+  int m_number_of_movable_vertices = 0;
+  Index_ranges m_chosen;
 };
 
 } // namespace internal

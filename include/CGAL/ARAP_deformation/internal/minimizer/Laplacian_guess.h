@@ -15,16 +15,19 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-#include <CGAL/ARAP_deformation/internal/solver/raise_diagonal.h>
+#include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
+#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -35,20 +38,24 @@ namespace internal {
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
-// are constant. Vertices that are pulled to targets are put there.
-template <typename Solver>
+// are constant. Vertices that are pulled to targets are put there; other rows are not considered.
 class Laplacian_guess
 {
 public:
-  Laplacian_guess(Stars stars, const Region& region, Solver solver)
+  Laplacian_guess(Stars stars, const Region& region, const Constraints& constraints,
+                  std::unique_ptr<Linear_solver> solver)
     : m_stars(std::move(stars)), m_rest_laplacian(laplacian(region.rest)),
       m_row(region.number_of_vertices(), none), m_solver(std::move(solver))
   {
-    for(const Soft_position& soft : region.soft_positions)
-      m_soft_vertices.push_back(soft.vertex);
-    std::fill_n(m_row.begin(), region.number_of_free_vertices, 0);
-    for(int v : m_soft_vertices)
-      m_row[v] = none;
+    for(int v = 0; v < region.number_of_movable_vertices; ++v)
+      if(!constraints.is_fixed[v])
+        m_row[v] = 0;
+    for(int r = 0; r < constraints.rows.size(); ++r)
+      if(const int v = constraints.rows.position(r); v >= 0 && m_row[v] == 0)
+      {
+        m_soft_positions.push_back({v, r});
+        m_row[v] = none;
+      }
     int number_of_rows = 0;
     for(int& row : m_row)
       if(row != none)
@@ -63,21 +70,21 @@ public:
     Sparse_matrix columns(m_stars.size(), number_of_rows); // of L, of the free vertices
     columns.setFromTriplets(entries.begin(), entries.end());
     Sparse_matrix normal =
-      (Sparse_matrix(columns.transpose()) * columns).template triangularView<Eigen::Lower>();
+      (Sparse_matrix(columns.transpose()) * columns).triangularView<Eigen::Lower>();
     raise_diagonal(normal);
     bound_steps(normal);
     m_is_factorized =
-      number_of_rows == 0 || (m_solver.analyze(normal) && m_solver.factorize(normal));
+      number_of_rows == 0 || (m_solver->analyze(normal) && m_solver->factorize(normal));
   }
 
   bool is_factorized() const { return m_is_factorized; }
 
-  // Moves the free vertices of x; `soft_targets` are the targets of the soft positions. Returns
-  // false if the solver failed.
-  bool operator()(const std::vector<Coordinates>& soft_targets, std::vector<Coordinates>& x)
+  // Moves the free vertices of x; there is a target for each row of the constraints. Returns false if
+  // the solver failed.
+  bool operator()(const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
   {
-    for(std::size_t k = 0; k < m_soft_vertices.size(); ++k)
-      x[m_soft_vertices[k]] = soft_targets[k];
+    for(const auto& [v, row] : m_soft_positions)
+      x[v] = targets[row];
     if(m_step.empty())
       return true;
     // The condition number of L^T L is the square of that of L: further passes refine the first
@@ -86,7 +93,7 @@ public:
     for(int pass = 0; pass < 8; ++pass)
     {
       compute_right_hand_side(x);
-      if(!m_solver.solve(m_step.size(), m_step.data()))
+      if(!m_solver->solve(m_step.size(), m_step.data()))
         return false;
       double size = 0;
       for(std::size_t v = 0; v < m_row.size(); ++v)
@@ -148,10 +155,10 @@ private:
 
   Stars m_stars;
   std::vector<Coordinates> m_rest_laplacian; // L p, for each star
-  std::vector<int> m_soft_vertices;
+  std::vector<std::pair<int, int>> m_soft_positions; // vertices and the rows that pull them
   std::vector<int> m_row;          // for each vertex its row in the system, if it has one
   std::vector<Coordinates> m_step; // for each row
-  Solver m_solver;
+  std::unique_ptr<Linear_solver> m_solver;
   bool m_is_factorized = false;
 };
 

@@ -18,14 +18,16 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,36 +35,35 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// `observe(k, E_k)` is called after iteration k, and after the initial evaluation with k = 0. Its
-// type is erased: what a mesh and its visitor are makes no difference here, and costs no compile
-// time.
-using Observer = std::function<Visitor_action(unsigned int, double)>;
-
-// What all minimizers have in common: the local step, the solution for the global step, and what is
-// observed, reported and tested after each iteration. The solver holds the factorized Laplacian L
-// of the first `number_of_free_vertices` vertices.
-template <typename ClosestRotation, typename Solver>
+// What all minimizers have in common: the energy that is minimized, the rigidity and the pull of the
+// constraints; the local step, the solution for the global step, and what is observed, reported and
+// tested after each iteration. Forces and steps are those of all movable vertices, the first ones;
+// they are zero where a vertex is fixed.
 class Minimization
 {
 public:
   std::vector<Coordinates>& x;
-  const std::size_t number_of_free_vertices;
+  const std::size_t number_of_vertices; // that are movable
   Report& report;
+  const Options& options;
   double force_error; // the rounding error of the force at a vertex
   double diameter;    // of positions and targets
 
-  Minimization(Deformation_energy& energy, const ClosestRotation& closest_rotation, Solver& solver,
-               std::size_t number_of_free_vertices_, const Options& options,
-               const Observer& observe, const std::vector<Coordinates>& soft_targets,
-               std::vector<Coordinates>& x_,
-               std::vector<Matrix_3x3>& rotations, Report& report_)
-    : x(x_), number_of_free_vertices(number_of_free_vertices_), report(report_),
-      m_energy(energy), m_closest_rotation(closest_rotation), m_solver(solver),
-      m_options(options), m_observe(observe), m_soft_targets(soft_targets), m_rotations(rotations)
+  // there is a target for each row of the constraints
+  Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
+               Constrained_system& system, const Constraints& constraints, const Options& options_,
+               const Observer& observe, const std::vector<Coordinates>& targets,
+               std::vector<Coordinates>& x_, std::vector<Matrix_3x3>& rotations, Report& report_)
+    : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
+      m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
+      m_rows(constraints.rows), m_observe(observe), m_targets(targets), m_rotations(rotations)
   {
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+      if(constraints.is_fixed[v])
+        m_fixed_vertices.push_back(static_cast<int>(v));
     Bounding_box box;
     box.include(x);
-    box.include(soft_targets);
+    box.include(targets);
     report.energy_scale = energy.scale(box);
     report.rounding_level = energy.rounding_level(box);
     diameter = std::sqrt(box.squared_length());
@@ -73,9 +74,17 @@ public:
   double evaluate()
   {
     Scoped_seconds local(report.seconds.local_steps);
-    return m_value = m_energy.evaluate(m_closest_rotation, x, m_rotations, m_force,
-                                        m_soft_targets);
+    return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
+
+  // the energy at x with the rotations that there are
+  double evaluate_without_fit()
+  {
+    Scoped_seconds local(report.seconds.local_steps);
+    return complete(m_energy.evaluate(x, m_rotations, m_force));
+  }
+
+  bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }
 
   // minus half the gradient where the energy was last evaluated
   const std::vector<Coordinates>& force() const { return m_force; }
@@ -83,8 +92,8 @@ public:
   // Computes the local/global step, the solution of L step = force.
   bool solve(std::vector<Coordinates>& step)
   {
-    step.assign(m_force.begin(), m_force.begin() + number_of_free_vertices);
-    return m_solver.solve(number_of_free_vertices, step.data());
+    step = m_force;
+    return m_system.solve(step);
   }
 
   // By how much the energy has decreased by a step s since the last iterate. Near the minimum the
@@ -122,8 +131,7 @@ public:
       return Status::non_finite_energy;
     if(is_far_higher())
       return Status::solver_failed;
-    const bool is_nothing_free = number_of_free_vertices == 0; // then there is nothing to solve
-    report.estimated_relative_gap = is_nothing_free ? 0 : m_gap(m_value);
+    report.estimated_relative_gap = is_nothing_free() ? 0 : m_gap(m_value);
 
     switch(m_observe(report.iterations, m_value))
     {
@@ -131,15 +139,24 @@ public:
     case Visitor_action::cancel: return Status::cancelled;
     case Visitor_action::proceed: break;
     }
-    if(is_nothing_free || (m_options.tolerance > 0 &&
-                           report.estimated_relative_gap <= m_options.tolerance))
+    if(is_nothing_free() || (options.tolerance > 0 &&
+                             report.estimated_relative_gap <= options.tolerance))
       return Status::converged;
-    if(report.iterations == m_options.iterations)
+    if(report.iterations == options.iterations)
       return Status::iteration_limit;
     return std::nullopt;
   }
 
 private:
+  // adds the pull of the rows to the rigidity, and leaves forces at free vertices only
+  double complete(double rigidity)
+  {
+    m_value = rigidity + m_rows.pull(m_targets, x, m_force);
+    for(int v : m_fixed_vertices)
+      m_force[v] = {0, 0, 0};
+    return m_value;
+  }
+
   // Whether the last iterate's energy has risen by far more than rounding errors: what the solver
   // returns is nothing like the solution, which lowers it.
   bool is_far_higher() const
@@ -151,11 +168,12 @@ private:
   }
 
   Deformation_energy& m_energy;
-  const ClosestRotation& m_closest_rotation;
-  Solver& m_solver;
-  const Options& m_options;
+  const Closest_rotations& m_closest_rotations;
+  Constrained_system& m_system;
+  const Weighted_rows& m_rows;
+  std::vector<int> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
-  const std::vector<Coordinates>& m_soft_targets;
+  const std::vector<Coordinates>& m_targets;
   std::vector<Matrix_3x3>& m_rotations;
   std::vector<Coordinates> m_force;
   double m_value = 0;

@@ -32,8 +32,7 @@ namespace internal {
 // free positions that minimize the energy with these rotations. Instead of L x = b the equation
 // L dx = b - L x is solved, whose right-hand side is minus half the gradient, so that the fixed
 // point does not depend on the accuracy of the factor.
-template <typename ClosestRotation, typename Solver>
-Status minimize_local_global(Minimization<ClosestRotation, Solver>& run)
+inline Status minimize_local_global(Minimization& run)
 {
   std::vector<Coordinates> step;
   const auto force_along_step = [&] {

@@ -45,11 +45,10 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 // unless its step has to be shortened, which costs a local step each time and is rare. Where
 // shortening does not help, or the model is of no use, the local/global step is taken, by which the
 // energy never rises, and the memory starts afresh.
-template <typename ClosestRotation, typename Solver>
-Status minimize_quasi_newton(Minimization<ClosestRotation, Solver>& run)
+inline Status minimize_quasi_newton(Minimization& run)
 {
-  Quasi_newton_memory memory(run.number_of_free_vertices, run.diameter, run.force_error);
-  std::vector<Coordinates> d, next_d, before(run.number_of_free_vertices);
+  Quasi_newton_memory memory(run.number_of_vertices, run.diameter, run.force_error);
+  std::vector<Coordinates> d, next_d, before(run.number_of_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
   run.evaluate();

@@ -24,7 +24,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Lists of numbers: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
+// Lists of indices: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
 struct Index_lists
 {
   std::vector<int> begin = {0};
@@ -35,42 +35,42 @@ struct Index_lists
 
 // For each number below n what name(k, place) is where list k has it, at that place in `items`.
 template <typename Naming>
-Index_lists inverse(const Index_lists& groups, int n, const Naming& name)
+Index_lists inverse(const Index_lists& lists, int n, const Naming& name)
 {
   Index_lists result;
   result.begin.assign(n + 1, 0);
-  for(int item : groups.items)
+  for(int item : lists.items)
     if(item < n)
       ++result.begin[item + 1];
   std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
   result.items.resize(result.begin.back());
   std::vector<int> next(result.begin.begin(), result.begin.end() - 1);
-  for(int k = 0; k < groups.size(); ++k)
-    for(int place = groups.begin[k]; place < groups.begin[k + 1]; ++place)
-      if(const int item = groups.items[place]; item < n)
+  for(int k = 0; k < lists.size(); ++k)
+    for(int place = lists.begin[k]; place < lists.begin[k + 1]; ++place)
+      if(const int item = lists.items[place]; item < n)
         result.items[next[item]++] = name(k, place);
   return result;
 }
 
 // for each place in `items` its list
-inline std::vector<int> list_of_each(const Index_lists& groups)
+inline std::vector<int> list_of_each(const Index_lists& lists)
 {
-  std::vector<int> lists(groups.items.size());
-  for(int k = 0; k < groups.size(); ++k)
-    std::fill(lists.begin() + groups.begin[k], lists.begin() + groups.begin[k + 1], k);
-  return lists;
+  std::vector<int> list_of(lists.items.size());
+  for(int k = 0; k < lists.size(); ++k)
+    std::fill(list_of.begin() + lists.begin[k], list_of.begin() + lists.begin[k + 1], k);
+  return list_of;
 }
 
 // for each number below n the lists that have it
-inline Index_lists lists_with(const Index_lists& groups, int n)
+inline Index_lists lists_with(const Index_lists& lists, int n)
 {
-  return inverse(groups, n, [](int list, int) { return list; });
+  return inverse(lists, n, [](int list, int) { return list; });
 }
 
 // for each number below n the places in `items` that have it
-inline Index_lists places_of(const Index_lists& groups, int n)
+inline Index_lists places_of(const Index_lists& lists, int n)
 {
-  return inverse(groups, n, [](int, int place) { return place; });
+  return inverse(lists, n, [](int, int place) { return place; });
 }
 
 // Sorts pairs of a number and a value, in place, adds the values of those that have the same number

@@ -23,23 +23,16 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A free vertex that the term  weight || x - t ||^2  of the energy pulls to a target t.
-struct Soft_position
-{
-  int vertex;
-  double weight;
-};
-
-// What the numeric core knows of a mesh: the free vertices with two rings of simplices around them.
-// The free vertices come first, then their neighbours, then the neighbours of those. The first two
-// are the centres: the vertices whose simplices are all here. Every vertex that is not free is
-// fixed. The simplices that have a free vertex come first.
+// What the numeric core knows of a mesh: the vertices that may move, with two rings of simplices
+// around them. Those vertices come first, then their neighbours, then the neighbours of those. The
+// first two are the centres: the vertices whose simplices are all here. Which of the vertices that
+// may move are fixed is not said here, and may change.
 struct Region
 {
   int dimension = 2; // of the simplices: 2 for triangles and polygons, 3 for tetrahedra
-  int number_of_free_vertices = 0;
+  int number_of_movable_vertices = 0;
   int number_of_centres = 0;
-  int number_of_free_simplices = 0;
+  int number_of_movable_simplices = 0; // those that have a movable vertex, which come first
   std::vector<Coordinates> rest;    // for each vertex its position in the rest shape
   std::vector<std::size_t> indices; // for each vertex its index in the mesh
 
@@ -47,8 +40,6 @@ struct Region
   // those of a polygon in their order around it
   std::vector<int> first_corner = {0};
   std::vector<int> corners;
-
-  std::vector<Soft_position> soft_positions; // each of another vertex
 
   int number_of_vertices() const { return static_cast<int>(rest.size()); }
   int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }

@@ -20,15 +20,15 @@
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
+#include <CGAL/ARAP_deformation/internal/session/core_models.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
-#include <CGAL/ARAP_deformation/internal/solver/Laplacian_solver.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,166 +37,230 @@ namespace ARAP {
 namespace internal {
 
 // What is computed from the vertices of a session before a run: the region, the positions of its
-// vertices, and the core.
+// vertices, and the core with the constraints. The one place that decides what a change costs.
 template <typename Domain, typename Traits>
 class Prepared_region
 {
 public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Vertices = Session_vertices<Domain>;
-  using Core = Deformation_core<Traits>;
 
-  // the core, or nullptr if there is none that is up to date
-  Core* core() { return m_core ? &*m_core : nullptr; }
-  const Core* core() const { return m_core ? &*m_core : nullptr; }
+  explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
 
-  const Domain_region<Domain>& region() const { return m_region; }
+  // Whether there is a region for the present region of interest, cells and rest shape.
+  bool has_region() const { return m_prepared && !m_is_region_stale; }
+
+  // These need has_region().
+  const Domain_region<Domain>& region() const { return m_prepared->region; }
+  Deformation_core& core() { return *m_prepared->core; }
+  const Deformation_core& core() const { return *m_prepared->core; }
 
   // of the vertices of the region
-  std::vector<Coordinates>& positions() { return m_positions; }
+  std::vector<Coordinates>& positions() { return m_prepared->positions; }
 
-  // the smallest index of the vertices of each component of the region that nothing holds
-  const std::vector<std::size_t>& unconstrained_components() const
-  {
-    return m_unconstrained_components;
-  }
+  // for each row of the constraints the number of its vertex in the region
+  const std::vector<int>& soft_vertices() const { return m_soft_vertices; }
 
-  // To be called when what the core was made of changes. Its factor may be of use for other free
-  // vertices, but not for other weights.
-  void discard(bool are_weights_the_same)
-  {
-    if(!are_weights_the_same)
-      m_idle_solver = {};
-    else if(m_core)
-      m_idle_solver = m_core->take_solver();
-    m_core.reset();
-  }
+  // To be called when vertices were fixed or freed, or the weight of a target was changed.
+  void constraints_changed() { m_are_constraints_stale = true; }
 
-  // Makes the core for all that is fixed, unless it is up to date. What nothing holds stays where
-  // it is, unless there is nothing else.
-  Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options)
+  // To be called when the region of interest, the cells or the rest shape were changed.
+  void region_changed() { m_is_region_stale = m_are_constraints_stale = true; }
+
+  // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
+  Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options,
+                  Stages& stages)
   {
-    if(m_core)
+    if(!m_are_constraints_stale)
       return outcome(Status::success);
     const auto& entries = vertices.entries();
-    const auto is_there = [&](const auto& predicate) {
-      return std::any_of(entries.begin(), entries.end(), predicate);
-    };
-    const auto is_roi = [](const auto& e) { return e.is_roi; };
-    const auto is_tied = [&](const auto& e) {
-      return e.is_roi && !vertices.domain().is_isolated(e.vertex);
-    };
-    if(is_there(is_roi) && !is_there(is_tied))
+    std::size_t roi_size = 0, number_of_fixed = 0;
+    for(const auto& entry : entries)
+    {
+      roi_size += entry.is_roi;
+      number_of_fixed += vertices.is_hard_control(entry);
+    }
+    if(roi_size > 0 && std::all_of(entries.begin(), entries.end(), [&](const auto& e) {
+         return !e.is_roi || vertices.domain().is_isolated(e.vertex);
+       }))
       return outcome(Status::no_simplex);
 
-    const auto is_hard = [&](const auto& e) { return vertices.is_hard_control(e); };
-    std::vector<vertex_descriptor> free_vertices = vertices.select([&](const auto& e) {
-      return !is_hard(e) && (is_tied(e) || vertices.is_pulled(e));
-    });
-    std::vector<std::size_t> unconstrained_components;
-    Outcome prepared = prepare(vertices, traits, options, free_vertices, unconstrained_components);
-    if(prepared.status == Status::no_fixed_vertex &&
-       (!free_vertices.empty() || is_there(is_hard)))
-      prepared = prepare(vertices, traits, options, free_vertices, unconstrained_components);
-    return prepared;
+    std::optional<Prepared> next;
+    if(needs_region(vertices, roi_size, number_of_fixed))
+    {
+      stages.region = true;
+      if(m_prepared)
+        m_prepared->core->release_factor(); // there are never two
+      next.emplace();
+      next->is_whole = is_whole(roi_size, number_of_fixed);
+      if(Outcome made = make_region(vertices, traits, options, *next); !made)
+        return made;
+    }
+    Prepared& prepared = next ? *next : *m_prepared;
+    std::vector<int> soft_vertices;
+    const Diagnosis diagnosis = prepared.core->set_constraints(
+      collect_constraints(vertices, prepared, soft_vertices),
+      m_rules.are_unconstrained_refused ? Unconstrained_components::refused
+      : number_of_fixed > 0             ? Unconstrained_components::fixed
+                                        : Unconstrained_components::fixed_beside_others,
+      options.threads, stages);
+    Outcome result = explain(diagnosis, vertices.domain(), prepared);
+    if(!result)
+      return result;
+    if(next)
+    {
+      if(m_rules.are_targets_and_rotations_kept && m_prepared)
+        take_over_rotations(vertices.domain(), *next);
+      m_prepared = std::move(next);
+    }
+    m_soft_vertices = std::move(soft_vertices);
+    m_is_region_stale = m_are_constraints_stale = false;
+    return result;
   }
 
   // a sentence on what the core found
   Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
   {
-    return explain(diagnosis, domain, m_region, *m_core);
+    return explain(diagnosis, domain, *m_prepared);
   }
 
 private:
-  using Region_ = Domain_region<Domain>;
+  struct Prepared
+  {
+    Domain_region<Domain> region; // but for what the core has of it
+    std::vector<Coordinates> positions;
+    std::unique_ptr<Deformation_core> core;
+    bool is_whole = true; // whether all of the region of interest is movable
 
-  // Makes the core for these free vertices. If nothing holds some of them, they are erased, and
-  // each of their components adds the smallest index of its vertices to `unconstrained_components`.
-  Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options,
-                  std::vector<vertex_descriptor>& free_vertices,
-                  std::vector<std::size_t>& unconstrained_components)
+    bool is_movable(int v) const
+    {
+      return v >= 0 && v < core->region().number_of_movable_vertices;
+    }
+  };
+
+  // Movable is all of the region of interest, so that handles may change without another region. But
+  // where most of it is fixed, these are the free vertices and their neighbours: the cost follows
+  // what can move.
+  bool is_whole(std::size_t roi_size, std::size_t number_of_fixed) const
+  {
+    return m_rules.order == Minimization_order::global_first || 2 * number_of_fixed <= roi_size;
+  }
+
+  bool needs_region(const Vertices& vertices, std::size_t roi_size,
+                    std::size_t number_of_fixed) const
+  {
+    if(!has_region())
+      return true;
+    if(m_prepared->is_whole)
+      return !is_whole(roi_size, number_of_fixed) && 4 * number_of_fixed > 3 * roi_size;
+    return is_whole(roi_size, number_of_fixed) ||
+           std::any_of(vertices.entries().begin(), vertices.entries().end(), [&](const auto& e) {
+             return e.is_roi && !vertices.is_hard_control(e) &&
+                    !m_prepared->is_movable(region().find_vertex(vertices.domain(), e.vertex));
+           });
+  }
+
+  Outcome make_region(const Vertices& vertices, const Traits& traits, const Options& options,
+                      Prepared& prepared) const
   {
     const Domain& domain = vertices.domain();
     const auto name = [&](vertex_descriptor v) { return vertex_name(domain.index(v)); };
-    Region_ region;
-    if(!region.collect(domain, free_vertices))
+    std::vector<vertex_descriptor> movable = vertices.select([&](const auto& e) {
+      return e.is_roi && (prepared.is_whole || !vertices.is_hard_control(e));
+    });
+    if(!prepared.is_whole)
+      append_neighbours(vertices, movable);
+    auto& region = prepared.region;
+    if(!region.collect(domain, movable))
       return outcome(Status::not_a_simplex, name(region.refused_vertex()));
 
-    std::vector<Coordinates> positions;
-    positions.reserve(region.vertices.size());
+    prepared.positions.reserve(region.vertices.size());
     region.flat.rest.reserve(region.vertices.size());
     for(vertex_descriptor v : region.vertices)
     {
-      positions.push_back(Domain::coordinates(vertices.present(v)));
       const auto* entry = vertices.find(v);
-      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest) : positions.back());
+      const bool is_put_back = entry && !entry->is_roi && m_rules.are_erased_put_back;
+      prepared.positions.push_back(
+        Domain::coordinates(is_put_back ? entry->rest : vertices.present(v)));
+      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest)
+                                       : prepared.positions.back());
     }
-    if(const int v = find_non_finite(positions); v >= 0)
+    if(const int v = find_non_finite(prepared.positions); v >= 0)
       return outcome(Status::non_finite_point, name(region.vertices[v]));
-    for(const auto& entry : vertices.entries())
-      if(vertices.is_pulled(entry))
-        region.flat.soft_positions.push_back({region.find_vertex(domain, entry.vertex),
-                                              vertices.weight(entry)});
-
-    std::optional<Core> core;
-    core.emplace(traits, std::move(region.flat), options, std::exchange(m_idle_solver, {}));
-    if(core->diagnosis().status != Status::success)
-    {
-      m_idle_solver = core->take_solver();
-      if(core->diagnosis().status == Status::no_fixed_vertex)
-        erase_unconstrained_components(domain, region, core->diagnosis().components,
-                                       free_vertices, unconstrained_components);
-      return explain(core->diagnosis(), domain, region, *core);
-    }
-    Outcome ready = outcome(Status::success);
-    m_region = std::move(region);
-    m_positions = std::move(positions);
-    m_unconstrained_components = std::move(unconstrained_components);
-    m_core = std::move(core);
-    return ready;
+    prepared.core = std::make_unique<Deformation_core>(
+      core_models(traits), std::move(region.flat), options.cells, m_rules.order, options.threads);
+    return explain(prepared.core->diagnosis(), domain, prepared);
   }
 
-  static void erase_unconstrained_components(const Domain& domain, const Region_& region,
-                                     const std::vector<int>& components,
-                                     std::vector<vertex_descriptor>& free_vertices,
-                                     std::vector<std::size_t>& unconstrained_components)
+  // adds the vertices of the region of interest that are in a simplex with one of those
+  static void append_neighbours(const Vertices& vertices, std::vector<vertex_descriptor>& movable)
   {
-    std::map<int, std::size_t> smallest_indices; // of the components
-    const auto is_unconstrained = [&](vertex_descriptor v) {
-      const int component = components[region.find_vertex(domain, v)];
-      if(component < 0)
-        return false;
-      const std::size_t index = domain.index(v);
-      std::size_t& smallest = smallest_indices.emplace(component, index).first->second;
-      smallest = (std::min)(smallest, index);
-      return true;
-    };
-    free_vertices.erase(
-      std::remove_if(free_vertices.begin(), free_vertices.end(), is_unconstrained),
-      free_vertices.end());
-    for(const auto& component : smallest_indices)
-      unconstrained_components.push_back(component.second);
-    std::sort(unconstrained_components.begin(), unconstrained_components.end());
+    const Domain& domain = vertices.domain();
+    Paged_index_map is_there;
+    const std::size_t number_of_free = movable.size();
+    for(vertex_descriptor v : movable)
+      is_there.set(domain.index(v), 1);
+    for(std::size_t k = 0; k < number_of_free; ++k)
+      domain.for_each_incident_simplex(movable[k], [&](const auto&, const auto& corners) {
+        for(vertex_descriptor corner : corners)
+          if(const std::size_t index = domain.index(corner);
+             is_there[index] == Paged_index_map::none && vertices.is_roi(corner))
+          {
+            is_there.set(index, 1);
+            movable.push_back(corner);
+          }
+      });
   }
 
-  static Outcome explain(const Diagnosis& diagnosis, const Domain& domain, const Region_& region,
-                         const Core& core)
+  Constraints collect_constraints(const Vertices& vertices, const Prepared& prepared,
+                                  std::vector<int>& soft_vertices) const
+  {
+    Constraints constraints;
+    constraints.is_fixed.assign(prepared.core->region().number_of_movable_vertices, false);
+    for(const auto& entry : vertices.entries())
+    {
+      const int v =
+        entry.is_roi ? prepared.region.find_vertex(vertices.domain(), entry.vertex) : -1;
+      if(!prepared.is_movable(v))
+        continue;
+      if(vertices.is_hard_control(entry))
+        constraints.is_fixed[v] = true;
+      else if(vertices.is_pulled(entry))
+      {
+        constraints.rows.append(v, vertices.weight(entry));
+        soft_vertices.push_back(v);
+      }
+      else if(prepared.core->is_isolated(v) && !m_rules.are_unconstrained_refused)
+        constraints.is_fixed[v] = true;
+    }
+    return constraints;
+  }
+
+  void take_over_rotations(const Domain& domain, Prepared& next) const
+  {
+    const std::vector<Matrix_3x3>& old = core().rotations();
+    std::vector<Matrix_3x3> rotations = next.core->rotations();
+    for(std::size_t c = 0; c < rotations.size(); ++c)
+      if(const int v = region().find_vertex(domain, next.region.vertices[c]);
+         v >= 0 && v < static_cast<int>(old.size()))
+        rotations[c] = old[v];
+    next.core->set_rotations(std::move(rotations));
+  }
+
+  static Outcome explain(const Diagnosis& diagnosis, const Domain& domain, const Prepared& prepared)
   {
     if(diagnosis.vertex >= 0)
       return outcome(diagnosis.status,
-                     vertex_name(domain.index(region.vertices[diagnosis.vertex])));
+                     vertex_name(domain.index(prepared.region.vertices[diagnosis.vertex])));
     if(diagnosis.simplex < 0)
       return outcome(diagnosis.status);
-    return outcome(diagnosis.status, simplex_name(core.region(), diagnosis.simplex));
+    return outcome(diagnosis.status, simplex_name(prepared.core->region(), diagnosis.simplex));
   }
 
-  Laplacian_solver<typename Traits::Sparse_solver> m_idle_solver; // of a core that was discarded
-
-  // up to date if m_core has a value
-  Region_ m_region;
-  std::vector<std::size_t> m_unconstrained_components;
-  std::vector<Coordinates> m_positions;
-  std::optional<Core> m_core;
+  Session_rules m_rules;
+  std::optional<Prepared> m_prepared; // what was last prepared with success
+  std::vector<int> m_soft_vertices;
+  bool m_is_region_stale = true, m_are_constraints_stale = true;
 };
 
 } // namespace internal

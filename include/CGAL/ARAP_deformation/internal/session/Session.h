@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
@@ -49,9 +50,14 @@ public:
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
 
+  using Entry = typename Vertices::Entry;
   using Iterate = internal::Iterate<Session>;
 
-  Session(Domain domain, const Traits& traits) : m_vertices(std::move(domain)), m_traits(traits) {}
+  Session(Domain domain, const Traits& traits, const Session_rules& rules = {})
+    : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_prepared(rules)
+  {}
+
+  const Traits& traits() const { return m_traits; }
 
   const Options& options() const { return m_options; }
 
@@ -62,7 +68,8 @@ public:
     Outcome checked = options.check();
     if(checked)
     {
-      note_change(options.cells != m_options.cells, false);
+      if(options.cells != m_options.cells)
+        region_changed();
       m_options = options;
     }
     return checked;
@@ -77,11 +84,51 @@ public:
                                     : m_vertices.present(v);
   }
 
-  // changes the region: f(vertices) returns whether it did; then all that follows from it is stale
-  template <typename Function>
-  bool change_vertices(const Function& f)
+  // The functions that change the sets of vertices return whether they did.
+
+  bool insert_roi(vertex_descriptor v)
   {
-    return !is_in_a_run() && note_change(f(m_vertices));
+    return !is_in_a_run() && m_vertices.insert_roi(v) && region_changed();
+  }
+
+  bool erase_roi(vertex_descriptor v)
+  {
+    return !is_in_a_run() && m_vertices.erase_roi(v) && region_changed();
+  }
+
+  void clear_roi()
+  {
+    if(!is_in_a_run() && m_vertices.clear_roi())
+      region_changed();
+  }
+
+  bool insert_control(vertex_descriptor v)
+  {
+    if(is_in_a_run())
+      return false;
+    const bool was_roi = m_vertices.is_roi(v);
+    return m_vertices.insert_control(v) && (was_roi ? constraints_changed() : region_changed());
+  }
+
+  bool erase_control(vertex_descriptor v)
+  {
+    if(is_in_a_run())
+      return false;
+    auto* entry = m_vertices.find_control(v);
+    if(entry && m_rules.are_targets_and_rotations_kept)
+      entry->present = m_vertices.target(*entry);
+    return m_vertices.erase_control(v) && constraints_changed();
+  }
+
+  void clear_control()
+  {
+    if(is_in_a_run())
+      return;
+    for(auto& entry : m_vertices.entries())
+      if(entry.is_control && m_rules.are_targets_and_rotations_kept)
+        entry.present = m_vertices.target(entry);
+    if(m_vertices.clear_control())
+      constraints_changed();
   }
 
   // replaces the target t of the control vertex v by f(t)
@@ -114,15 +161,21 @@ public:
     if(!(weight >= 0))
       return outcome(Status::invalid_weight, name(v));
     const double before = std::exchange(m_vertices.weight(*entry), weight);
-    note_change(weight != before);
+    if(weight != before)
+      constraints_changed();
     return Outcome(Status::success, std::string());
   }
 
   Outcome preprocess()
   {
-    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options);
+    Stages stages;
+    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, stages);
     if(prepared)
-      prepared.message += about_unconstrained_components(m_prepared.unconstrained_components());
+    {
+      prepared.message +=
+        about_unconstrained_components(m_prepared.core().unconstrained_components());
+      put_back_erased();
+    }
     return prepared;
   }
 
@@ -141,10 +194,14 @@ public:
   {
     if(is_in_a_run())
       return;
-    std::vector<Coordinates> positions = m_prepared.positions();
-    for(std::size_t k = 0; k < positions.size(); ++k)
-      if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
-        positions[k] = Domain::coordinates(entry->rest);
+    std::vector<Coordinates> positions;
+    if(m_prepared.has_region())
+    {
+      positions = m_prepared.positions();
+      for(std::size_t k = 0; k < positions.size(); ++k)
+        if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
+          positions[k] = Domain::coordinates(entry->rest);
+    }
     std::vector<Point> points = copies(&Entry::rest), targets = points;
     for(const auto& entry : m_vertices.entries())
       domain().set_point(entry.vertex, entry.rest);
@@ -152,9 +209,11 @@ public:
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
         m_vertices.target(entry) = std::move(targets[k]);
-    m_prepared.positions().swap(positions);
-    if(m_prepared.core())
-      m_prepared.core()->reset_rotations();
+    if(m_prepared.has_region())
+    {
+      m_prepared.positions().swap(positions);
+      m_prepared.core().reset_rotations();
+    }
     m_energy = not_a_number;
   }
 
@@ -167,9 +226,24 @@ public:
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
     std::vector<Point> rest = points;
-    note_change(true, false);
+    region_changed();
     move_to(&Entry::present, points);
     move_to(&Entry::rest, rest);
+  }
+
+  // Moves what has left the region of interest back to the rest shape, where the rules want that.
+  void put_back_erased()
+  {
+    if(!m_rules.are_erased_put_back)
+      return;
+    for(Entry& entry : m_vertices.entries())
+      if(is_put_back(entry))
+      {
+        Point point = entry.rest;
+        domain().set_point(entry.vertex, entry.rest);
+        entry.present = std::move(point);
+      }
+    note_region_as_written();
   }
 
   double energy() const { return m_energy; }
@@ -177,19 +251,18 @@ public:
   Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
   {
     const bool has_cell = m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell ? m_prepared.region().find_vertex(domain(), v) : -1);
+    return rotation_of_cell(has_cell, [&] { return m_prepared.region().find_vertex(domain(), v); });
   }
 
   Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
   {
     const bool has_cell = !m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell ? m_prepared.region().find_simplex(domain(), s) : -1);
+    return rotation_of_cell(has_cell,
+                            [&] { return m_prepared.region().find_simplex(domain(), s); });
   }
 
 private:
   friend Iterate;
-
-  using Entry = typename Vertices::Entry;
 
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -220,14 +293,20 @@ private:
     return m_is_in_a_run;
   }
 
-  bool note_change(bool is_change, bool are_weights_the_same = true)
+  // these two return true, for the functions that say whether they changed something
+
+  bool region_changed()
   {
-    if(is_change)
-    {
-      m_prepared.discard(are_weights_the_same);
-      m_energy = not_a_number;
-    }
-    return is_change;
+    m_prepared.region_changed();
+    m_energy = not_a_number;
+    return true;
+  }
+
+  bool constraints_changed()
+  {
+    m_prepared.constraints_changed();
+    m_energy = not_a_number;
+    return true;
   }
 
   template <typename Visitor>
@@ -242,14 +321,15 @@ private:
       return checked;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      if(Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options); !prepared)
+      if(Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, report.stages);
+         !prepared)
         return prepared;
     }
-    auto& core = *m_prepared.core();
+    Deformation_core& core = m_prepared.core();
     const auto& region = m_prepared.region();
-    report.free_vertices = core.region().number_of_free_vertices;
+    report.free_vertices = core.constraints().number_of_free_vertices();
     report.simplices = core.region().number_of_simplices();
-    report.unconstrained_components = m_prepared.unconstrained_components();
+    report.unconstrained_components = core.unconstrained_components();
 
     std::vector<Coordinates> positions = m_prepared.positions();
     for(const auto& entry : m_vertices.entries())
@@ -263,12 +343,11 @@ private:
       if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
     }
-    std::vector<Coordinates> soft_targets;
-    for(const Soft_position& soft : core.region().soft_positions)
-    {
-      const auto& entry = *m_vertices.find(region.vertices[soft.vertex]);
-      soft_targets.push_back(Domain::coordinates(m_vertices.target(entry)));
-    }
+    std::vector<Coordinates> targets; // of the rows of the constraints
+    targets.reserve(m_prepared.soft_vertices().size());
+    for(int v : m_prepared.soft_vertices())
+      targets.push_back(
+        Domain::coordinates(m_vertices.target(*m_vertices.find(region.vertices[v]))));
 
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, positions, iteration, energy));
@@ -277,8 +356,7 @@ private:
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = core.run(options, observe, soft_targets, positions, rotations,
-                                         report);
+    const Diagnosis diagnosis = core.run(options, observe, targets, positions, rotations, report);
     Outcome result = m_prepared.explain(diagnosis, domain());
     if(result)
     {
@@ -288,6 +366,7 @@ private:
         domain().set_point(m_vertices.entries()[k].vertex, point);
       for(auto& [k, point] : points)
         m_vertices.entries()[k].present = std::move(point);
+      note_region_as_written();
       m_prepared.positions().swap(positions);
       core.set_rotations(std::move(rotations));
       m_energy = report.energy.back();
@@ -296,48 +375,61 @@ private:
     return result;
   }
 
-  // The new points of the region of interest: of the free vertices at their positions, of the
-  // hard control vertices, and of all that has no simplices or is fixed by nothing, and stays where
-  // it is: a domain may write to other places than it reads from. Each has the place of the entry
-  // of its vertex: the domain, which may throw, is not asked any more for what is done with them.
+  // The new points of the region of interest: of the free vertices at their positions, of the hard
+  // control vertices at their targets, and of all other fixed vertices where they are: a domain may
+  // write to other places than it reads from. Each has the place of the entry of its vertex: the
+  // domain, which may throw, is not asked any more for what is done with them.
   std::vector<std::pair<std::size_t, Point>>
   new_points(const std::vector<Coordinates>& positions) const
   {
     const auto& entries = m_vertices.entries();
+    const std::vector<char>& is_fixed = m_prepared.core().constraints().is_fixed;
     std::vector<std::pair<std::size_t, Point>> points;
     points.reserve(entries.size());
-    for(int v = 0; v < number_of_free_vertices(); ++v)
-      points.emplace_back(m_vertices.find(m_prepared.region().vertices[v]) - entries.data(),
-                          Domain::make_point(positions[v]));
     for(std::size_t k = 0; k < entries.size(); ++k)
-      if(m_vertices.is_hard_control(entries[k]))
-        points.emplace_back(k, m_vertices.target(entries[k]));
-      else if(entries[k].is_roi && !is_free(entries[k].vertex))
-        points.emplace_back(k, entries[k].present);
+    {
+      const Entry& entry = entries[k];
+      if(is_put_back(entry))
+        points.emplace_back(k, entry.rest);
+      if(!entry.is_roi)
+        continue;
+      const int v = m_prepared.region().find_vertex(domain(), entry.vertex);
+      if(m_vertices.is_hard_control(entry))
+        points.emplace_back(k, m_vertices.target(entry));
+      else if(v >= 0 && v < static_cast<int>(is_fixed.size()) && !is_fixed[v])
+        points.emplace_back(k, Domain::make_point(positions[v]));
+      else
+        points.emplace_back(k, entry.present);
+    }
     return points;
   }
 
-  // whether v is solved for
-  bool is_free(vertex_descriptor v) const
+  // whether a vertex has left the region of interest and is to return to the rest shape
+  bool is_put_back(const Entry& entry) const
   {
-    const int number = m_prepared.region().find_vertex(domain(), v);
-    return number >= 0 && number < number_of_free_vertices();
+    return m_rules.are_erased_put_back && entry.was_roi && !entry.is_roi;
   }
 
-  int number_of_free_vertices() const
+  void note_region_as_written()
   {
-    return m_prepared.core()->region().number_of_free_vertices;
+    for(Entry& entry : m_vertices.entries())
+      entry.was_roi = entry.is_roi;
   }
 
-  Matrix_3x3 rotation_of_cell(int cell) const
+  template <typename FindCell>
+  Matrix_3x3 rotation_of_cell(bool has_cell, const FindCell& find_cell) const
   {
-    const auto* core = m_prepared.core();
-    return core && cell >= 0 && cell < core->number_of_cells() ? core->rotation(cell)
-                                                               : identity_matrix();
+    if(!has_cell || !m_prepared.has_region())
+      return identity_matrix();
+    const std::vector<Matrix_3x3>& rotations = m_prepared.core().rotations();
+    const int cell = find_cell();
+    return cell >= 0 && cell < static_cast<int>(rotations.size()) ? rotations[cell]
+                                                                  : identity_matrix();
   }
 
   Vertices m_vertices;
   Traits m_traits;
+  Session_rules m_rules;
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;

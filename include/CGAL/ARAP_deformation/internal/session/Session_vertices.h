@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -43,6 +44,8 @@ public:
     Point present;
     bool is_roi = false;
     bool is_control = false;
+    bool was_roi = false; // when the points of the region were last written; see Session_rules
+    std::size_t insertion = 0; // when it last entered the region of interest
   };
 
   // the weight of the target of a control vertex that is put there, and not only pulled
@@ -113,10 +116,7 @@ public:
 
   // The functions that change the sets return whether they did.
 
-  bool insert_roi(vertex_descriptor v)
-  {
-    return !std::exchange(find_or_insert(v).is_roi, true);
-  }
+  bool insert_roi(vertex_descriptor v) { return enter_roi(find_or_insert(v)); }
 
   bool insert_control(vertex_descriptor v)
   {
@@ -135,7 +135,8 @@ public:
     }
     else
       m_targets[entry.target] = std::move(target);
-    entry.is_roi = entry.is_control = true;
+    enter_roi(entry);
+    entry.is_control = true;
     return true;
   }
 
@@ -173,14 +174,22 @@ public:
     return is_change;
   }
 
-  // the vertices whose entries fulfil a predicate, in the order in which they were first inserted
+  // the vertices whose entries fulfil a predicate, in the order in which they entered the region of
+  // interest
   template <typename Predicate>
   std::vector<vertex_descriptor> select(const Predicate& predicate) const
   {
-    std::vector<vertex_descriptor> selected;
+    std::vector<const Entry*> entries;
     for(const Entry& entry : m_entries)
       if(predicate(entry))
-        selected.push_back(entry.vertex);
+        entries.push_back(&entry);
+    const auto is_before = [](const Entry* a, const Entry* b) { return a->insertion < b->insertion; };
+    if(!std::is_sorted(entries.begin(), entries.end(), is_before))
+      std::sort(entries.begin(), entries.end(), is_before);
+    std::vector<vertex_descriptor> selected;
+    selected.reserve(entries.size());
+    for(const Entry* entry : entries)
+      selected.push_back(entry->vertex);
     return selected;
   }
 
@@ -192,6 +201,15 @@ private:
   };
 
   static constexpr int no_target = -1;
+
+  bool enter_roi(Entry& entry)
+  {
+    if(entry.is_roi)
+      return false;
+    entry.is_roi = true;
+    entry.insertion = m_number_of_insertions++;
+    return true;
+  }
 
   Entry& find_or_insert(vertex_descriptor v)
   {
@@ -212,6 +230,7 @@ private:
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   std::vector<Entry> m_entries;
   std::vector<Target> m_targets;
+  std::size_t m_number_of_insertions = 0;
 };
 
 } // namespace internal

@@ -9,18 +9,29 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_LAPLACIAN_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_LAPLACIAN_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 
 #include <limits>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// Half the Hessian of the rigidity with its rotations fixed: the matrix of Equation (9) of the
+// paper, for all movable vertices of a region.
+struct Laplacian
+{
+  Sparse_matrix matrix;      // the lower triangle, every diagonal entry stored
+  std::vector<char> is_tied; // for each vertex whether an edge ties it to one that is not movable
+
+  int size() const { return static_cast<int>(matrix.cols()); }
+};
 
 // the diagonal entry of a column of a lower triangle: the first one
 inline double diagonal_entry(const Sparse_matrix& matrix, int column)
@@ -38,8 +49,8 @@ constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon()
 
 // Raises the diagonal of a positive definite matrix that is to be factorized, given by its lower
 // triangle, by some units in the last place. Rounding changes each pivot by about that much of the
-// diagonal entry; where large weights hang on small ones nothing else may be left of it. A pivot
-// that is too small flings away what hangs there. One that is too large only makes the steps of
+// diagonal entry; where large weights are next to small ones nothing else may be left of it. A pivot
+// that is too small flings away what depends on it. One that is too large only makes the steps of
 // local/global shorter: they still have the same fixed points, and never raise the energy.
 inline void raise_diagonal(Sparse_matrix& matrix)
 {
@@ -51,4 +62,4 @@ inline void raise_diagonal(Sparse_matrix& matrix)
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_RAISE_DIAGONAL_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_LAPLACIAN_H

@@ -1,0 +1,89 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_EDGE_WEIGHT_MODEL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_EDGE_WEIGHT_MODEL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// A model of ARAPEdgeWeight_3 as the numeric core calls it, which is no template. Vertices are told
+// by their points and by their indices in the mesh.
+class Edge_weight_model
+{
+public:
+  using Triangle = std::array<Coordinates, 3>;
+  using Tetrahedron = std::array<Coordinates, 4>;
+
+  virtual ~Edge_weight_model() = default;
+  virtual std::array<double, 3> triangle(const Triangle& points,
+                                         const std::array<std::size_t, 3>& indices) const = 0;
+  virtual std::array<double, 6> tetrahedron(const Tetrahedron& points) const = 0;
+  virtual double edge(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const = 0;
+};
+
+template <typename Weight>
+using Call_triangle_weights_of_vertices =
+  decltype(std::declval<const Weight&>().simplex_weights(std::array<std::size_t, 3>()));
+
+template <typename Weight>
+using Call_tetrahedron_weights_of =
+  decltype(std::declval<const Weight&>().simplex_weights(Edge_weight_model::Tetrahedron()));
+
+template <typename Weight>
+class Edge_weight_model_of : public Edge_weight_model
+{
+public:
+  explicit Edge_weight_model_of(Weight weight) : m_weight(std::move(weight)) {}
+
+  std::array<double, 3> triangle(const Triangle& points,
+                                 const std::array<std::size_t, 3>& indices) const override
+  {
+    if constexpr(is_valid<Call_triangle_weights_of_vertices, Weight>)
+      return m_weight.simplex_weights(indices); // weights that a mesh has for its halfedges
+    else
+      return m_weight.simplex_weights(points);
+  }
+
+  // a session of tetrahedra does not compile with a model that lacks these weights
+  std::array<double, 6> tetrahedron(const Tetrahedron& points) const override
+  {
+    if constexpr(is_valid<Call_tetrahedron_weights_of, Weight>)
+      return m_weight.simplex_weights(points);
+    else
+      return {};
+  }
+
+  double edge(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const override
+  {
+    return m_weight.edge_weight(edge_set, i, j, sum);
+  }
+
+private:
+  Weight m_weight;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_EDGE_WEIGHT_MODEL_H

@@ -1,0 +1,223 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DEFORMATION_CORE_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DEFORMATION_CORE_IMPL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
+#include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/minimize_global_local.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/minimize_local_global.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/minimize_quasi_newton.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
+#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+struct Deformation_core::State
+{
+  Deformation_energy energy;
+  Constrained_system system;
+  std::optional<Laplacian_guess> guess;
+};
+
+CGAL_ARAP_INLINE_FUNCTION
+Deformation_core::Deformation_core(const Core_models& models, Region region, Cell_scheme cells,
+                                   Minimization_order order, unsigned int number_of_threads)
+  : m_models(models), m_region(std::move(region)), m_order(order)
+{
+  run_with_threads(threads(number_of_threads), [&] { m_diagnosis = prepare(cells); });
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Deformation_core::~Deformation_core() = default;
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::prepare(Cell_scheme cells)
+{
+  if(const int v = find_non_finite(m_region.rest); v >= 0)
+    return {Status::non_finite_point, v};
+  Simplices simplices = weighted_simplices(*m_models.weight, m_region);
+  if(const int s = find_non_finite_simplex(simplices); s >= 0)
+    return {Status::non_finite_weight, -1, s};
+  Deformation_energy energy =
+    make_deformation_energy(*m_models.weight, std::move(simplices), cells, m_region);
+  m_rotations.assign(energy.number_of_cells(), identity_matrix());
+  Laplacian laplacian = laplacian_of(energy);
+  m_state.reset(new State{std::move(energy),
+                          Constrained_system(std::move(laplacian), m_models.solver->copy()), {}});
+  m_is_isolated.assign(m_region.number_of_movable_vertices, true);
+  for(int v : m_region.corners)
+    if(v < m_region.number_of_movable_vertices)
+      m_is_isolated[v] = false;
+  return {};
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::set_constraints(Constraints constraints,
+                                            Unconstrained_components unconstrained,
+                                            unsigned int number_of_threads, Stages& stages)
+{
+  Diagnosis diagnosis;
+  run_with_threads(threads(number_of_threads), [&] {
+    diagnosis = constrain(std::move(constraints), unconstrained, stages);
+  });
+  return diagnosis;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::release_factor()
+{
+  m_state->system.release_factor();
+  m_state->guess.reset();
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::constrain(Constraints constraints,
+                                      Unconstrained_components unconstrained, Stages& stages)
+{
+  const std::vector<int> components =
+    find_unconstrained_components(m_state->system.laplacian(), constraints);
+  std::map<int, std::size_t> smallest_index; // of each component
+  bool are_there_others = false;
+  for(std::size_t v = 0; v < components.size(); ++v)
+    if(components[v] >= 0)
+    {
+      const std::size_t index = m_region.indices[v];
+      std::size_t& smallest = smallest_index.emplace(components[v], index).first->second;
+      smallest = (std::min)(smallest, index);
+    }
+    else
+      are_there_others |= !constraints.is_fixed[v];
+  if(!smallest_index.empty() &&
+     (unconstrained == Unconstrained_components::refused ||
+      (unconstrained == Unconstrained_components::fixed_beside_others && !are_there_others)))
+    return {Status::no_fixed_vertex, smallest_index.begin()->first};
+  for(std::size_t v = 0; v < components.size(); ++v)
+    constraints.is_fixed[v] |= components[v] >= 0;
+
+  if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
+    return {Status::singular_matrix, v};
+  Constrained_system::Work work;
+  m_state->guess.reset();
+  const bool is_ready = m_state->system.prepare(constraints, work);
+  stages.order |= work.order;
+  stages.factor |= work.factor;
+  stages.border |= work.border;
+  if(!is_ready)
+    return {Status::singular_matrix};
+  m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
+                            m_rotations);
+  m_constraints = std::move(constraints);
+  m_unconstrained_components.clear();
+  for(const auto& component : smallest_index)
+    m_unconstrained_components.push_back(component.second);
+  std::sort(m_unconstrained_components.begin(), m_unconstrained_components.end());
+  return {};
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::reset_rotations()
+{
+  std::fill(m_rotations.begin(), m_rotations.end(), identity_matrix());
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
+                                const std::vector<Coordinates>& targets,
+                                std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                                Report& report)
+{
+  Diagnosis diagnosis;
+  run_with_threads(threads(options.threads), [&] {
+    diagnosis = run_in_arena(options, observe, targets, x, rotations, report);
+  });
+  return diagnosis;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
+                                         const std::vector<Coordinates>& targets,
+                                         std::vector<Coordinates>& x,
+                                         std::vector<Matrix_3x3>& rotations, Report& report)
+{
+  if(options.initial_guess == Initial_guess::laplacian &&
+     m_constraints.number_of_free_vertices() > 0)
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    auto& guess = m_state->guess;
+    if(!guess)
+    {
+      const Simplices simplices = weighted_simplices(*m_models.weight, m_region);
+      guess.emplace(star_edge_sets(*m_models.weight, simplices, m_region), m_region, m_constraints,
+                    m_models.solver->copy());
+      report.stages.initial_guess = true;
+    }
+    if(!guess->is_factorized())
+    {
+      guess.reset();
+      return {Status::singular_matrix};
+    }
+    if(!(*guess)(targets, x))
+      return {Status::solver_failed};
+  }
+  Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
+                            m_constraints, options, observe, targets, x, rotations, report);
+  if(m_order == Minimization_order::global_first)
+    return {minimize_global_local(minimization)};
+  const bool is_quasi_newton =
+    options.minimizer == Minimizer::quasi_newton ||
+    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
+  return {is_quasi_newton ? minimize_quasi_newton(minimization)
+                          : minimize_local_global(minimization)};
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::size_t
+Deformation_core::number_of_inverted_simplices(const std::vector<Coordinates>& x) const
+{
+  // the sign of the volume of the tetrahedron s
+  const auto orientation = [this](int s, const std::vector<Coordinates>& points) {
+    const int* c = m_region.corners_of(s);
+    const double volume =
+      dot(cross(difference(points[c[1]], points[c[0]]), difference(points[c[2]], points[c[0]])),
+          difference(points[c[3]], points[c[0]]));
+    return (volume > 0) - (volume < 0);
+  };
+  std::size_t count = 0;
+  if(m_region.dimension == 3)
+    for(int s = 0; s < m_region.number_of_simplices(); ++s)
+      count += orientation(s, m_region.rest) * orientation(s, x) < 0;
+  return count;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DEFORMATION_CORE_IMPL_H

@@ -1,0 +1,97 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_CONSTRAINED_SYSTEM_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_CONSTRAINED_SYSTEM_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
+#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The linear system of the global step, for all movable vertices of a region: its matrix is the
+// Laplacian L with the rows B of the constraints and their weights M,
+//   A = L + B^T M B,
+// in which the rows and columns of fixed vertices are replaced by those of the identity. So its
+// order and pattern are those of the region, whatever is fixed, and the right-hand side of a fixed
+// vertex is zero.
+//
+// The factor serves for other constraints too, if they differ at few vertices: these become a border
+// of the matrix A' of the factor,
+//   [ A'   B ] [ x ]   [ f ]
+//   [ B^T  D ] [ z ] = [ g ].
+// A vertex that was free and is fixed is kept where it is by a multiplier, with a column of B that is
+// a unit vector. One that was fixed and is free is a further unknown, whose column has its entries
+// of A. One whose row of A differs, because of the rows of the constraints, is both.
+class Constrained_system
+{
+public:
+  // what the last call of prepare() did
+  struct Work
+  {
+    bool order = false, factor = false, border = false;
+  };
+
+  Constrained_system(Laplacian laplacian, std::unique_ptr<Linear_solver> prototype)
+    : m_laplacian(std::move(laplacian)), m_prototype(std::move(prototype))
+  {}
+
+  const Laplacian& laplacian() const { return m_laplacian; }
+
+  void release_factor() { m_solver.reset(); }
+
+  // Whether the solver could factorize the system with these constraints, or can do without; if
+  // not there is no factor. A vertex that makes the system singular by itself is found before, by
+  // find_singular_vertex().
+  bool prepare(const Constraints& constraints, Work& work);
+
+  // A free vertex whose diagonal entry is not a positive finite number, or -1.
+  int find_singular_vertex(const Constraints& constraints) const;
+
+  // Replaces the right-hand side x, one row for each movable vertex, zero where it is fixed, by the
+  // solution.
+  bool solve(std::vector<Coordinates>& x);
+
+private:
+  bool set_border(const Constraints& constraints);
+  bool factorize(const Constraints& constraints, Work& work);
+  Sparse_matrix with_rows(const Weighted_rows& rows) const;
+
+  Laplacian m_laplacian;
+  std::unique_ptr<Linear_solver> m_prototype; // nothing is analyzed
+  std::unique_ptr<Linear_solver> m_solver;    // has a factor, if there is one
+  Constraints m_factorized;                   // the constraints of the factor
+  Eigen::Index m_analyzed_nonzeros = 0;       // of the pattern that the solver knows
+  // the vertices whose unknowns are in the border, and those that it keeps where they are
+  std::vector<int> m_further_unknowns, m_multipliers;
+  std::vector<Coordinates> m_bordered; // scratch
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
+#endif
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_CONSTRAINED_SYSTEM_H

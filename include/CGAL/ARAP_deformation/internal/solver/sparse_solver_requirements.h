@@ -1,0 +1,77 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_SPARSE_SOLVER_REQUIREMENTS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_SPARSE_SOLVER_REQUIREMENTS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// What a model of a concept lacks is said where it enters and not where it is first used:
+//   static_assert(Sparse_solver_requirements<Solver>::are_met);
+// The assertion never fails itself. Naming the member instantiates the class, whose own assertions
+// have the sentences.
+
+template <typename Solver>
+using Call_analyze = Requires_convertible<
+  decltype(std::declval<Solver&>().analyze(std::declval<const Sparse_matrix&>())), bool>;
+
+template <typename Solver>
+using Call_factorize = Requires_convertible<
+  decltype(std::declval<Solver&>().factorize(std::declval<const Sparse_matrix&>())), bool>;
+
+template <typename Solver>
+using Call_solve = Requires_convertible<
+  decltype(std::declval<Solver&>().solve(std::size_t(), std::declval<Coordinates*>())), bool>;
+
+// not required: a border saves a factorization when handles change
+template <typename Solver>
+using Call_set_border = Requires_convertible<
+  decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
+                                              std::declval<const Eigen::MatrixXd&>())), bool>;
+
+template <typename Solver>
+constexpr bool can_have_border = is_valid<Call_set_border, Solver>;
+
+template <typename Solver>
+struct Sparse_solver_requirements
+{
+  static_assert(is_valid<Call_analyze, Solver>,
+    "the model of ARAPSparseSolver lacks: bool analyze(const CGAL::ARAP::Sparse_matrix&)");
+  static_assert(is_valid<Call_factorize, Solver>,
+    "the model of ARAPSparseSolver lacks: bool factorize(const CGAL::ARAP::Sparse_matrix&)");
+  static_assert(is_valid<Call_solve, Solver>,
+    "the model of ARAPSparseSolver lacks: bool solve(std::size_t, CGAL::ARAP::Coordinates*)");
+  static_assert(std::is_copy_constructible_v<Solver>,
+    "the model of ARAPSparseSolver lacks: a copy constructor (a copy need not have the factor)");
+  static_assert(std::is_move_constructible_v<Solver>,
+    "the model of ARAPSparseSolver lacks: a move constructor");
+  static_assert(std::is_move_assignable_v<Solver>,
+    "the model of ARAPSparseSolver lacks: a move assignment");
+  static constexpr bool are_met = true;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_SPARSE_SOLVER_REQUIREMENTS_H
