@@ -14,14 +14,21 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
-#include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_deformation.h>
-#include <CGAL/ARAP_deformation/internal/drop_in/select_model.h>
+#include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_traits.h>
+#include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_weights.h>
+#include <CGAL/ARAP_deformation/internal/session/Session.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/default_models.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Surface_mesh_deformation.h>
+#include <CGAL/assertions.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
@@ -29,6 +36,10 @@
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,7 +84,7 @@ namespace ARAP {
 ///   is `ORIGINAL_ARAP`. With any other value, 0.02 if none is set, `preprocess()` works, and
 ///   `deform()` returns `Status::invalid_option` and does nothing.
 ///
-/// \tparam TM a model of `HalfedgeGraph` and `VertexListGraph` of which all faces are triangles
+/// \tparam TM a model of `FaceGraph` and `VertexListGraph` of which all faces are triangles
 /// \tparam VIM a model of `ReadablePropertyMap` from the vertices to 0, 1, ...
 /// \tparam HIM a model of `ReadablePropertyMap` from the halfedges to 0, 1, ...
 /// \tparam TAG `SPOKES_AND_RIMS`, `ORIGINAL_ARAP` or `SRE_ARAP`
@@ -139,9 +150,15 @@ public:
   Surface_mesh_deformation(Triangle_mesh& mesh, Vertex_index_map vertex_index_map,
                            Hedge_index_map hedge_index_map, Vertex_point_map vertex_point_map,
                            Weight_calculator weight_calculator = Weight_calculator())
-    : m_deformation(mesh, std::move(vertex_index_map), std::move(hedge_index_map),
-                    std::move(vertex_point_map), std::move(weight_calculator))
-  {}
+    : m_mesh(mesh),
+      m_weights(mesh, vertex_index_map, hedge_index_map, vertex_point_map, weight_calculator),
+      m_session(Domain(mesh, vertex_point_map, vertex_index_map),
+                Traits(Solver(), m_weights, Rotation()), internal::cgal_rules())
+  {
+    Options options;
+    options.cells = TAG == SPOKES_AND_RIMS ? Cell_scheme::spokes_and_rims() : Cell_scheme::spokes();
+    m_session.set_options(options);
+  }
 
   Surface_mesh_deformation(const Surface_mesh_deformation&) = delete;
   Surface_mesh_deformation& operator=(const Surface_mesh_deformation&) = delete;
@@ -151,14 +168,14 @@ public:
   /// @{
 
   /// erases all vertices from the region of interest and the control vertices.
-  void clear_roi_vertices() { m_deformation.clear_roi(); }
+  void clear_roi_vertices() { m_session.clear_roi(); }
 
   /// erases all control vertices, which stay in the region of interest.
-  void clear_control_vertices() { m_deformation.clear_controls(); }
+  void clear_control_vertices() { m_session.clear_control(); }
 
   /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Returns
   /// `true` if it was no control vertex.
-  bool insert_control_vertex(vertex_descriptor v) { return m_deformation.insert_control(v); }
+  bool insert_control_vertex(vertex_descriptor v) { return m_session.insert_control(v); }
 
   /// makes the vertices of a range control vertices.
   template <typename InputIterator>
@@ -168,7 +185,7 @@ public:
   }
 
   /// makes `v` no control vertex. It stays in the region of interest. Returns `true` if it was one.
-  bool erase_control_vertex(vertex_descriptor v) { return m_deformation.erase_control(v); }
+  bool erase_control_vertex(vertex_descriptor v) { return m_session.erase_control(v); }
 
   /// inserts the vertices of a range in the region of interest.
   template <typename InputIterator>
@@ -178,18 +195,18 @@ public:
   }
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in it.
-  bool insert_roi_vertex(vertex_descriptor v) { return m_deformation.insert_roi(v); }
+  bool insert_roi_vertex(vertex_descriptor v) { return m_session.insert_roi(v); }
 
   /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
   /// it. The next call that needs the region puts the vertex back to its rest position.
-  bool erase_roi_vertex(vertex_descriptor v) { return m_deformation.erase_roi(v); }
+  bool erase_roi_vertex(vertex_descriptor v) { return m_session.erase_roi(v); }
 
   /// prepares the system, if this was not done since the last change. `deform()` calls it. Returns
   /// `false` if it fails, and then `outcome()` says why.
-  bool preprocess() { return m_deformation.preprocess(); }
+  bool preprocess() { return static_cast<bool>(m_session.preprocess()); }
 
   /// returns what became of the last preprocessing.
-  const Outcome& outcome() const { return m_deformation.outcome(); }
+  const Outcome& outcome() const { return m_session.preparation(); }
   /// @}
 
   /// \name Deformation
@@ -198,7 +215,7 @@ public:
   /// sets the target of a control vertex. Ignored if `v` is none.
   Outcome set_target_position(vertex_descriptor v, const Point& target_position)
   {
-    return m_deformation.move_target(v, [&](const Point&) { return target_position; });
+    return change_target(v, [&](const Point&) { return target_position; });
   }
 
   /// translates the target of a control vertex by `t`, which has an `operator[]`. Ignored if `v` is
@@ -206,7 +223,7 @@ public:
   template <typename Vect>
   Outcome translate(vertex_descriptor v, const Vect& t)
   {
-    return m_deformation.move_target(v, [&t](const Point& p) {
+    return change_target(v, [&t](const Point& p) {
       return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
     });
   }
@@ -224,7 +241,7 @@ public:
   template <typename Quaternion, typename Vect>
   Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
   {
-    return m_deformation.move_target(v, [&](const Point& p) {
+    return change_target(v, [&](const Point& p) {
       const Vect& c = to_rotation_center;
       const Vect r = quat * Vect(CGAL::to_double(p[0]) - c[0], CGAL::to_double(p[1]) - c[1],
                                  CGAL::to_double(p[2]) - c[2]);
@@ -245,7 +262,11 @@ public:
 
   /// returns the target of a control vertex.
   /// \pre `is_control_vertex(v)`
-  Point target_position(vertex_descriptor v) const { return m_deformation.target(v); }
+  Point target_position(vertex_descriptor v) const
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.target(v);
+  }
 
   /// deforms with `iterations()` and `tolerance()`.
   Report deform() { return deform(m_iterations, m_tolerance); }
@@ -255,19 +276,39 @@ public:
   /// less than `tolerance` of itself is the last; the status is then `Status::converged`.
   ///
   /// `Report::energy[0]` is the energy with the targets and the rotations of the run before.
-  /// `Report::estimated_relative_gap` is not computed. `Report::simplices` is 0 with
-  /// `ORIGINAL_ARAP`, whose cells have no triangles.
+  /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
-    return m_deformation.deform(iterations, tolerance);
+    if(TAG == SRE_ARAP && m_alpha != 0)
+    {
+      Report report;
+      static_cast<Outcome&>(report) = {Status::invalid_option, "SRE_ARAP can be run with alpha = 0 "
+                                       "only: rotations are not smoothed yet"};
+      return report;
+    }
+    if(!std::isnan(tolerance)) // which the session refuses
+      tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
+    Default_visitor visitor;
+    return m_session.deform(iterations, tolerance, visitor);
   }
 
   /// puts the region of interest back to the rest shape, targets included.
-  void reset() { m_deformation.reset(); }
+  void reset()
+  {
+    m_session.put_back_erased();
+    m_session.reset();
+  }
 
   /// takes the present points of the region of interest for the rest shape, and computes the
   /// weights at its vertices again.
-  void overwrite_initial_geometry() { m_deformation.overwrite_initial_geometry(); }
+  void overwrite_initial_geometry()
+  {
+    if(roi_vertices().empty())
+      return;
+    m_session.put_back_erased();
+    m_weights.recompute_at(roi_vertices());
+    m_session.overwrite_initial_geometry();
+  }
   /// @}
 
   /// \name Utilities
@@ -285,18 +326,24 @@ public:
   /// sets the tolerance of `deform()`. With 0 all iterations are run.
   void set_tolerance(double tolerance) { m_tolerance = tolerance; }
 
-  /// returns the vertices of the region of interest in the order of their insertion. The first call
-  /// after vertices were erased is linear in their number.
-  const Roi_vertex_range& roi_vertices() const { return m_deformation.roi().vertices(); }
+  /// returns the vertices of the region of interest in the order of their insertion. Linear time.
+  const Roi_vertex_range& roi_vertices() const
+  {
+    m_roi = m_session.vertices().select([](const auto& entry) { return entry.is_roi; });
+    return m_roi;
+  }
 
   /// returns whether `v` is in the region of interest.
-  bool is_roi_vertex(vertex_descriptor v) const { return m_deformation.roi().contains(v); }
+  bool is_roi_vertex(vertex_descriptor v) const { return m_session.vertices().is_roi(v); }
 
   /// returns whether `v` is a control vertex.
-  bool is_control_vertex(vertex_descriptor v) const { return m_deformation.roi().is_control(v); }
+  bool is_control_vertex(vertex_descriptor v) const
+  {
+    return m_session.vertices().is_control(v);
+  }
 
   /// returns the mesh.
-  const Triangle_mesh& triangle_mesh() const { return m_deformation.mesh(); }
+  const Triangle_mesh& triangle_mesh() const { return m_mesh; }
 
 #ifndef DOXYGEN_RUNNING
   const Triangle_mesh& halfedge_graph() const { return triangle_mesh(); }
@@ -304,14 +351,14 @@ public:
 
   /// sets the weight of the differences of rotations, for the tag `SRE_ARAP`; 0.02 if none was set.
   /// Only 0 can be run.
-  void set_sre_arap_alpha(double alpha) { m_deformation.set_alpha(alpha); }
+  void set_sre_arap_alpha(double alpha) { m_alpha = alpha; }
   /// @}
 
 private:
   template <typename InputIterator, typename Function>
   Outcome for_each(InputIterator begin, InputIterator end, const Function& f)
   {
-    m_deformation.update_region(); // also where the range is empty
+    m_session.put_back_erased(); // also where the range is empty
     Outcome first(Status::success, "all targets are set");
     for(; begin != end; ++begin)
       if(Outcome outcome = f(*begin); first && !outcome)
@@ -319,12 +366,30 @@ private:
     return first;
   }
 
-  internal::Halfedge_deformation<
-    TAG, Triangle_mesh, Vertex_index_map, Hedge_index_map, Vertex_point_map, Weight_calculator,
-    typename internal::Select_sparse_solver<ST>::type,
-    typename internal::Select_closest_rotation<CR>::type> m_deformation;
+  template <typename Function>
+  Outcome change_target(vertex_descriptor v, const Function& f)
+  {
+    m_session.put_back_erased();
+    return m_session.change_target(v, f);
+  }
+
+  using Solver = typename internal::Select_sparse_solver<ST>::type;
+  using Rotation = typename internal::Select_closest_rotation<CR>::type;
+  using Weights = internal::Halfedge_weights<Triangle_mesh, Vertex_index_map, Hedge_index_map,
+                                             Vertex_point_map, Weight_calculator>;
+  using Domain = std::conditional_t<
+    TAG == SPOKES_AND_RIMS,
+    internal::Triangle_domain<Triangle_mesh, Vertex_point_map, Vertex_index_map>,
+    Face_graph_domain<Triangle_mesh, Vertex_point_map, Vertex_index_map>>;
+  using Traits = internal::Drop_in_traits<Solver, Weights, Rotation>;
+
+  Triangle_mesh& m_mesh;
+  Weights m_weights;
+  internal::Session<Domain, Traits> m_session;
+  mutable Roi_vertex_range m_roi; // for roi_vertices()
   unsigned int m_iterations = 5;
   double m_tolerance = 1e-4;
+  double m_alpha = 0.02;
 };
 
 } // namespace ARAP

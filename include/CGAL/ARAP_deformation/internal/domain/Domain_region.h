@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 
@@ -24,6 +25,9 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+template <typename Domain>
+using Triangles_only = decltype(Domain::has_triangles_only);
 
 // A region with the names of its vertices and simplices in a mesh. It is collected by walking over
 // the region only.
@@ -167,7 +171,9 @@ private:
   static bool is_simplex(Iterator begin, Iterator end)
   {
     const auto n = end - begin;
-    if(Domain::dimension == 2 ? n < 3 : n != Domain::dimension + 1)
+    constexpr bool are_polygons_allowed =
+      Domain::dimension == 2 && !is_valid<Triangles_only, Domain>;
+    if(are_polygons_allowed ? n < 3 : n != Domain::dimension + 1)
       return false;
     if(n <= 4)
     {

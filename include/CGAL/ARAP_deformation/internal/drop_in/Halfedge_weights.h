@@ -14,32 +14,26 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/number_utils.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// calls f(h) for each halfedge h whose target is v
-template <typename Mesh, typename Function>
-void for_each_halfedge_to(typename boost::graph_traits<Mesh>::vertex_descriptor v,
-                          const Mesh& mesh, const Function& f)
-{
-  const auto first = halfedge(v, mesh);
-  if(first == boost::graph_traits<Mesh>::null_halfedge()) // an isolated vertex
-    return;
-  for(const auto h : halfedges_around_target(first, mesh))
-    f(h);
-}
 
 // reads a point map as points of a kernel with `double`, which is what CGAL's weights compute with
 template <typename VertexPointMap>
@@ -59,10 +53,11 @@ struct Double_point_map
   }
 };
 
-// A weight for each halfedge of a mesh, as a model of CGAL's SurfaceMeshDeformationWeights computes
-// it for the points at the time of construction or of the last recompute_at().
-template <typename Mesh, typename HalfedgeIndexMap, typename VertexPointMap,
-          typename WeightCalculator>
+// A model of ARAPEdgeWeight_3: a weight for each halfedge of a mesh, as a model of CGAL's
+// SurfaceMeshDeformationWeights computes it for the points at the time of construction or of the
+// last recompute_at(). Copies share the weights. The mesh is not copied.
+template <typename Mesh, typename VertexIndexMap, typename HalfedgeIndexMap,
+          typename VertexPointMap, typename WeightCalculator>
 class Halfedge_weights
 {
   using Graph_traits = boost::graph_traits<Mesh>;
@@ -70,56 +65,98 @@ class Halfedge_weights
   using vertex_descriptor = typename Graph_traits::vertex_descriptor;
 
 public:
-  Halfedge_weights(Mesh& mesh, HalfedgeIndexMap index_map, VertexPointMap point_map,
-                   WeightCalculator calculator)
-    : m_mesh(mesh), m_index_map(std::move(index_map)), m_point_map{std::move(point_map)},
-      m_calculator(std::move(calculator))
+  Halfedge_weights(Mesh& mesh, const VertexIndexMap& vertex_index_map, HalfedgeIndexMap index_map,
+                   VertexPointMap point_map, WeightCalculator calculator)
+    : m_state(std::make_shared<State>(
+        State{mesh, std::move(index_map), {std::move(point_map)}, std::move(calculator), {}, {}}))
   {
-    m_weights.reserve(num_halfedges(mesh));
+    for(const vertex_descriptor v : vertices(mesh))
+    {
+      const std::size_t index = get(vertex_index_map, v);
+      if(index >= m_state->vertices.size())
+        m_state->vertices.resize(index + 1, Graph_traits::null_vertex());
+      m_state->vertices[index] = v;
+    }
+    m_state->weights.reserve(num_halfedges(mesh));
     for(const halfedge_descriptor h : halfedges(mesh))
-      compute(h, m_weights);
+      compute(h, m_state->weights);
   }
 
-  // an upper bound of all indices
-  std::size_t size() const { return m_weights.size(); }
-
-  std::size_t index(halfedge_descriptor h) const
+  // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those of
+  // its halfedges. Zero where a face of more corners has no such halfedge.
+  std::array<double, 3> simplex_weights(const std::array<std::size_t, 3>& indices) const
   {
-    return static_cast<std::size_t>(get(m_index_map, h));
+    for(const auto& [a, b, c] : {indices, {indices[1], indices[0], indices[2]}})
+      for(const halfedge_descriptor h : halfedges_to(b))
+        if(source(h, m_state->mesh) == m_state->vertices[a] && !is_border(h, m_state->mesh) &&
+           target(next(h, m_state->mesh), m_state->mesh) == m_state->vertices[c])
+        {
+          const double ab = weight(h), ca = weight(prev(h, m_state->mesh)),
+                       bc = weight(next(h, m_state->mesh));
+          return a == indices[0] ? std::array<double, 3>{ab, ca, bc}
+                                 : std::array<double, 3>{ab, bc, ca};
+        }
+    return {0, 0, 0};
   }
 
-  double operator[](halfedge_descriptor h) const { return m_weights[index(h)]; }
+  // of a simplex `sum`; of a star the weight of the halfedge from j to its centre i
+  double edge_weight(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
+  {
+    if(edge_set == Edge_set::simplex)
+      return sum;
+    double result = 0; // there may be more than one such halfedge
+    for(const halfedge_descriptor h : halfedges_to(i))
+      if(source(h, m_state->mesh) == m_state->vertices[j])
+        result += weight(h);
+    return result;
+  }
 
   // Computes those of all halfedges that a vertex of the range is an end of. None of them changes
   // if the user's calculator throws.
-  template <typename VertexRange, typename IsInRange>
-  void recompute_at(const VertexRange& vertices, const IsInRange& is_in_range)
+  template <typename VertexRange>
+  void recompute_at(const VertexRange& range)
   {
-    std::vector<double> weights = m_weights;
-    for(const vertex_descriptor v : vertices)
-      for_each_halfedge_to(v, m_mesh, [&](halfedge_descriptor h) {
+    std::vector<double> weights = m_state->weights;
+    for(const vertex_descriptor v : range)
+      for(const halfedge_descriptor h : CGAL::halfedges_around_target(v, m_state->mesh))
+      {
         compute(h, weights);
-        if(!is_in_range(source(h, m_mesh)))
-          compute(opposite(h, m_mesh), weights);
-      });
-    m_weights.swap(weights);
+        compute(opposite(h, m_state->mesh), weights);
+      }
+    m_state->weights.swap(weights);
   }
 
 private:
+  struct State
+  {
+    Mesh& mesh;
+    HalfedgeIndexMap index_map;
+    Double_point_map<VertexPointMap> point_map;
+    WeightCalculator calculator;
+    std::vector<vertex_descriptor> vertices; // by their indices
+    std::vector<double> weights;             // by the indices of the halfedges
+  };
+
+  auto halfedges_to(std::size_t index) const
+  {
+    return CGAL::halfedges_around_target(m_state->vertices[index], m_state->mesh);
+  }
+
+  double weight(halfedge_descriptor h) const
+  {
+    return m_state->weights[static_cast<std::size_t>(get(m_state->index_map, h))];
+  }
+
   void compute(halfedge_descriptor h, std::vector<double>& weights)
   {
-    const double weight = m_calculator(h, m_mesh, m_point_map);
-    const std::size_t i = index(h);
+    const double weight = m_state->calculator(h, m_state->mesh, m_state->point_map);
+    const auto i = static_cast<std::size_t>(get(m_state->index_map, h));
     if(i >= weights.size()) // where halfedges were removed, indices exceed the number
       weights.resize(i + 1, 0);
     weights[i] = weight;
   }
 
-  Mesh& m_mesh;
-  HalfedgeIndexMap m_index_map;
-  Double_point_map<VertexPointMap> m_point_map;
-  WeightCalculator m_calculator;
-  std::vector<double> m_weights;
+  std::shared_ptr<State> m_state;
 };
 
 } // namespace internal

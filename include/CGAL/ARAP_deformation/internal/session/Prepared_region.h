@@ -71,8 +71,44 @@ public:
   Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options,
                   Stages& stages)
   {
-    if(!m_are_constraints_stale)
-      return outcome(Status::success);
+    if(m_are_constraints_stale)
+      m_outcome = prepare_anew(vertices, traits, options, stages);
+    return m_outcome;
+  }
+
+  // what the last preparation led to
+  const Outcome& outcome_of_preparation() const { return m_outcome; }
+
+  // the rotations become identities
+  void reset_rotations()
+  {
+    if(m_prepared)
+      m_prepared->core->reset_rotations();
+  }
+
+  // a sentence on what the core found
+  Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
+  {
+    return explain(diagnosis, domain, *m_prepared);
+  }
+
+private:
+  struct Prepared
+  {
+    Domain_region<Domain> region; // but for what the core has of it
+    std::vector<Coordinates> positions;
+    std::unique_ptr<Deformation_core> core;
+    bool is_whole = true; // whether all of the region of interest is movable
+
+    bool is_movable(int v) const
+    {
+      return v >= 0 && v < core->region().number_of_movable_vertices;
+    }
+  };
+
+  Outcome prepare_anew(const Vertices& vertices, const Traits& traits, const Options& options,
+                       Stages& stages)
+  {
     const auto& entries = vertices.entries();
     std::size_t roi_size = 0, number_of_fixed = 0;
     for(const auto& entry : entries)
@@ -117,27 +153,6 @@ public:
     m_is_region_stale = m_are_constraints_stale = false;
     return result;
   }
-
-  // a sentence on what the core found
-  Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
-  {
-    return explain(diagnosis, domain, *m_prepared);
-  }
-
-private:
-  struct Prepared
-  {
-    Domain_region<Domain> region; // but for what the core has of it
-    std::vector<Coordinates> positions;
-    std::unique_ptr<Deformation_core> core;
-    bool is_whole = true; // whether all of the region of interest is movable
-
-    bool is_movable(int v) const
-    {
-      return v >= 0 && v < core->region().number_of_movable_vertices;
-    }
-  };
-
   // Movable is all of the region of interest, so that handles may change without another region. But
   // where most of it is fixed, these are the free vertices and their neighbours: the cost follows
   // what can move.
@@ -258,6 +273,7 @@ private:
   }
 
   Session_rules m_rules;
+  Outcome m_outcome;
   std::optional<Prepared> m_prepared; // what was last prepared with success
   std::vector<int> m_soft_vertices;
   bool m_is_region_stale = true, m_are_constraints_stale = true;

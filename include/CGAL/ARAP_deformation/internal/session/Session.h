@@ -179,6 +179,9 @@ public:
     return prepared;
   }
 
+  // what the last preparation led to
+  const Outcome& preparation() const { return m_prepared.outcome_of_preparation(); }
+
   template <typename Visitor>
   Report deform(unsigned int iterations, double tolerance, Visitor& visitor)
   {
@@ -210,10 +213,8 @@ public:
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
         m_vertices.target(entry) = std::move(targets[k]);
     if(m_prepared.has_region())
-    {
       m_prepared.positions().swap(positions);
-      m_prepared.core().reset_rotations();
-    }
+    m_prepared.reset_rotations();
     m_energy = not_a_number;
   }
 
@@ -226,6 +227,7 @@ public:
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
     std::vector<Point> rest = points;
+    m_prepared.reset_rotations();
     region_changed();
     move_to(&Entry::present, points);
     move_to(&Entry::rest, rest);
@@ -360,6 +362,8 @@ private:
     Outcome result = m_prepared.explain(diagnosis, domain());
     if(result)
     {
+      if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
+        result.message = "the energy changed by less than the tolerance in an iteration";
       result.message += about_unconstrained_components(report.unconstrained_components);
       std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
       for(const auto& [k, point] : points)

@@ -9,12 +9,13 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_TRAITS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_TRAITS_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/rotation/closest_rotation_requirements.h>
@@ -25,6 +26,7 @@
 
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -72,8 +74,52 @@ struct Select_closest_rotation
 template <>
 struct Select_closest_rotation<Default> { using type = Default_closest_rotation; };
 
+// What CGAL's class is given for its solver and its rotation where only its types are asked for:
+// it then needs neither Eigen nor a model of these concepts.
+struct No_linear_algebra {};
+struct No_closest_rotation
+{
+  using Matrix = int;
+  using Vector = int;
+};
+
+// a surface with a face that is no triangle is refused
+template <typename Mesh, typename VertexPointMap, typename VertexIndexMap>
+class Triangle_domain : public Face_graph_domain<Mesh, VertexPointMap, VertexIndexMap>
+{
+  using Base = Face_graph_domain<Mesh, VertexPointMap, VertexIndexMap>;
+
+public:
+  using Base::Base;
+
+  static constexpr bool has_triangles_only = true;
+};
+
+// a model of ARAPDeformationTraits_3
+template <typename Solver, typename Weight, typename Rotation>
+class Drop_in_traits
+{
+public:
+  using Sparse_solver = Solver;
+  using Edge_weight = Weight;
+  using Closest_rotation = Rotation;
+
+  Drop_in_traits(Solver solver, Weight weight, Rotation rotation)
+    : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
+  {}
+
+  Solver sparse_solver_object() const { return m_solver; }
+  Weight edge_weight_object() const { return m_weight; }
+  Rotation closest_rotation_object() const { return m_rotation; }
+
+private:
+  Solver m_solver;
+  Weight m_weight;
+  Rotation m_rotation;
+};
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_SELECT_MODEL_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_TRAITS_H
