@@ -49,8 +49,8 @@ namespace ARAP {
 class Edge_map_weight
 {
 public:
-  /// sets the weight of the edge between the vertices with the indices `i` and `j` in the domain, in
-  /// both directions.
+  /// sets the weight, in both directions, of the edge between the vertices with the indices `i` and
+  /// `j` in the domain.
   void set_weight(std::size_t i, std::size_t j, double weight)
   {
     (*m_weights)[std::minmax(i, j)] = weight;
