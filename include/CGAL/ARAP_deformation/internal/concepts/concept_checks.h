@@ -29,10 +29,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What a model of one of our concepts lacks, said where it enters and not where it is first used:
+// Reports what a model of a concept lacks where it is passed, and not where it is first used:
 //   static_assert(Sparse_solver_requirements<Solver>::are_met);
-// The assertion never fails itself. Naming the member instantiates the class, whose own assertions
-// have the sentences.
+// This assertion never fails itself: naming the member instantiates the class, whose own assertions
+// have the messages.
 
 template <typename Void, template <typename...> class Expression, typename... Arguments>
 struct Is_valid : std::false_type {};
@@ -41,7 +41,7 @@ template <template <typename...> class Expression, typename... Arguments>
 struct Is_valid<std::void_t<Expression<Arguments...>>, Expression, Arguments...>
   : std::true_type {};
 
-// whether the alias template Expression has a meaning for the arguments
+// whether the alias template Expression is well-formed for the arguments
 template <template <typename...> class Expression, typename... Arguments>
 constexpr bool is_valid = Is_valid<void, Expression, Arguments...>::value;
 
@@ -62,7 +62,7 @@ template <typename Solver>
 using Call_solve = Requires_convertible<
   decltype(std::declval<Solver&>().solve(std::size_t(), std::declval<Coordinates*>())), bool>;
 
-// not required: a border saves a factorization when handles change
+// optional: a border saves a factorization when control vertices change
 template <typename Solver>
 using Call_set_border = Requires_convertible<
   decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
@@ -159,7 +159,7 @@ template <typename Traits>
 using Call_closest_rotation_object = Requires_convertible<
   decltype(std::declval<const Traits&>().closest_rotation_object()), Closest_rotation_of<Traits>>;
 
-// The requirements of a nested type; none if there is no such type, of which a sentence tells.
+// The requirements of a nested type; none if the type is missing, which is reported by itself.
 template <template <typename> class Requirements, template <typename...> class Type,
           typename Traits, bool = is_valid<Type, Traits>>
 struct Requirements_of : Requirements<Type<Traits>> {};
@@ -262,15 +262,15 @@ using Call_for_each_incident_simplex =
   decltype(std::declval<const Domain&>().for_each_incident_simplex(
     std::declval<Vertex_of<Domain>>(), std::declval<const Function_of_simplex<Domain>&>()));
 
-// 0 if there is no constant
+// 0 if Domain has no such constant
 template <typename Domain, typename = void>
 constexpr int dimension_of = 0;
 template <typename Domain>
 constexpr int dimension_of<Domain, std::void_t<Constant_dimension<Domain>>> =
   Constant_dimension<Domain>::value;
 
-// What a domain needs, and what the weights need for its dimension. (Members that return `auto` are
-// instantiated to know what they return.)
+// The requirements of a domain, and those of the weights for its dimension. (Members that return
+// `auto` are instantiated to deduce their types.)
 template <typename Domain, typename Weight>
 struct Domain_requirements
 {
