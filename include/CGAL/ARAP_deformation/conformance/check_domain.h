@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  // reports each sentence once, for the first vertex
+  // reports each message once, for the first vertex
   void require(bool holds, const std::string& sentence, vertex_descriptor v)
   {
     if(!holds && m_known.insert(sentence).second)
