@@ -1,6 +1,6 @@
-# What makes programs that use this package faster, where it is found: the target
-# ARAP_deformation_accelerators has TBB (threads), and for programs that choose them CHOLMOD (another
-# factorization) and METIS (an ordering for smaller factors). Programs work without it too.
+# Optional libraries that make programs faster. The target ARAP_deformation_accelerators links those
+# that are found: TBB (threads), and for programs that select them CHOLMOD (another factorization)
+# and METIS (an ordering with smaller factors).
 if(NOT TARGET ARAP_deformation_accelerators)
   find_package(TBB QUIET)
   include(CGAL_TBB_support)
@@ -13,7 +13,7 @@ if(NOT TARGET ARAP_deformation_accelerators)
       set_property(TARGET ARAP_deformation_accelerators APPEND PROPERTY
                    INTERFACE_LINK_LIBRARIES CGAL::${library}_support)
     else()
-      message(STATUS "NOTICE: ${library} was not found; see the README for what it is good for.")
+      message(STATUS "NOTICE: ${library} was not found; the README tells what it is used for.")
     endif()
   endforeach()
 endif()

@@ -1,5 +1,5 @@
-# The library ARAP_deformation_core: what of the package is no template, compiled once. Programs that
-# are linked with it compile faster; without it the package is header-only.
+# The library ARAP_deformation_core: the parts of the package that are not templates, compiled once.
+# Programs linked with it compile faster; without it the package is header-only.
 if(NOT TARGET ARAP_deformation_core)
   include(${CMAKE_CURRENT_LIST_DIR}/ARAP_deformation_accelerators.cmake)
   add_library(ARAP_deformation_core STATIC EXCLUDE_FROM_ALL

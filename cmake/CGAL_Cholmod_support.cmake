@@ -1,6 +1,5 @@
-# Looks for CHOLMOD, of SuiteSparse. If it is found there is a target CGAL::Cholmod_support, with
-# which programs that use CGAL::ARAP::Cholmod_solver are linked, and which defines
-# CGAL_LINKED_WITH_CHOLMOD.
+# Looks for CHOLMOD, part of SuiteSparse. If found, defines the target CGAL::Cholmod_support for
+# programs that use CGAL::ARAP::Cholmod_solver. It defines CGAL_LINKED_WITH_CHOLMOD.
 if(NOT TARGET CGAL::Cholmod_support)
   find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
   find_library(CHOLMOD_LIBRARY cholmod)

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Makes tables and plots of the file of results that the benchmarks have written, and puts the peak
-// memory of processes into it.
+// Makes tables and plots from the results file that the benchmarks write, and adds the peak memory
+// of processes to it.
 
 #include "include/measure.h"
 #include "include/section.h"
@@ -35,7 +35,7 @@ Json read_results(const std::string& file)
 {
   std::ifstream in(file);
   if(!in)
-    throw Failure("cannot read the results " + file + "; script/bench makes them");
+    throw Failure("cannot read the results " + file + "; run script/bench to make them");
   return Json::parse(in);
 }
 
@@ -110,7 +110,7 @@ Json make_summary(const Json& results)
   return summary;
 }
 
-// Adds a peak that the program peak_memory has printed.
+// Adds a peak printed by the program peak_memory.
 void add_peak(const std::string& file, const std::string& name, double vertices, double megabytes)
 {
   Json results = read_results(file);
@@ -137,7 +137,7 @@ void add_peak(const std::string& file, const std::string& name, double vertices,
     throw Failure("cannot write " + file);
 }
 
-// A plot for gnuplot: its curves are blocks of data in the file itself.
+// A plot for gnuplot, with its data in the same file.
 class Plot
 {
 public:
@@ -158,7 +158,7 @@ public:
     return *this;
   }
 
-  // `points` has x and y at two places of each element
+  // each element of `points` has its coordinates at the keys x and y
   void add(const std::string& title, const std::string& style, const Json& points,
            std::size_t x = 0, std::size_t y = 1)
   {
@@ -184,7 +184,7 @@ private:
   std::ostringstream m_head, m_data, m_curves;
 };
 
-// colours that differ for the colour-blind too: ours is blue, CGAL's is red, libigl's is grey
+// colours that the colour-blind can tell apart: blue for ours, red for CGAL, grey for libigl
 const std::string our_colour = "linecolor rgb '#0060b0' ";
 const std::string cgal_colour = "linecolor rgb '#d04020' ";
 const std::string libigl_colour = "linecolor rgb '#808080' ";
@@ -202,7 +202,7 @@ std::vector<unsigned int> thread_counts_of(const Json& results)
   return threads == 1 ? std::vector<unsigned int>{1} : std::vector<unsigned int>{1, threads};
 }
 
-// points (x, y) of the rows that are wanted, the smallest y for each x
+// points (x, y) of the selected rows, with the smallest y for each x
 Json points_of(const Json& rows, const std::string& x, const std::string& y,
                const std::function<bool(const Json&)>& is_wanted)
 {

@@ -33,7 +33,7 @@ namespace {
 
 using namespace benchmark;
 
-// what one local step is given
+// the input of one local step
 struct Batch
 {
   std::vector<ARAP::Matrix_3x3> covariances, rotations;
@@ -41,8 +41,8 @@ struct Batch
   std::size_t size() const { return covariances.size(); }
 };
 
-// Fits as SVD_closest_rotation does, and keeps what it was given while it is told to. A step may
-// come in pieces, at the same time.
+// Fits like SVD_closest_rotation, and records its input while told to. Parts of a step may be
+// processed concurrently.
 class Recording_rotation
 {
 public:
@@ -73,7 +73,7 @@ private:
   ARAP::SVD_closest_rotation m_rotation;
 };
 
-// what the local step is given before the iteration of that number
+// the input of the local step before the iteration with the given number
 Batch record_batch(const Scenario& scenario, unsigned int iteration)
 {
   using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight,
@@ -108,7 +108,7 @@ void add_row(const std::string& name, const Rotation& rotation, const std::strin
     largest = (std::max)(largest,
                          (Eigen::Map<const Matrix>(rotations[k].data()) - expected).norm());
   }
-  verify_at_most(largest, 1e-6, "the largest difference of the rotations of " + name +
+  verify_at_most(largest, 1e-6, "the largest difference between the rotations of " + name +
                                 " and those of Eigen's singular value decomposition");
   rows.push_back({{"rotation", name},
                   {"start", start},

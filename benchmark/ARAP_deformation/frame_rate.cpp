@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Frames a second while a handle is dragged, with three iterations a frame, compared with CGAL's
-// Surface_mesh_deformation.
+// Frames per second while a handle is dragged, with three iterations per frame, compared with
+// CGAL's Surface_mesh_deformation.
 
 #include "include/deformations.h"
 #include "include/run_benchmark.h"
@@ -28,7 +28,7 @@ namespace {
 
 using namespace benchmark;
 
-// The handle of a mesh is dragged around: it moves in a circle, and turns to and fro.
+// Drags the handle of a mesh: it moves in a circle and turns back and forth.
 class Drag
 {
 public:
@@ -76,8 +76,8 @@ void measure_frames(const Drag& drag, Deformation& deformation, unsigned int fra
   }
 }
 
-// The iterates of the two classes differ, as their steps come in another order. After a drag both
-// come to the same minimum; fails if they do not.
+// The iterates of the two classes differ, because their steps are in another order. Fails unless
+// both converge to the same minimum after a drag.
 void verify_drag(const Scenario& scenario, const Drag& drag)
 {
   Our_deformation<Default_traits> ours(scenario);
@@ -94,7 +94,7 @@ void verify_drag(const Scenario& scenario, const Drag& drag)
   const Star_energy energy(scenario);
   const double our_energy = energy(ours.mesh()).energy, cgal_energy = energy(cgal.mesh()).energy;
   verify_at_most(std::abs(our_energy - cgal_energy) / cgal_energy, 1e-3,
-                 "the relative difference of the energies after the same drag");
+                 "the relative difference between the energies after the same drag");
   verify_at_most(largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal, 1e-3,
                  "the difference of the shapes after the same drag, relative to the bounding box,");
 }
@@ -156,5 +156,5 @@ int main(int argc, char** argv)
 {
   return run_benchmark(argc, argv, "frame_rate",
                        "usage: frame_rate [options]\n\n"
-                       "Measures the frames a second while a handle is dragged.", run);
+                       "Measures the frames per second while a handle is dragged.", run);
 }

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The global step compared with what bounds it: the time to read the factor twice from memory. Also
-// the solves of the libraries with the same matrices.
+// The global step compared with its lower bound, the time to read the factor twice from memory, and
+// with the solves of other libraries for the same matrices.
 
 #include "include/deformations.h"
 #include "include/run_benchmark.h"
@@ -32,9 +32,9 @@ using namespace benchmark;
 using Matrix = ARAP::Sparse_matrix;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-const std::size_t bytes_in_memory = std::size_t(256) << 20; // more than caches hold
+const std::size_t bytes_in_memory = std::size_t(256) << 20; // larger than the caches
 
-// What one of the solvers takes for a right-hand side of three columns.
+// the cost of one solver for a right-hand side of three columns
 struct Solve
 {
   std::string name;
@@ -65,7 +65,7 @@ Columns columns_of(const std::vector<ARAP::Coordinates>& rows)
                                       3);
 }
 
-// as the minimizers do with what a solution in single precision leaves over
+// refines the solution, as the minimizers do with the residual of single precision
 template <typename Solver>
 void refine(Solver& solver, const Matrix& a, const Columns& b, Columns& x)
 {

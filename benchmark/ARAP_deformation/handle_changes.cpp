@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The time until a session is ready again after some of its control vertices were exchanged for
-// others, compared with a full preprocessing and with CGAL's Surface_mesh_deformation.
+// The time until a session is ready again after some of its control vertices were replaced by
+// others, compared with full preprocessing and with CGAL's Surface_mesh_deformation.
 
 #include "include/deformations.h"
 #include "include/run_benchmark.h"
@@ -26,8 +26,8 @@ using namespace benchmark;
 
 const std::size_t number_of_changes = 100; // half of them erased, half of them inserted
 
-// Two sets of vertices of which one is controlled at a time: the control vertices next to the free
-// ones, and the free vertices next to those.
+// Two sets of vertices, one of which is controlled at a time: the control vertices next to the free
+// vertices, and the free vertices next to those.
 struct Exchange
 {
   std::vector<vertex_descriptor> first, second;
@@ -65,7 +65,7 @@ double exchange(Deformation& deformation, const std::vector<vertex_descriptor>& 
   return stopwatch.seconds();
 }
 
-// The targets of `scenario`, but where the second set is controlled that stays where it is.
+// The targets of `scenario`; the second set stays where it is when controlled.
 Scenario scenario_after(const Scenario& scenario, const Exchange& sets)
 {
   Scenario result = scenario;
@@ -90,8 +90,8 @@ double verify_exchange(const Scenario& scenario, const Exchange& sets)
   changed.proceed(iterations);
   fresh.run(iterations);
   const double difference = largest_distance(changed.mesh(), fresh.mesh()) / scenario.diagonal;
-  verify_at_most(difference, 1e-9, "the difference of a session with changed control vertices and "
-                                   "a new one, relative to the bounding box,");
+  verify_at_most(difference, 1e-9, "the difference between a session with changed control vertices "
+                                   "and a new one, relative to the bounding box,");
   return difference;
 }
 
@@ -114,8 +114,8 @@ Json run(const Settings& settings)
                               : settings.mesh_file);
   Json section = make_section(
     "Other control vertices in the same region",
-    "Milliseconds for a full preprocessing, and after " + std::to_string(number_of_changes) +
-    " vertices were changed: half of them were control vertices before, the others are so now.",
+    "Milliseconds for full preprocessing, and after " + std::to_string(number_of_changes) +
+    " vertices were changed: half were control vertices before, the other half are now.",
     {{"vertices", "vertices"}, {"threads", "threads"}, {"full_ms", "full preprocessing"},
      {"change_ms", "after a change"}, {"ratio", "full / change"},
      {"cgal_full_ms", "CGAL, full"}, {"cgal_change_ms", "CGAL, after a change"},

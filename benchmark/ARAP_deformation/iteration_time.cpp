@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The time of one local/global iteration and of the preprocessing, on a mesh and on subdivisions of
-// it, compared with CGAL's Surface_mesh_deformation, and with libigl if it is there.
+// The time of one local/global iteration and of preprocessing, on a mesh and its subdivisions,
+// compared with CGAL's Surface_mesh_deformation, and with libigl if it is installed.
 
 #include "include/deformations.h"
 #include "include/iteration.h"
@@ -33,8 +33,8 @@ namespace {
 using namespace benchmark;
 
 #ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
-// libigl's stars have raw cotangents for weights, and it starts as ours do. Its rotations are
-// fitted in single precision by few steps, so that only the first iterates are comparable.
+// libigl's weights are raw cotangents of stars, and it starts like our class. It fits rotations in
+// single precision with few steps, so that only the first iterates are comparable.
 void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
 {
   Our_deformation<CGAL::ARAP_deformation_traits_3<CGAL::Default, ARAP::Cotangent_weight>>
@@ -46,7 +46,7 @@ void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
     largest = (std::max)(largest, (to_vector(ours.mesh().point(v)) -
                                    libigl.points().row(v.idx()).transpose()).norm());
   verify_at_most(largest / scenario.diagonal, 1e-3,
-                 "the largest difference of our first iterate and libigl's, relative to the "
+                 "the largest difference between our first iterate and libigl's, relative to the "
                  "bounding box,");
 }
 #endif

@@ -39,11 +39,11 @@ double peak_megabytes()
   std::ifstream status("/proc/self/status");
   for(std::string line; std::getline(status, line);)
     if(line.rfind("VmHWM:", 0) == 0)
-      return std::stod(line.substr(6)) * 1024 / 1e6; // it counts 1024 bytes
+      return std::stod(line.substr(6)) * 1024 / 1e6; // from units of 1024 bytes
   return 0;
 }
 
-// Forgets what reading the mesh took.
+// Resets the peak that reading the mesh has left.
 void reset_peak()
 {
 #ifdef __GLIBC__
@@ -52,7 +52,7 @@ void reset_peak()
   std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
 }
 
-// deforms the mesh of the scenario itself: there is no other copy
+// deforms the mesh of the scenario itself, without a copy
 template <typename Deformation, typename Preprocess>
 void deform(Scenario& scenario, Deformation& deformation, const Preprocess& preprocess)
 {
@@ -117,7 +117,7 @@ int main(int argc, char** argv)
     std::cerr << "usage: peak_memory CLASS PARTS [MESH]\n"
                  "  CLASS  ours, ours_single (a factor in single precision), ours_eigen (Eigen's\n"
                  "         factor), cgal, libigl, or mesh, to read it only\n"
-                 "  PARTS  each edge is cut into so many\n"
+                 "  PARTS  the number of parts that each edge is cut into\n"
                  "Prints the number of vertices and the peak memory in megabytes.\n";
     return 2;
   }

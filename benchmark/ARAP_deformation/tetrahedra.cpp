@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The time of an iteration and of the preprocessing for tetrahedra, with one rotation each,
-// compared with libigl if it is there.
+// The time of an iteration and of preprocessing for tetrahedra, with one rotation each, compared
+// with libigl if it is installed.
 
 #include "include/deformations.h"
 #include "include/iteration.h"
@@ -37,7 +37,7 @@ using namespace benchmark;
 
 using Tetrahedra = std::vector<std::array<int, 4>>;
 
-// A bar whose one end is fixed and whose other one is turned.
+// A bar with one end fixed and the other one turned.
 struct Bar
 {
   std::vector<Point> points;
@@ -45,8 +45,8 @@ struct Bar
   std::vector<std::pair<std::size_t, Point>> targets;
 };
 
-// A grid of cubes, each cut into six tetrahedra around a diagonal. Inner vertices are off the grid,
-// so that no weight is zero for being that of a right angle.
+// A grid of cubes, each cut into six tetrahedra around a diagonal. Inner vertices are moved off the
+// grid, so that no right angle makes a weight zero.
 Bar make_bar(int nx, int ny, int nz)
 {
   Bar bar;
@@ -69,7 +69,7 @@ Bar make_bar(int nx, int ny, int nz)
   for(int x = 0; x < nx; ++x)
     for(int y = 0; y < ny; ++y)
       for(int z = 0; z < nz; ++z)
-        for(const auto& order : orders) // the ways from a corner to the opposite one
+        for(const auto& order : orders) // the paths from a corner to the opposite one
         {
           std::array<int, 3> place = {x, y, z};
           std::array<int, 4> corners = {vertex(x, y, z)};
@@ -170,7 +170,7 @@ double verify_libigl(const Bar& bar, Libigl_deformation& libigl)
                                     .norm());
   }
   const double difference = largest / box.diagonal().norm();
-  verify_at_most(difference, 1e-3, "the largest difference of our first iterate and libigl's, "
+  verify_at_most(difference, 1e-3, "the largest difference between our first iterate and libigl's, "
                                    "relative to the bounding box,");
   return difference;
 }

@@ -9,7 +9,7 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// How long it takes from the rest shape to a gap of 1e-3 and of 1e-5 to the minimum of the energy,
+// The time from the rest shape to relative gaps of 1e-3 and 1e-5 to the minimum of the energy,
 // compared with CGAL's Surface_mesh_deformation.
 
 #include "include/deformations.h"
@@ -41,8 +41,8 @@ const Sample* first_within(const std::vector<Sample>& samples, double minimum, d
   return found == samples.end() ? nullptr : &*found;
 }
 
-// Runs our class to the tolerance, and notes the energy of each iterate, which the report has too.
-// A tolerance of 0 stands for local/global iterations.
+// Runs our class to the tolerance, and records the energy of each iterate, as the report does. A
+// tolerance of 0 selects local/global iterations.
 template <typename Deformation>
 std::pair<std::vector<Sample>, ARAP::Report> sample_ours(Deformation& ours, unsigned int iterations,
                                                          double tolerance)
@@ -59,8 +59,8 @@ std::pair<std::vector<Sample>, ARAP::Report> sample_ours(Deformation& ours, unsi
   return {std::move(samples), std::move(report)};
 }
 
-// Runs CGAL's class in pieces until the gap is reached. It does not tell energies: they are
-// evaluated between the pieces, and the time of that does not count.
+// Runs CGAL's class in pieces until the gap is reached. It does not report energies: they are
+// evaluated between the pieces, and that time is not counted.
 template <typename Deformation>
 std::vector<Sample> sample_cgal(Deformation& cgal, const Star_energy& energy, double minimum,
                                 double gap)
@@ -80,15 +80,14 @@ std::vector<Sample> sample_cgal(Deformation& cgal, const Star_energy& energy, do
   return samples;
 }
 
-// The minimum, from a long run. It is one if the gradient is zero, by a computation that shares no
-// code with ours.
+// The minimum, from a long run. Verified by the gradient, computed without code of this package.
 double find_minimum(const Scenario& scenario, const Star_energy& energy)
 {
   Our_deformation<Default_traits> ours(scenario);
   const ARAP::Report report = sample_ours(ours, 10000, 1e-11).second;
   const Star_energy::Value value = energy(ours.mesh());
   verify_at_most(std::abs(value.energy - report.energy.back()) / value.energy, 1e-9,
-                 "the relative difference of the energy that is reported and an independent one");
+                 "the relative difference between the reported energy and an independent one");
   verify_at_most(value.gradient * scenario.diagonal / value.energy, 1e-2,
                  "the norm of the gradient at the minimum, times the diagonal of the bounding box, "
                  "divided by the energy,");
@@ -114,7 +113,7 @@ Json run(const Settings& settings)
 
   Json section = make_section(
     "From the rest shape to the minimum",
-    "Seconds and iterations until the energy is within a gap of the minimum, without "
+    "Seconds and iterations until the energy is within a relative gap of the minimum, without "
     "preprocessing. CGAL: Surface_mesh_deformation, ORIGINAL_ARAP. The minima agree.",
     {{"vertices", "vertices"}, {"gap", "gap"}, {"threads", "threads"},
      {"seconds", "seconds"}, {"iterations", "iterations"}, {"cgal_seconds", "CGAL"},
@@ -180,7 +179,7 @@ int main(int argc, char** argv)
 {
   return run_benchmark(argc, argv, "time_to_minimum",
                        "usage: time_to_minimum [options]\n\n"
-                       "Measures how long it takes from the rest shape to the minimum of the\n"
-                       "energy, in our class and in CGAL's. That is a few minutes, or with\n"
-                       "--quick, for a smaller mesh, some seconds.", run);
+                       "Measures the time from the rest shape to the minimum of the energy, with\n"
+                       "our class and with CGAL's. Takes a few minutes, or with --quick, for a\n"
+                       "smaller mesh, some seconds.", run);
 }

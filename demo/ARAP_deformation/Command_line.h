@@ -29,7 +29,7 @@
 
 namespace CGAL::ARAP::demo {
 
-// a command line that the command does not understand; the sentence names the option
+// an error in the command line; the message names the option
 struct Usage_error : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -47,7 +47,7 @@ struct Command_line
   Options options;
 };
 
-// the value that a name stands for
+// the value with the given name
 template <typename Value>
 Value chosen(const std::string& option, const std::string& name,
              const std::vector<std::pair<std::string, Value>>& choices)
@@ -59,7 +59,7 @@ Value chosen(const std::string& option, const std::string& name,
       return value;
     names += (names.empty() ? "" : ", ") + choice;
   }
-  throw Usage_error("--" + option + " '" + name + "' is not known; it is one of " + names);
+  throw Usage_error("--" + option + " '" + name + "' is not known; use one of " + names);
 }
 
 inline boost::program_options::options_description described_options()
@@ -70,23 +70,23 @@ inline boost::program_options::options_description described_options()
     other("Other");
   input.add_options()
     ("selection", value<std::string>()->value_name("S.sel")->required(),
-     "one line per vertex: 0 fixed, 1 free, 2 handle; # starts a comment")
+     "one status per line and vertex: 0 fixed, 1 free, 2 handle; # starts a comment")
     ("transform", value<std::string>()->value_name("T.def")->required(),
      "4 x 4 affine matrix, row by row, applied to the handle vertices")
     ("output,o", value<std::string>()->value_name("OUT")->required(),
-     "the deformed mesh: .mesh if MESH is, else .off, .obj, .ply or .stl")
+     "the deformed mesh: .mesh if MESH is a .mesh file, else .off, .obj, .ply or .stl")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
-     "write what was done as JSON")
+     "write a report as JSON")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
-     "write a picture of the shape (of a volume, its boundary) before and after, fixed vertices "
-     "red, handles yellow; needs the program povray");
+     "draw the shape (the boundary of a volume) before and after, fixed vertices red, handles "
+     "yellow; needs the program povray");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
      "which edges share a rotation: spokes, spokes_and_rims, elements")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
-     "cotangent, clamped_cotangent, uniform, or safe_cotangent: clamped for spokes, as they are "
+     "cotangent, clamped_cotangent, uniform, or safe_cotangent: clamped for spokes, unmodified "
      "for the other cells. With cotangent and spokes the energy can be negative and the shape "
-     "distorted, on tetrahedra above all")
+     "distorted, especially with tetrahedra")
     ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "local_global, the iteration of the paper; quasi_newton, which needs many times fewer "
      "iterations to the minimum; or automatic: quasi_newton unless the tolerance is 0")
@@ -95,12 +95,13 @@ inline boost::program_options::options_description described_options()
     ("iterations", value<int>()->default_value(static_cast<int>(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<double>()->default_value(defaults.tolerance, "0.001")->value_name("T"),
-     "stop when the energy is estimated to be within a fraction T of its minimum; 0: run all N")
+     "stop when the estimated relative gap of the energy to its minimum is at most T; 0: run all "
+     "N iterations")
     ("threads", value<int>()->default_value(static_cast<int>(defaults.threads))->value_name("N"),
-     "use at most N threads; 0: as many as there are processors, or one if built without TBB. "
-     "The result is the same");
+     "use at most N threads; 0: one per processor. One if built without TBB. Does not change the "
+     "result");
   other.add_options()
-    ("quiet", "print nothing but errors")
+    ("quiet", "print only errors")
     ("help,h", "print this and exit");
   return input.add(run).add(other);
 }
@@ -108,34 +109,35 @@ inline boost::program_options::options_description described_options()
 inline void print_help(std::ostream& out)
 {
   out << "usage: arap_deform MESH --selection S.sel --transform T.def -o OUT [options]\n\n"
-         "Deforms a surface or a volume as rigidly as possible: the handle vertices are\n"
-         "transformed, the fixed ones stay, and the free ones follow so that every small\n"
+         "Deforms a surface or a volume as rigidly as possible: handle vertices are\n"
+         "transformed, fixed vertices stay, and free vertices follow so that every small\n"
          "part of the shape only rotates (Sorkine and Alexa 2007).\n\n"
-         "MESH is a surface of triangles or polygons, an .off, .obj, .ply or .stl file, or\n"
-         "a volume of tetrahedra, a .mesh file (Medit, text). OUT is of the same kind. Of a\n"
-         ".mesh file only coordinates are changed: references, comments and all sections\n"
-         "are kept as they are. Of a surface, OUT holds the points and the faces, and the\n"
-         "colours of an .off file if it is an .off or .ply file, but nothing else that MESH\n"
-         "may have, such as normals, texture coordinates, materials and comments. Files in\n"
-         ".ply and .stl format are written in binary.\n\n"
-         "S.sel has the vertices in the order of MESH (.stl: in which they first appear).\n"
-         "Messages count them from 0. Free vertices without any face or tetrahedron stay\n"
+         "MESH is a surface of triangles or polygons in an .off, .obj, .ply or .stl file,\n"
+         "or a volume of tetrahedra in a .mesh file (Medit, text). OUT is of the same kind.\n"
+         "In a .mesh file only the coordinates change: references, comments and all\n"
+         "sections are kept. For a surface, OUT has the points and the faces, and the\n"
+         "colours of an .off file if OUT is an .off or .ply file. Everything else in MESH,\n"
+         "such as normals, texture coordinates, materials and comments, is dropped. .ply\n"
+         "and .stl files are written in binary.\n\n"
+         "S.sel lists the vertices in the order of MESH (.stl: of their first appearance).\n"
+         "Messages count them from 0. Free vertices without a face or tetrahedron stay\n"
          "where they are.\n\n"
       << described_options()
       << "\nThe report has the fields status, message, vertices, simplices (faces or\n"
          "tetrahedra), free_vertices, iterations, energy (one number for the initial guess\n"
-         "and one after each iteration), estimated_relative_gap (to the minimum, null if not\n"
-         "known), edge_length_error (relative root mean square), inverted_simplices\n"
-         "(tetrahedra that were turned inside out; 0 for a surface),\n"
-         "unconstrained_components (a vertex of each connected part that nothing holds: it\n"
-         "stays where it is), seconds (load, preprocess, deform) and peak_memory_bytes.\n\n"
-         "Exit status: 0 done, 1 could not be done, 2 wrong usage. Where it is not 0 no\n"
-         "output file is written, and existing ones are left as they were. What is not a\n"
-         "regular file, such as a pipe, is written to as it is, /dev/stdout and the like as\n"
-         "the shell has opened them.\n";
+         "and one after each iteration), estimated_relative_gap (to the minimum, null if\n"
+         "unknown), edge_length_error (relative root mean square), inverted_simplices (the\n"
+         "number of inverted tetrahedra; 0 for a surface), unconstrained_components (the\n"
+         "first vertex of each component without a path of edges of non-zero weight to a\n"
+         "fixed or handle vertex; these components stay where they are), seconds (load,\n"
+         "preprocess, deform) and peak_memory_bytes.\n\n"
+         "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
+         "is written, and existing files are unchanged. Outputs that are not regular\n"
+         "files, such as pipes, are written to directly, /dev/stdout and the like as the\n"
+         "shell has opened them.\n";
 }
 
-// The outputs must be different files, and none an input; only the mesh may be deformed in place.
+// Outputs must be different files and must not be inputs; only the mesh may be deformed in place.
 inline void check_outputs(const Command_line& line)
 {
   const auto check = [](const std::string& a, const std::string& b) {
@@ -203,26 +205,26 @@ inline Command_line parse_command_line(int argc, char** argv)
       "initial_guess", values["initial_guess"].as<std::string>(),
       {{"previous", Initial_guess::previous}, {"laplacian", Initial_guess::laplacian}});
     if(values["iterations"].as<int>() < 0)
-      throw Usage_error("--iterations must be 0 or larger");
+      throw Usage_error("--iterations must not be negative");
     line.options.iterations = static_cast<unsigned int>(values["iterations"].as<int>());
     if(values["threads"].as<int>() < 0)
-      throw Usage_error("--threads must be 0 or larger");
+      throw Usage_error("--threads must not be negative");
     line.options.threads = static_cast<unsigned int>(values["threads"].as<int>());
     line.options.tolerance = values["tolerance"].as<double>();
     if(const Outcome checked = line.options.check(); !checked)
       throw Usage_error(checked.message);
     if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png")
-      throw Usage_error("--image " + line.image + ": pictures are .png files");
+      throw Usage_error("--image " + line.image + ": the picture must be a .png file");
     check_outputs(line);
     return line;
   }
   catch(const po::error& error)
   {
-    // Boost replaces placeholders such as %value% in its sentence by an argument: endlessly if that
-    // holds the placeholder itself
+    // Boost replaces placeholders such as %value% in its messages by an argument: endlessly if that
+    // contains the placeholder itself
     const auto has_percent = [](std::string_view a) { return a.find('%') != a.npos; };
     if(std::any_of(argv, argv + argc, has_percent))
-      throw Usage_error("an option is missing, not known or given twice, or its value is none");
+      throw Usage_error("an option is missing, not known or given twice, or its value is invalid");
     throw Usage_error(error.what());
   }
 }

@@ -19,7 +19,7 @@
 
 namespace CGAL::ARAP::demo {
 
-// set when the user interrupts the run while a Delayed_interruption lives
+// set if the user interrupts the run during the lifetime of a Delayed_interruption
 inline volatile std::sig_atomic_t is_interrupted = 0;
 
 inline void check_interrupted()
@@ -28,9 +28,9 @@ inline void check_interrupted()
     throw std::runtime_error("interrupted");
 }
 
-// While it lives there may be temporary files, and no signal that can be expected ends the program
-// before they are removed: those that should end it set is_interrupted, and a pipe whose reader has
-// gone ends nothing but the write. Without it they end the program at once, whatever it waits for.
+// Protects temporary files: during its lifetime the usual signals do not end the program before the
+// files are removed. Those that should end it set is_interrupted, and a pipe without a reader only
+// fails the write. At any other time these signals end the program at once.
 class Delayed_interruption
 {
 public:
@@ -61,10 +61,10 @@ private:
   {
     const Handler before = std::signal(signal, handler);
     m_before.emplace_back(signal, before);
-    if(before == SIG_IGN) // as nohup wants it
+    if(before == SIG_IGN) // by nohup, for example
       std::signal(signal, SIG_IGN);
 #if defined(__unix__) || defined(__APPLE__)
-    // it also ends what the program waits for, such as for somebody to read from a pipe
+    // also interrupt blocking calls, such as waiting for a reader of a pipe
     struct sigaction action;
     sigaction(signal, nullptr, &action);
     action.sa_flags &= ~SA_RESTART;

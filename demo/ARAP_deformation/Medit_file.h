@@ -36,7 +36,7 @@ namespace CGAL::ARAP::demo {
 struct Tetrahedral_mesh
 {
   std::vector<Kernel::Point_3> points;
-  std::vector<std::array<int, 4>> tetrahedra; // places in `points`, from 0
+  std::vector<std::array<int, 4>> tetrahedra; // indices into `points`
 };
 
 inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mesh)
@@ -46,7 +46,7 @@ inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mes
 
 namespace internal {
 
-// The words of a text, one after the other. White space separates them; # starts a comment.
+// The words of a text. White space separates them; # starts a comment.
 class Words
 {
 public:
@@ -66,7 +66,7 @@ public:
     return m_text.substr(m_begin, m_end - m_begin);
   }
 
-  // the place of the last word, and of its end
+  // the positions of the last word and of its end
   std::size_t begin() const { return m_begin; }
   std::size_t end() const { return m_end; }
 
@@ -77,12 +77,12 @@ private:
 
 } // namespace internal
 
-// The tetrahedra of a .mesh file, and its text: it is written with other coordinates and is else
-// the same to the byte, with its references, comments and sections, whatever they are.
+// The tetrahedra of a .mesh file, and its text: it is written with new coordinates, and otherwise
+// unchanged to the byte, with all its references, comments and sections.
 class Medit_file
 {
 public:
-  // Throws a std::runtime_error whose sentence names the file, the line and what is wrong.
+  // Throws a std::runtime_error whose message names the file, the line and what is wrong.
   explicit Medit_file(const std::string& file) : m_name(file)
   {
     std::ifstream in = open_for_reading(file);
@@ -109,7 +109,7 @@ public:
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
 
-  // Writes the file with these points. A coordinate that has not changed keeps its text.
+  // Writes the file with these points. Unchanged coordinates keep their text.
   void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) const
   {
     out.precision(std::numeric_limits<double>::max_digits10);
@@ -133,7 +133,7 @@ public:
 private:
   using Words = internal::Words;
 
-  // Throws the sentence `expected`, to be continued by what is there instead.
+  // Throws a message: `expected`, continued by what is there instead.
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
     const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
@@ -148,7 +148,7 @@ private:
     return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0]));
   }
 
-  // whether these elements would be torn apart, as only tetrahedra are deformed
+  // whether these elements would be torn apart, since only tetrahedra are deformed
   static bool is_unknown_element(std::string_view keyword)
   {
     const std::size_t n = keyword.size();
@@ -160,15 +160,15 @@ private:
                                                  name == "Quadrilaterals" || name == "Tetrahedra"));
   }
 
-  // The places where the contents start of the sections that are read. Others may hold anything:
-  // they end where the next keyword is.
+  // The positions of the contents of the sections that are read. Other sections may hold anything;
+  // they end at the next keyword.
   std::map<std::string_view, std::size_t> find_sections() const
   {
     Words words(m_text);
     const std::string_view first = words.next();
     if(m_text.find('\0') != std::string::npos)
-      throw std::runtime_error(m_name + ": is binary; of Medit's formats only .mesh is read, which "
-                                        "is text, and not .meshb");
+      throw std::runtime_error(m_name + ": is binary; of Medit's formats only the text format "
+                                        ".mesh can be read, not .meshb");
     if(first != "MeshVersionFormatted")
       refuse(words, "a .mesh file starts with 'MeshVersionFormatted', but this with");
     std::map<std::string_view, std::size_t> sections;
@@ -187,7 +187,7 @@ private:
     return sections;
   }
 
-  // a row of a section, for the sentences about it
+  // a row of a section, for messages about it
   struct Row
   {
     const char* section;
@@ -199,7 +199,7 @@ private:
     }
   };
 
-  // Reads an integer from `smallest` to `largest`; description() says what it should be.
+  // Reads an integer from `smallest` to `largest`; description() tells what is expected.
   template <typename Description>
   long long read_integer(Words& words, long long smallest, long long largest,
                          const Description& description) const
@@ -229,7 +229,7 @@ private:
                  [&] { return "an integer, the reference in " + row.name(); });
   }
 
-  // Reads how many rows a section has.
+  // Reads the number of rows of a section.
   long long read_number(Words& words, const char* section) const
   {
     return read_integer(words, 0, (std::numeric_limits<int>::max)(), [section] {
@@ -237,8 +237,8 @@ private:
     });
   }
 
-  // Calls read_row(row) for each row of a section, which returns an item. Nothing is allocated that
-  // the file has no room for, whatever it announces.
+  // Calls read_row(row), which returns an item, for each row of a section. Allocates no more than
+  // the file has room for, whatever it announces.
   template <typename Items, typename Read_row>
   void read_rows(Words& words, Row row, Items& items, const Read_row& read_row) const
   {
@@ -286,10 +286,10 @@ private:
 
   std::string m_name, m_text;
   Tetrahedral_mesh m_mesh;
-  std::size_t m_first_vertex = 0; // the place in the text behind the number of vertices
+  std::size_t m_first_vertex = 0; // the position in the text after the number of vertices
 };
 
-// Writes a new .mesh file, all references 0.
+// Writes a new .mesh file with all references 0.
 inline void write_mesh(Output_file& file, const Tetrahedral_mesh& mesh)
 {
   file.write([&](std::ostream& out) {

@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_OUTPUT_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_OUTPUT_FILE_H
 
-// The files that the command arap_deform writes, and what a name of a file stands for.
+// The output files of the command arap_deform, and the files that names refer to.
 
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 
@@ -35,7 +35,7 @@ namespace CGAL::ARAP::demo {
 
 namespace internal {
 
-// whether the name is that of a file descriptor of this process, as /dev/fd/1 is
+// whether the name is that of a file descriptor of this process, such as /dev/fd/1
 inline bool is_descriptor(const std::filesystem::path& file)
 {
   std::error_code error;
@@ -43,8 +43,8 @@ inline bool is_descriptor(const std::filesystem::path& file)
   return !folder.empty() && std::filesystem::canonical(file.parent_path(), error) == folder;
 }
 
-// Where the links lead that a name stands for: to a file, which need not exist, or to a descriptor,
-// such as /dev/fd/1 from /dev/stdout. Links in a circle are not followed to an end.
+// The end of the links that start at a name: a file, which need not exist, or a descriptor, such as
+// /dev/fd/1 for /dev/stdout. Cyclic links are followed only so far.
 inline std::filesystem::path followed(const std::string& name)
 {
   std::error_code error;
@@ -56,7 +56,7 @@ inline std::filesystem::path followed(const std::string& name)
   return file;
 }
 
-// The only name of a file, or of where it would be created; empty if there is no such place.
+// The canonical name of a file, which need not exist; empty if it cannot exist.
 inline std::filesystem::path location(const std::string& name)
 {
   std::error_code error;
@@ -65,16 +65,16 @@ inline std::filesystem::path location(const std::string& name)
            : std::filesystem::weakly_canonical(followed(name), error);
 }
 
-// A file of the C library: unlike a stream, it can be made of a descriptor, and a signal ends what
-// it waits for.
+// A file of the C library: unlike a stream, it can be opened on a descriptor, and signals interrupt
+// it.
 struct Close_file
 {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using C_file = std::unique_ptr<std::FILE, Close_file>;
 
-// What a descriptor stands for, as it was opened: a file is neither emptied nor written to from its
-// start, and what is written to the descriptor later comes behind.
+// Opens a duplicate of a descriptor: a file is neither truncated nor written from its start, and
+// later output to the descriptor follows.
 inline C_file open_descriptor(const std::filesystem::path& file)
 {
 #if defined(__unix__) || defined(__APPLE__)
@@ -95,7 +95,7 @@ inline C_file open_descriptor(const std::filesystem::path& file)
 
 } // namespace internal
 
-// Whether two names stand for the same file, pipe or device, or would if there were one.
+// Whether two names refer to the same file, pipe or device, or would if it existed.
 inline bool is_same_file(const std::string& a, const std::string& b)
 {
   std::error_code error;
@@ -105,14 +105,14 @@ inline bool is_same_file(const std::string& a, const std::string& b)
   return !place.empty() && place == internal::location(b);
 }
 
-// A file that is written under a temporary name beside its own, and gets its own only by commit():
-// no other program ever sees half of it, and nothing is left if commit() is never reached. Links
-// are followed, permissions kept. What is not a regular file, such as a pipe, and descriptors, such
-// as /dev/stdout, are opened once, at construction, and written to directly.
+// A file that is written under a temporary name in the same folder and renamed by commit(): no
+// other program ever sees half of it, and nothing is left without commit(). Follows links and keeps
+// permissions. Files that are not regular, such as pipes, and descriptors, such as /dev/stdout, are
+// opened once, at construction, and written directly.
 class Output_file
 {
 public:
-  // Throws if the file cannot be written, without touching it.
+  // Throws if the file cannot be written, and leaves it untouched.
   explicit Output_file(const std::string& file) : m_name(file)
   {
     std::error_code error;
@@ -135,7 +135,7 @@ public:
       std::filesystem::remove(m_temporary, ignored);
   }
 
-  // Calls write(stream) and throws if not everything reached the file. To be called once.
+  // Calls write(stream), and throws if not everything reached the file. Call it once only.
   template <typename Write>
   void write(const Write& write)
   {
@@ -172,7 +172,7 @@ private:
     const bool exists = std::filesystem::is_regular_file(status);
     require(exists || status.type() == std::filesystem::file_type::not_found);
     require(!m_file.empty() && (!exists || std::ofstream(m_file, std::ios::app)));
-    // short, as the name of the file may be as long as names can be
+    // short, since the name of the file may have the maximum length
     const auto temporary = m_file.parent_path() /
                            ("arap_" + std::to_string(std::random_device()()) + ".tmp");
     require(bool(std::ofstream(temporary)));

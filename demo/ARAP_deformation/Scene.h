@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SCENE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SCENE_H
 
-// Pictures of triangulated shapes in the manner of the figures of Sorkine and Alexa 2007, drawn by
+// Pictures of triangulated shapes in the style of the figures of Sorkine and Alexa 2007, drawn by
 // the ray tracer POV-Ray, which needs neither a display nor a library.
 
 #include <CGAL/Bbox_3.h>
@@ -39,7 +39,7 @@ namespace CGAL::ARAP::demo {
 using Vector = CGAL::Simple_cartesian<double>::Vector_3;
 using Points = std::vector<std::array<double, 3>>;
 
-// One shape of a picture. The selection has a number per vertex, as in .sel files: 0 fixed (drawn
+// One shape of a picture. The selection has a status per vertex, as in .sel files: 0 fixed (drawn
 // red), 1 free (pale), 2 handle (yellow). Without a selection all vertices are free.
 struct Panel
 {
@@ -50,7 +50,7 @@ struct Panel
   std::vector<std::array<int, 2>> lines = {}; // thin and pale, from point to point
 };
 
-// How the panels of a picture are seen: all from the same side and at the same scale.
+// The view of all panels of a picture: from the same side and at the same scale.
 struct View
 {
   Vector from{0.4, -1, 0.3}; // direction from the shape to the eye
@@ -61,8 +61,8 @@ struct View
   bool show_ground = true;   // let the shapes cast a shadow on the ground under them
 };
 
-// A view on the broad side of the shape, a bit from the right and from above. Up is the longest
-// axis if there is a distinct one, the normal of a flat shape, and else the y axis.
+// A view of the broad side of the shape, slightly from the right and above. Up is the longest axis
+// if it is distinctly longer, the normal if the shape is flat, and otherwise the y axis.
 inline View default_view(const Points& points)
 {
   CGAL::Bbox_3 box;
@@ -113,7 +113,7 @@ void write_list(std::ostream& out, const char* name, const Range& range, Write_i
 }
 
 // The triangles with smooth normals. Each corner has the texture of its vertex, and POV-Ray blends.
-// Fixed vertices that no triangle shows, as none has all corners fixed alike, are drawn as balls.
+// Fixed vertices and handles without a triangle of one colour are drawn as balls.
 inline void write_surface(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
 {
   const std::vector<int>& selection = panel.selection;
@@ -122,11 +122,11 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
   for(const auto& [a, b, c] : panel.triangles) {
     const Vector n = CGAL::cross_product(points[b] - points[a], points[c] - points[a]);
     for(int v : {a, b, c})
-      normals[v] += n; // its length weights it by the area
+      normals[v] += n; // weighted by the area
     if(selection[a] == selection[b] && selection[b] == selection[c])
       is_shown[a] = is_shown[b] = is_shown[c] = true;
   }
-  for(Vector& n : normals) // POV-Ray wants some normal even where there is none
+  for(Vector& n : normals) // POV-Ray needs a normal even where there is none
     n = n.squared_length() > 0 ? unit(n) : Vector(0, 0, -1);
 
   const auto write_vector = [](const Vector& v, std::ostream& list) { list << Pov{v}; };
@@ -146,13 +146,13 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
           << (selection[v] == 0 ? "Fixed" : "Handle") << " } }\n";
 }
 
-// The texture is the name of one.
+// `texture` is the name of a texture.
 template <typename Lines>
 void write_lines(std::ostream& out, const Lines& lines, const std::vector<Vector>& points,
                  const char* texture)
 {
   for(const auto& [a, b] : lines)
-    if(points[a] != points[b]) // POV-Ray takes no cylinder without length
+    if(points[a] != points[b]) // POV-Ray rejects cylinders without length
       out << "cylinder { " << Pov{points[a]} << ", " << Pov{points[b]} << ", Line_radius texture { "
           << texture << " } no_shadow }\n";
 }
@@ -178,9 +178,9 @@ inline std::string escaped(const std::string& text, const std::string& special)
   return result;
 }
 
-// What all scenes share. The declarations of Width, Height, Ground and Ground_height, which precede
-// it, are in pixels. The ground has a light of its own, straight above, so that its soft shadow
-// stays below each shape; it is bright enough to be white where there is no shadow.
+// The common part of all scenes. It follows the declarations of Width, Height and Ground_height, in
+// pixels, and of Ground, the normal of the ground. The ground has its own light, straight above, so
+// that soft shadows stay below each shape; without shadow it is bright enough to be white.
 inline constexpr const char* stage = R"(
 #declare Far = 20 * max(Width, Height);
 #declare Soft = Far / 3;
@@ -217,7 +217,7 @@ light_source { Far * vnormalize(<0.1, 0.2, -1>) srgb 0.55 shadowless }
 #end
 )";
 
-// A new folder, which goes away with everything in it.
+// A new folder, removed with its contents at destruction.
 struct Temporary_folder
 {
   std::filesystem::path path;
@@ -237,15 +237,15 @@ struct Temporary_folder
   }
 };
 
-// Runs POV-Ray in the folder, for its files and its messages, and returns its exit code. No name
-// that a user chose reaches the shell, and that of the folder is quoted for it.
+// Runs POV-Ray in the folder, where its files and messages go, and returns its exit code. No name
+// chosen by a user reaches the shell, and the name of the folder is quoted.
 inline int run_povray(const Temporary_folder& folder, const std::string& options)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
   return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
 }
 
-// The messages of POV-Ray since its last headline, which say why it stopped.
+// The messages of POV-Ray after its last headline, which tell why it stopped.
 inline std::string last_messages(const std::filesystem::path& file)
 {
   std::ifstream in(file);
@@ -257,8 +257,8 @@ inline std::string last_messages(const std::filesystem::path& file)
 
 } // namespace internal
 
-// Writes the panels in a row as a scene for POV-Ray, in which a unit is a pixel of the picture.
-// The captions should be plain ASCII: the fonts that come with POV-Ray have little else.
+// Writes the panels in a row as a scene for POV-Ray, with a pixel as the unit. Captions should be
+// plain ASCII: the fonts of POV-Ray have little else.
 inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View& view)
 {
   // The axes of the viewer. POV-Ray's are left-handed: x to the right, y up, z away from the eye.
@@ -305,7 +305,7 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
       << "global_settings { assumed_gamma 1 }\n"
       << "#declare Width = " << width << ";\n"
       << "#declare Height = " << view.height << ";\n";
-  if(view.show_ground && ground.z() < 0) // from below, the ground would hide everything
+  if(view.show_ground && ground.z() < 0) // seen from below, the ground would hide everything
     out << "#declare Ground = " << internal::Pov{ground} << ";\n"
         << "#declare Ground_height = " << ground_height - 0.5 << ";\n"; // just under the shape
   out << internal::stage;
@@ -325,7 +325,7 @@ inline void check_renderer()
 {
   const internal::Temporary_folder folder;
   if(internal::run_povray(folder, "--version") != 0)
-    throw std::runtime_error("pictures are drawn by POV-Ray, but its program povray was not found");
+    throw std::runtime_error("pictures need POV-Ray, but its program povray was not found");
 }
 
 // Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
@@ -335,7 +335,7 @@ inline void render(const std::vector<Panel>& panels, const View& view, std::ostr
   for(const Panel& panel : panels)
     for(const auto& [x, y, z] : panel.points)
       if(!std::isfinite(x + y + z))
-        throw std::runtime_error("there is no picture of a shape whose coordinates are not finite");
+        throw std::runtime_error("a shape whose coordinates are not finite cannot be drawn");
   const internal::Temporary_folder folder;
   std::ofstream scene(folder.path / "scene.pov");
   write_scene(scene, panels, view);

@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILE_H
 
-// The two kinds of shapes that the command deforms, with one interface: each is read at
-// construction, deformed by its domain, and written.
+// The two kinds of shapes that the command deforms, with a common interface: each is read at
+// construction, deformed through its domain, and written.
 
 #include "Medit_file.h"
 #include "read_mesh.h"
@@ -30,7 +30,7 @@
 
 namespace CGAL::ARAP::demo {
 
-// A surface of triangles and polygons, in an .off, .obj, .ply or .stl file
+// A surface of triangles and polygons in an .off, .obj, .ply or .stl file.
 class Surface_file
 {
 public:
@@ -55,7 +55,7 @@ private:
   Mesh m_mesh;
 };
 
-// Tetrahedra, in a .mesh file of which all else is kept
+// Tetrahedra in a .mesh file, the rest of which is kept.
 class Tetrahedra_file
 {
 public:
@@ -78,7 +78,7 @@ public:
 
 private:
   Medit_file m_file;
-  Tetrahedral_mesh m_mesh; // the one that is deformed
+  Tetrahedral_mesh m_mesh; // deformed
 };
 
 } // namespace CGAL::ARAP::demo

@@ -51,7 +51,7 @@ namespace {
 using namespace CGAL::ARAP::demo;
 using CGAL::ARAP::Report;
 
-// Edge weights that are chosen at run time: one instantiation of the deformation serves them all.
+// edge weights chosen at run time, so that a single instantiation of the deformation suffices
 class Chosen_weight
 {
 public:
@@ -84,7 +84,7 @@ private:
 
 using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Chosen_weight>;
 
-// what the command did, beyond what the deformation reports
+// the report of the deformation, and what the command adds to it
 struct Result
 {
   Report report;
@@ -198,7 +198,7 @@ void print_summary(const Command_line& line, const Result& result)
   flush_output();
 }
 
-// Throws if the mesh or the output is no mesh file, or they are not of one kind.
+// Throws if the mesh or the output is not a mesh file, or if they are of different kinds.
 void check_mesh_files(const Command_line& line)
 {
   for(const std::string& file : {line.mesh, line.output})
@@ -213,7 +213,7 @@ void check_mesh_files(const Command_line& line)
                              " can only be written to an .off, .obj, .ply or .stl file");
 }
 
-// Shape is the class of what is in the mesh file.
+// Shape is the class of the contents of the mesh file.
 template <typename Shape>
 void run(const Command_line& line)
 {
@@ -224,7 +224,7 @@ void run(const Command_line& line)
   const Transform transform = read_transform(line.transform);
   load_timer.stop();
 
-  // opened before the work, so that nothing is computed in vain
+  // opened first, so that nothing is computed in vain
   shape.check_output(line.output);
   const Delayed_interruption until_files_are_closed;
   Output_file output(line.output);
@@ -260,7 +260,7 @@ void run(const Command_line& line)
     print_summary(line, result);
   check_interrupted();
 
-  // last, when nothing else can fail
+  // when nothing else can fail
   output.commit();
   if(report)
     report->commit();
@@ -288,7 +288,7 @@ void run(const Command_line& line)
 int main(int argc, char** argv)
 {
 #if defined(__unix__) || defined(__APPLE__)
-  std::signal(SIGXFSZ, SIG_IGN); // a file that gets too large is a write that fails
+  std::signal(SIGXFSZ, SIG_IGN); // writing too large a file must fail, not end the program
 #endif
   try
   {
@@ -309,7 +309,7 @@ int main(int argc, char** argv)
   }
   catch(const std::bad_alloc&)
   {
-    std::cerr << "arap_deform: there is not enough memory\n";
+    std::cerr << "arap_deform: out of memory\n";
     return 1;
   }
   catch(const std::exception& error)

@@ -9,12 +9,12 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The demo around the command arap_deform: writes the models to deform, and draws what became of
-// them. script/demo runs it before and after the command.
+// The demo around the command arap_deform: writes the models to deform, and draws the results.
+// script/demo runs it before and after the command.
 //
-//   arap_demo models FOLDER [MESHES]   writes NAME.off or NAME.mesh, NAME.sel, NAME.def, and prints
-//                                      the former; of the meshes of CGAL's data folder MESHES too,
-//                                      if it is given
+//   arap_demo models FOLDER [MESHES]   writes NAME.off or NAME.mesh, NAME.sel and NAME.def, and
+//                                      prints the names of the meshes; includes models from CGAL's
+//                                      data folder MESHES if it is given
 //   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
 //                                      figures of the paper that take more than one run; prints a
 //                                      table
@@ -122,8 +122,8 @@ using Traits = CGAL::ARAP_deformation_traits_3<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight>;
 
-// Figure 3 of the paper: a bar is bent, and the iterations recover from the distorted guess of
-// naive Laplacian editing.
+// Figure 3 of the paper: iterations on a bent bar, from the distorted guess of naive Laplacian
+// editing.
 void draw_iterations(const fs::path& folder)
 {
   Demo_shape bar = make_bar(2);
@@ -154,8 +154,8 @@ void draw_iterations(const fs::path& folder)
        folder / "iterations.png");
 }
 
-// The largest difference of height between the left and the right of a sheet over [-1, 1]^2, each
-// vertex of the coarse right half against the fine left half.
+// The largest difference in height between the two halves of a symmetric sheet, at each vertex of
+// the coarse right half and its mirror image in the fine left half.
 double asymmetry(const Mesh& rest, const Mesh& mesh)
 {
   double largest = 0;
@@ -187,7 +187,7 @@ Panel deformed_sheet(const Demo_shape& sheet, const std::string& caption)
   return panel(mesh, sheet.selection, caption);
 }
 
-// Figure 2 of the paper: a sheet that is meshed more finely on the left.
+// Figure 2 of the paper: a sheet with a finer mesh on the left.
 void draw_weights(const fs::path& folder)
 {
   const Demo_shape sheet = make_biased_plane();
@@ -197,7 +197,7 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
-// a row of the table: what the report of the command says
+// a row of the table, from the report of the command
 void print_row(const fs::path& folder, const std::string& name)
 {
   std::ifstream in(folder / (name + ".json"));
@@ -211,7 +211,7 @@ void print_row(const fs::path& folder, const std::string& name)
             << report["seconds"]["deform"].get<double>() << '\n';
 }
 
-// Section 5 of the paper: a surface of many pieces follows a coarse volume around it.
+// Section 5 of the paper: a surface in many pieces follows a coarse volume around it.
 void draw_embedding(const fs::path& folder)
 {
   Soup<3> palm = make_palm();

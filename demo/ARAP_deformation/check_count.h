@@ -18,8 +18,8 @@
 
 namespace CGAL::ARAP::demo {
 
-// A file has a byte, at least, for each thing in it. Throws if it announces more of them: it is
-// damaged, and who believes it allocates without bound.
+// A file has at least one byte for each of its items. Throws if it announces more: it is damaged,
+// and a reader that trusts it allocates without bound.
 inline void check_count(const std::string& file, std::size_t bytes, double count,
                         const std::string& things)
 {

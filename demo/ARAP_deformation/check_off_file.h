@@ -28,8 +28,8 @@ namespace CGAL::ARAP::demo {
 
 namespace internal {
 
-// The checks of the rows of an .off file, as CGAL's reader sees them: it believes the number of
-// corners in a row, and that rows are as long as they need be for the colours of the header.
+// Checks the rows of an .off file, as CGAL's reader parses them: it trusts the number of corners in
+// a row, and that rows are long enough for the colours that the header announces.
 class Off_rows
 {
 public:
@@ -43,7 +43,7 @@ public:
     const std::size_t h = m_header.is_homogeneous() ? 1 : 0;
     const std::size_t plain = 3 + h + (m_header.has_normals() ? 3 + h : 0);
     const std::size_t texture = m_header.has_textures() ? 2 + h : 0;
-    const bool is_plain = h == 0 && !m_header.has_colors(); // then CGAL asks for enough numbers
+    const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL checks the length of such rows
     bool has_colours = false;
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
@@ -69,11 +69,11 @@ public:
       read_numbers();
       const double corners = m_row.empty() ? 0 : m_row[0];
       if(!(corners >= 0 && corners < static_cast<double>(m_row.size())))
-        refuse("face", f, "has not as many vertices as it announces");
+        refuse("face", f, "has fewer vertices than it announces");
       const auto end = 1 + static_cast<std::size_t>(corners);
       for(std::size_t i = 1; i < end; ++i)
         if(!(m_row[i] >= 0 && m_row[i] < static_cast<double>(m_header.size_of_vertices())))
-          refuse("face", f, "has a vertex that there is not");
+          refuse("face", f, "has a vertex that does not exist");
       if(m_header.has_colors())
         check_colour("face", f, end, m_row.size(), has_colours);
     }
@@ -85,7 +85,7 @@ private:
     throw std::runtime_error(m_file + ": " + what + ' ' + std::to_string(number) + ' ' + why);
   }
 
-  // Rows and their numbers are found in the manner of CGAL's File_scanner_OFF: both see the same.
+  // Rows and their numbers are parsed like in CGAL's File_scanner_OFF, so that both see the same.
   void find_row(const char* what, std::size_t number)
   {
     m_in >> skip_comment_OFF;
@@ -112,8 +112,8 @@ private:
       return;
     has_colours = true;
     if(n != 1 && n < 3)
-      refuse(what, number, "has a colour that is neither one number nor three, or none though "
-                           "others have");
+      refuse(what, number, "has a colour that is neither one number nor three, or no colour though "
+                           "others have one");
     bool is_integer = true;
     double largest = 0;
     for(std::size_t i = begin; i < begin + (std::min)(n, std::size_t(3)); ++i)
@@ -137,17 +137,17 @@ private:
 
 } // namespace internal
 
-// Throws a std::runtime_error for what CGAL's reader of .off files would believe: more rows than
-// there are, rows that are too short. What is not even an .off file is left to the reader.
+// Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
+// rows, and rows that are too short. Files without an .off header are left to the reader.
 inline void check_off_file(std::istream& in, const std::string& file)
 {
   File_header_OFF header(false);
   if(!(in >> header))
     return;
   if(header.binary())
-    throw std::runtime_error(file + ": is binary; of .off files only those in text are read");
+    throw std::runtime_error(file + ": is binary; only .off files in text can be read");
   if(header.has_textures() && !header.has_colors())
-    throw std::runtime_error(file + ": has texture coordinates, which are not read");
+    throw std::runtime_error(file + ": has texture coordinates, which are not supported");
   internal::Off_rows rows(in, file, header);
   rows.check_vertices();
   rows.check_faces();

@@ -31,8 +31,8 @@ namespace CGAL::ARAP::demo {
 
 namespace internal {
 
-// The checks of a .ply file: CGAL's reader believes the numbers of elements and of the entries of
-// lists, and that properties of certain names have the types that it expects.
+// Checks a .ply file: CGAL's reader trusts the numbers of elements and of list entries, and assumes
+// that certain properties have the types that it expects.
 class Ply_layout
 {
 public:
@@ -79,7 +79,7 @@ public:
         if(is_vertex && (p.name == "x" || p.name == "y" || p.name == "z"))
           require(p.is("float") || p.is("double"), p, "float or double");
         if((is_vertex || is_face) && is_colour(p.name) && has_bytes)
-          require(p.is("uchar"), p, "uchar, as other colours");
+          require(p.is("uchar"), p, "uchar, unlike other colours");
         if(element.name == "halfedge" && (p.name == "source" || p.name == "target"))
           require(p.is("uint"), p, "uint");
         if(is_face && (p.name == "vertex_indices" || p.name == "vertex_index"))
@@ -89,7 +89,7 @@ public:
     }
   }
 
-  // Only numbers of entries of four bytes or more can be of a size to matter.
+  // Only counts of four bytes can be large enough to matter.
   bool has_lists_of_any_size() const
   {
     for(const Element& element : m_elements)
@@ -117,7 +117,7 @@ public:
   }
 
 private:
-  using Type = std::size_t; // a place in the names below
+  using Type = std::size_t; // an index into the names below
 
   struct Property
   {
@@ -202,7 +202,7 @@ private:
     m_elements.back().properties.push_back(property);
   }
 
-  // Reads a number, in a text in the manner of CGAL's PLY_read_number, that both see the same.
+  // Reads a number. Text is parsed like in CGAL's PLY_read_number, so that both see the same.
   double read(Type type)
   {
     switch(type)
@@ -249,13 +249,14 @@ private:
   std::size_t m_bytes;
   std::string m_format = "ascii";
   std::vector<Element> m_elements;
-  double m_total = 0; // of the numbers of elements
+  double m_total = 0; // number of elements
 };
 
 } // namespace internal
 
-// Throws a std::runtime_error for what CGAL's reader of .ply files would believe: counts that
-// cannot be, properties of other types than it expects. What is not even a .ply file is left to it.
+// Throws a std::runtime_error for errors that CGAL's reader of .ply files does not detect: counts
+// that are impossible, and properties of unexpected types. Files without a .ply header are left to
+// the reader.
 inline void check_ply_file(std::istream& in, const std::string& file, std::size_t bytes)
 {
   internal::Ply_layout layout(in, file, bytes);

@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SHAPES_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SHAPES_H
 
-// Shapes to deform in the manner of the figures of Sorkine and Alexa 2007: some are made here, the
-// others are meshes of CGAL's data folder. Each comes with what is fixed and how the handle moves.
+// Shapes to deform as in the figures of Sorkine and Alexa 2007: some are generated, others are
+// meshes from CGAL's data folder. Each comes with its fixed vertices and the motion of its handle.
 
 #include "Medit_file.h"
 #include "Scene.h"
@@ -44,14 +44,14 @@ struct Demo_model
   Shape mesh;
   std::vector<int> selection;
   Transform transform; // of the handle
-  View view;           // one that shows the shape well, before and after
+  View view;           // shows the shape well, before and after
 };
 
 using Demo_shape = Demo_model<Mesh>;
 using Demo_volume = Demo_model<Tetrahedral_mesh>;
 
-// The rotation by some degrees about the axis through `centre`, 0 for x, 1 for y, 2 for z, followed
-// by a translation.
+// A rotation, in degrees, about an axis (0 for x, 1 for y, 2 for z) through `centre`, followed by a
+// translation.
 inline Transform motion(int axis, double degrees, const Point& centre, const Vector& translation)
 {
   Transform m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -68,7 +68,7 @@ inline Transform motion(int axis, double degrees, const Point& centre, const Vec
 
 inline Transform translation(const Vector& t) { return motion(0, 0, CGAL::ORIGIN, t); }
 
-// The selection by rules on the coordinates relative to the bounding box, each from 0 to 1.
+// A selection by predicates on the coordinates relative to the bounding box, each from 0 to 1.
 template <typename Shape, typename Is_fixed, typename Is_handle>
 std::vector<int> select(const Shape& shape, Is_fixed is_fixed, Is_handle is_handle)
 {
@@ -85,8 +85,8 @@ std::vector<int> select(const Shape& shape, Is_fixed is_fixed, Is_handle is_hand
   return selection;
 }
 
-// A triangle mesh of squares on an integer lattice. Their diagonals alternate in direction, so that
-// the mesh has no preferred one. The function `place` maps the nodes of the lattice to points.
+// A triangle mesh of squares on an integer lattice. Their diagonals alternate, so that the mesh has
+// no preferred direction. The function `place` maps the nodes of the lattice to points.
 template <typename Place>
 class Lattice_mesh
 {
@@ -95,7 +95,7 @@ public:
 
   explicit Lattice_mesh(Place place) : m_place(place) {}
 
-  // The square at `a` that extends along the axes i and j and is seen from the side of i x j
+  // The square at `a` that extends along the axes i and j, with the normal i x j.
   void add_square(const Node& a, int i, int j)
   {
     Node b = a, c = a, d = a;
@@ -106,7 +106,7 @@ public:
     m_mesh.add_face(is_even ? p : q, r, s);
   }
 
-  // The boundary of the cells that are inside, among the first n[0] x n[1] x n[2]
+  // The boundary of the cells that are inside, among the first n[0] x n[1] x n[2].
   template <typename Is_inside>
   void add_boundary(const Node& n, Is_inside is_inside)
   {
@@ -139,7 +139,7 @@ private:
   Mesh m_mesh;
 };
 
-// A sheet of nx x ny squares
+// A sheet of nx x ny squares.
 template <typename Place>
 Mesh make_sheet(int nx, int ny, Place place)
 {
@@ -170,8 +170,8 @@ inline Demo_shape make_bar(double size = 0.8)
           View{Vector(1, -0.6, 0.35), Vector(0, 0, 1), 320, 640}};
 }
 
-// The same bar, filled with tetrahedra: six a cube, one for each way along its edges from its first
-// corner to its last.
+// The same bar, filled with tetrahedra: six per cube, one for each path along its edges from its
+// first corner to its last.
 inline Demo_volume make_filled_bar(double size = 1.5)
 {
   const int width = int(std::lround(12 / size)), height = int(std::lround(75 / size));
@@ -203,8 +203,8 @@ inline Demo_volume make_filled_bar(double size = 1.5)
   return {"filled_bar", mesh, select(mesh, is_low, is_high), bar.transform, bar.view};
 }
 
-// The signed distance, roughly, to the surface of a cactus: round limbs in the plane of y and z,
-// with ribs along them.
+// The approximate signed distance to the surface of a cactus: round limbs in the yz plane with
+// lengthwise ribs.
 inline double cactus_distance(const Point& p)
 {
   struct Limb { Point from, to; double radius; int ribs; };
@@ -230,7 +230,7 @@ inline double cactus_distance(const Point& p)
   return (std::max)(-blend * std::log(sum), 0.02 - p.z());
 }
 
-// Moves the vertices onto the surface of the cactus, by a few steps of Newton.
+// Moves the vertices onto the surface of the cactus by a few Newton steps.
 inline void project_onto_cactus(Mesh& mesh)
 {
   const double h = 1e-5;
@@ -264,7 +264,7 @@ inline Demo_shape make_cactus()
   }
   project_onto_cactus(mesh);
   mesh.collect_garbage();
-  CGAL_postcondition(CGAL::is_closed(mesh)); // no cells that touch in an edge or a corner only
+  CGAL_postcondition(CGAL::is_closed(mesh)); // no cells touch only in an edge or a corner
   const auto is_low = [](const Point& p) { return p.z() < 0.1; };
   const auto is_tip = [](const Point& p) { return p.z() > 0.88 && std::abs(p.y() - 0.5) < 0.25; };
   return {"cactus", mesh, select(mesh, is_low, is_tip),

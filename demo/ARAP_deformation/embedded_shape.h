@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_EMBEDDED_SHAPE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_EMBEDDED_SHAPE_H
 
-// A surface that cannot be deformed itself, as it is in pieces that cross each other, and a coarse
-// volume around it that can (Section 5 of Sorkine and Alexa 2007).
+// A surface in pieces that intersect each other, which cannot be deformed itself, and a coarse
+// volume around it, which can (Section 5 of Sorkine and Alexa 2007).
 
 #include "Scene.h"
 #include "demo_shapes.h"
@@ -31,7 +31,7 @@
 
 namespace CGAL::ARAP::demo {
 
-// triangles, or tetrahedra, and nothing is known about how they meet
+// triangles or tetrahedra, without any connectivity
 template <std::size_t N>
 struct Soup
 {
@@ -39,7 +39,7 @@ struct Soup
   std::vector<std::array<int, N>> simplices;
 };
 
-// A sheet of nu x nv squares at the points f(u, v), u and v from 0 to 1
+// A sheet of nu x nv squares at the points f(u, v), with u and v from 0 to 1.
 template <typename Place>
 void add_sheet(Soup<3>& soup, int nu, int nv, Place f)
 {
@@ -52,8 +52,8 @@ void add_sheet(Soup<3>& soup, int nu, int nv, Place f)
     }
 }
 
-// A palm: its trunk is made of open cones, which reach into the next one or do not reach it, and
-// its leaves cross each other.
+// A palm: its trunk consists of open cones, some of which overlap the next one while others do not
+// reach it, and its leaves intersect.
 inline Soup<3> make_palm()
 {
   Soup<3> palm;
@@ -78,8 +78,8 @@ inline Soup<3> make_palm()
   return palm;
 }
 
-// The tetrahedra of a body-centred cubic lattice whose centres are close to a point of the surface.
-// The cubes of the lattice have edges of the length 2 * size.
+// The tetrahedra of a body-centred cubic lattice whose centroids are close to a point of the
+// surface. The cubes of the lattice have edge length 2 * size.
 inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double distance)
 {
   using Node = std::array<int, 3>;
@@ -107,7 +107,7 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
   CGAL::Bbox_3 box;
   for(const Point& p : surface.points)
     box += p.bbox();
-  Node first, last; // even, as are all nodes that are corners of cubes
+  Node first, last; // even, like all corners of cubes
   for(int k = 0; k < 3; ++k) {
     first[k] = 2 * int(std::floor((box.min(k) - distance) / size / 2) - 1);
     last[k] = 2 * int(std::ceil((box.max(k) + distance) / size / 2) + 1);
@@ -116,7 +116,7 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
     for(int y = first[1]; y <= last[1]; y += 2)
       for(int z = first[2]; z <= last[2]; z += 2)
         for(int i = 0; i < 3; ++i) {
-          // an edge of a cube, and the four centres of cubes around it
+          // an edge of a cube, and the centres of the four cubes around it
           Node a{x, y, z}, b = a, m = a;
           b[i] += 2, m[i] += 1;
           std::array<Node, 5> around;
@@ -131,7 +131,7 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
   return volume;
 }
 
-// The edges of the triangles that belong to one tetrahedron only.
+// The edges of the triangles that belong to only one tetrahedron.
 inline std::set<std::pair<int, int>> boundary_edges(const Soup<4>& volume)
 {
   std::map<std::array<int, 3>, int> number_of_tetrahedra;
@@ -149,7 +149,7 @@ inline std::set<std::pair<int, int>> boundary_edges(const Soup<4>& volume)
 }
 
 // The panel that shows a surface and the boundary edges of the volume around it. The selection is
-// one of the vertices of the volume.
+// that of the vertices of the volume.
 inline Panel panel(const Soup<3>& surface, const Soup<4>& volume, const std::vector<int>& selection,
                    const std::string& caption)
 {

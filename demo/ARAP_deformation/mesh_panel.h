@@ -28,7 +28,7 @@
 
 namespace CGAL::ARAP::demo {
 
-// What is drawn of a shape: triangles whose corners are places in the list of the vertices.
+// The triangles of a shape that are drawn; their corners are indices into the list of vertices.
 struct Skin
 {
   std::vector<std::size_t> vertices;
@@ -52,11 +52,11 @@ inline Skin skin(const Mesh& mesh)
   return result;
 }
 
-// The boundary of tetrahedra, seen from outside: the faces that only one of them has.
+// The boundary of tetrahedra, oriented outwards: the faces of only one tetrahedron.
 inline Skin skin(const Tetrahedral_mesh& mesh)
 {
   using Triangle = std::array<int, 3>;
-  std::vector<std::pair<Triangle, Triangle>> faces; // with sorted corners, and as seen from outside
+  std::vector<std::pair<Triangle, Triangle>> faces; // with sorted corners, and oriented outwards
   faces.reserve(4 * mesh.tetrahedra.size());
   for(std::array<int, 4> t : mesh.tetrahedra)
   {
@@ -73,7 +73,7 @@ inline Skin skin(const Tetrahedral_mesh& mesh)
   std::sort(faces.begin(), faces.end());
 
   Skin result;
-  std::vector<int> places(mesh.points.size(), -1); // in the list of the vertices
+  std::vector<int> places(mesh.points.size(), -1); // in the list of vertices
   for(auto face = faces.begin(); face != faces.end();)
   {
     const auto end = std::find_if(face, faces.end(),
@@ -96,7 +96,7 @@ inline Skin skin(const Tetrahedral_mesh& mesh)
   return result;
 }
 
-// The panel of a picture with a shape whose vertex v is at points[v].
+// The panel of a shape whose vertex v is at points[v].
 inline Panel panel(const Skin& skin, const std::vector<Kernel::Point_3>& points,
                    const std::vector<int>& selection, const std::string& caption)
 {

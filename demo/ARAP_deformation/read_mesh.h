@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_READ_MESH_H
 #define CGAL_ARAP_DEFORMATION_DEMO_READ_MESH_H
 
-// Surfaces are read by CGAL. Its readers believe what a file says about itself; what they would
-// crash for, or allocate without bound, is refused here first.
+// Reads surfaces with CGAL. Its readers trust a file: input that would make them crash, or allocate
+// without bound, is refused here first.
 
 #include "check_off_file.h"
 #include "check_ply_file.h"
@@ -42,7 +42,7 @@ namespace internal {
 
 using Polygons = std::vector<std::vector<std::size_t>>;
 
-// Makes a mesh of polygons, as CGAL's readers do. They take for granted that all corners exist.
+// Builds a mesh of polygons, as CGAL's readers do; but these assume that all corners exist.
 inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
                        const Polygons& polygons, Mesh& mesh)
 {
@@ -55,30 +55,30 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
     {
       if(v >= points.size())
         throw std::runtime_error(file + ": face " + std::to_string(f) +
-                                 " has a vertex that there is not");
+                                 " has a vertex that does not exist");
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
       throw std::runtime_error(file + ": face " + std::to_string(f) + " has a vertex twice, or is "
-                               "no oriented manifold surface with the faces before it");
+                               "no oriented manifold surface together with the previous faces");
   }
 }
 
-// Normals of vertices are those of the shape at rest: after a deformation they are wrong.
+// The vertex normals of the input are wrong after a deformation.
 inline void remove_normals(Mesh& mesh)
 {
   auto normals = mesh.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
   mesh.remove_property_map(normals);
 }
 
-// Returns whether CGAL could read it.
+// Returns whether CGAL could read the file.
 inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
 {
   const std::string extension = lower_case_extension(file);
   std::error_code ignored;
-  if(std::filesystem::is_other(file, ignored)) // before it is opened, which may wait for a writer
-    throw std::runtime_error(file + ": is not a regular file, as a surface must be: it is read "
-                                    "more than once");
+  if(std::filesystem::is_other(file, ignored)) // checked first: opening may wait for a writer
+    throw std::runtime_error(file + ": is not a regular file; surfaces must be, since they are "
+                                    "read more than once");
   std::ifstream in = open_for_reading(file);
   in.seekg(0, std::ios::end);
   const auto bytes = static_cast<std::size_t>(in.tellg());
@@ -96,7 +96,7 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
       remove_normals(mesh);
       return true;
     }
-    mesh.clear(); // it is read again, to say which face is wrong
+    mesh.clear(); // read it again, to find the wrong face
     rewind();
   }
   if(extension == ".ply")
@@ -119,7 +119,7 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
 
 } // namespace internal
 
-// A surface of triangles and polygons all of whose coordinates are finite.
+// Reads a surface of triangles and polygons; all its coordinates are finite.
 inline Mesh read_mesh(const std::string& file)
 {
   Mesh mesh;
@@ -130,11 +130,11 @@ inline Mesh read_mesh(const std::string& file)
   }
   catch(const std::logic_error&)
   {
-    // of a container that cannot have the size that the file says, or of CGAL
+    // from CGAL, or from a container that cannot have the size given in the file
   }
   if(!is_read)
     throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
-                             lower_case_extension(file) + " files, or holds a coordinate that "
+                             lower_case_extension(file) + " files, or has a coordinate that "
                              "is not a finite number");
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
     throw std::runtime_error(file + ": has no faces");
@@ -146,8 +146,8 @@ inline Mesh read_mesh(const std::string& file)
   for(Mesh::Face_index f : mesh.faces())
     if(mesh.degree(f) < 3)
       throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; a polygon has at least "
-                               "three");
+                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
+                               "least three");
   return mesh;
 }
 

@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILES_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SHAPE_FILES_H
 
-// The files of the command arap_deform: meshes, selections, transforms. What cannot be read or
-// written is a std::runtime_error whose sentence names the file and, where there is one, the line.
+// The files of the command arap_deform: meshes, selections, transforms. Errors are thrown as
+// std::runtime_error with a message that names the file and, if there is one, the line.
 
 #include "Output_file.h"
 
@@ -60,7 +60,7 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
-// Tells a deformation what is free, and where the handles go.
+// Passes the selection and the targets of the handles to a deformation.
 template <typename Deformation>
 void insert_selection(Deformation& deformation, const std::vector<int>& selection,
                       const Transform& transform)
@@ -113,7 +113,7 @@ inline bool is_tetrahedra_file(const std::string& file)
   return lower_case_extension(file) == ".mesh";
 }
 
-// Calls f(line, number of the line) for each line of a file that holds more than a comment.
+// Calls f(line, line number) for each line of a file that has more than a comment.
 template <typename Function>
 void for_each_line(const std::string& file, const Function& f)
 {
@@ -132,7 +132,7 @@ inline std::runtime_error bad_line(const std::string& file, int number, const st
   return std::runtime_error(file + ", line " + std::to_string(number) + ": " + what);
 }
 
-// A word of a file, which may be anything, as it is quoted in a sentence.
+// Quotes a word of a file, which may contain anything, for a message.
 inline std::string in_quotes(std::string_view word)
 {
   std::string text(word.substr(0, 40));
@@ -141,7 +141,7 @@ inline std::string in_quotes(std::string_view word)
   return "'" + text + "'";
 }
 
-// One status a line and vertex: 0 fixed, 1 free, 2 handle.
+// One status per line and vertex: 0 fixed, 1 free, 2 handle.
 inline std::vector<int> read_selection(const std::string& file, std::size_t number_of_vertices)
 {
   std::vector<int> selection;
@@ -153,7 +153,7 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
       throw bad_line(file, number, "expected one integer, the status of a vertex");
     if(status != FIXED && status != FREE && status != HANDLE)
       throw bad_line(file, number, "unknown status " + std::to_string(status) +
-                                     "; it is 0 (fixed), 1 (free) or 2 (handle)");
+                                     "; use 0 (fixed), 1 (free) or 2 (handle)");
     selection.push_back(status);
   });
   if(selection.size() != number_of_vertices)
@@ -182,7 +182,7 @@ inline Transform read_transform(const std::string& file)
   Transform transform;
   if(entries.size() != transform.size())
     throw std::runtime_error(file + ": has " + std::to_string(entries.size()) +
-                             " numbers; a transform is a 4 x 4 matrix");
+                             " numbers; a transform is a 4 x 4 matrix of 16");
   std::copy(entries.begin(), entries.end(), transform.begin());
   const std::array<double, 4> last_row = {0, 0, 0, 1};
   if(!std::equal(last_row.begin(), last_row.end(), transform.begin() + 12))
@@ -199,7 +199,7 @@ inline Transform read_transform(const std::string& file)
   return transform;
 }
 
-// Throws if the format of the file cannot hold the mesh.
+// Throws if the format of the file cannot store the mesh.
 inline void check_format(const std::string& file, const Mesh& mesh)
 {
   if(lower_case_extension(file) != ".stl")
@@ -209,7 +209,7 @@ inline void check_format(const std::string& file, const Mesh& mesh)
       throw std::runtime_error(file + ": an .stl file holds triangles only, but face " +
                                std::to_string(std::size_t(f)) + " has " +
                                std::to_string(mesh.degree(f)) + " vertices; .off, .obj and .ply "
-                               "files hold polygons");
+                               "files can hold polygons");
 }
 
 inline void write_mesh(Output_file& file, const Mesh& mesh,

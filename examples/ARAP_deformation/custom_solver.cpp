@@ -23,8 +23,8 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using CGAL::ARAP::Coordinates;
 using CGAL::ARAP::Sparse_matrix;
 
-// A solver of one's own: the factorization L L^T of a band matrix, of which the rows of L are
-// stored from the diagonal back to the band's end.
+// A custom solver: the factorization L L^T of a band matrix. Each row of L is stored from the
+// diagonal back to the end of the band.
 class Band_solver
 {
 public:
@@ -96,7 +96,7 @@ bool bend(const char* name, const Solver& solver = Solver())
   }, true);
   const Mesh rest = mesh;
 
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver>; // the rest is the default
+  using Traits = CGAL::ARAP_deformation_traits_3<Solver>; // all else by default
   CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, Traits(solver));
   for(Mesh::Vertex_index v : mesh.vertices())
   {
@@ -113,17 +113,17 @@ bool bend(const char* name, const Solver& solver = Solver())
 
 int main()
 {
-  // one of CGAL's solvers as it is
+  // one of CGAL's own solvers
   using LU = Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType>;
   using CGAL_solver = CGAL::ARAP::Sparse_linear_algebra_adaptor<CGAL::Eigen_solver_traits<LU>>;
 
-  // an iterative one, with a tolerance
+  // an iterative solver, with a tolerance
   using Gradients = CGAL::ARAP::Eigen_conjugate_gradient_solver;
   const Gradients gradients([](Gradients::Eigen_solver& s) { s.setTolerance(1e-10); });
 
   const bool done = bend<CGAL::ARAP::Multifrontal_cholesky_solver>("the default") &&
                     bend<CGAL_solver>("CGAL's Eigen_solver_traits") &&
                     bend("conjugate gradients", gradients) &&
-                    bend<Band_solver>("a solver of one's own");
+                    bend<Band_solver>("a custom solver");
   return done ? EXIT_SUCCESS : EXIT_FAILURE;
 }

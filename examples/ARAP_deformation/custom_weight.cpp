@@ -15,7 +15,7 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using CGAL::ARAP::Cell_scheme;
 
-// Edges weigh the more the shorter they are, to a power that the program chooses.
+// Weights that grow as edges get shorter, with an exponent chosen at run time.
 class Inverse_length_weight
 {
 public:
@@ -28,8 +28,8 @@ public:
     return {weight(p[0], p[1]), weight(p[0], p[2]), weight(p[1], p[2])};
   }
 
-  // of the edge from one vertex to another, given by their indices, from the sum over the triangles
-  // in its edge set
+  // the weight of the edge between two vertices, given by their indices, from the sum over the
+  // triangles of its edge set
   double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double sum) const
   {
     return sum;

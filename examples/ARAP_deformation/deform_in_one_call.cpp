@@ -24,7 +24,7 @@ int main()
     return Point(std::cos(turn * j), std::sin(turn * j), 10.0 * i / along);
   }, true);
 
-  // the bottom stays, the top is moved to the side and turned by a right angle
+  // the bottom stays, the top moves to the side and turns by a right angle
   auto constrained = mesh.add_property_map<vertex_descriptor, bool>("v:constrained", false).first;
   auto target = mesh.add_property_map<vertex_descriptor, Point>("v:target").first;
   for(vertex_descriptor v : mesh.vertices())

@@ -28,8 +28,8 @@ using Mesh_triangulation = CGAL::Mesh_triangulation_3<Mesh_domain>::type;
 using Mesh_criteria = CGAL::Mesh_criteria_3<Mesh_triangulation>;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Mesh_triangulation>;
 
-// A surface as modelling tools leave it: open rings, some of which reach into the next one and some
-// do not reach it, and two sheets that cross them and each other. The sheets are there twice.
+// A surface as modelling tools leave it: open rings, some of which overlap the next one while
+// others do not reach it, and two duplicated sheets that intersect the rings and each other.
 void make_unclean_surface(std::vector<Point>& points, std::vector<Triangle>& faces)
 {
   const auto add_strip = [&](int n, const auto& one_side, const auto& other_side) {
@@ -66,7 +66,7 @@ int main()
   std::vector<Triangle> faces;
   make_unclean_surface(points, faces);
 
-  // a coarse volume around it: what a ball of radius 1 cannot enter, with a layer of 0.25
+  // a coarse volume around it: what a ball of radius 1 cannot enter, plus an offset of 0.25
   Mesh wrap;
   CGAL::alpha_wrap_3(points, faces, 1.0, 0.25, wrap);
   const Mesh_domain mesh_domain(wrap);
@@ -77,7 +77,7 @@ int main()
   std::cout << faces.size() << " triangles in " << complex.number_of_cells() << " tetrahedra"
             << std::endl;
 
-  // the surface is bound to the volume, the rest shape of both is the present one
+  // bind the surface to the volume, both in their rest shapes
   const CGAL::ARAP::Embedding embedding(domain, points);
   std::cout << embedding.outcome().message << std::endl;
   if(!embedding.outcome())
@@ -94,7 +94,7 @@ int main()
   if(farthest > 0.25)
     return EXIT_FAILURE;
 
-  // the bottom of the volume stays, the top is turned by a right angle to the side
+  // the bottom of the volume stays, the top turns to the side by a right angle
   CGAL::ARAP_deformation<decltype(domain)> deformation(domain);
   for(auto v : domain.vertices())
   {

@@ -26,8 +26,7 @@ int main(int argc, char** argv)
     return EXIT_FAILURE;
   }
 
-  // What is above the middle may move; the vertices near the top are the handle. All others, and
-  // only they, are fixed.
+  // the vertices above the middle may move, those near the top are the handle, all others are fixed
   std::vector<double> heights;
   for(const Point& p : mesh.points())
     heights.push_back(p.y());
@@ -47,7 +46,7 @@ int main(int argc, char** argv)
     return EXIT_FAILURE;
   }
 
-  // the handle is dragged and turned a bit in each frame; a few iterations a frame are enough
+  // drag and turn the handle a little in each frame; a few iterations per frame are enough
   const std::vector<vertex_descriptor> handle = deformation.control_vertices();
   const Point center = mesh.point(handle.front());
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
@@ -62,7 +61,7 @@ int main(int argc, char** argv)
               << 1000 * report.seconds.total << " ms" << std::endl;
   }
 
-  // back to where the vertices were at the beginning
+  // back to the rest shape
   deformation.reset();
   return EXIT_SUCCESS;
 }

@@ -15,14 +15,14 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-// where a point of the flat template is on the scanned object: a part of a cylinder
+// maps a point of the flat template to the scanned object, a part of a cylinder
 Point scanned(const Point& p)
 {
   return Point(2 * std::sin(p.x() / 2), p.y(), 2 - 2 * std::cos(p.x() / 2));
 }
 
-// Fits the template to noisy measurements of every fifth vertex. With hard targets (an infinite
-// weight) it has all of their noise; soft ones leave it to the template to be smooth.
+// Fits the template to noisy measurements of every fifth vertex. Hard targets (of infinite weight)
+// reproduce all the noise; with soft targets the template smooths it.
 bool fit(double weight)
 {
   Mesh mesh;

@@ -28,7 +28,7 @@ using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, std::vect
 
 int main()
 {
-  // a bar of 4 x 4 x 30 cubes, each cut into the six tetrahedra along its diagonal
+  // a bar of 4 x 4 x 30 cubes, each cut into six tetrahedra around its diagonal
   const int n = 4, length = 30;
   const auto vertex = [=](int x, int y, int z) { return (z * (n + 1) + y) * (n + 1) + x; };
   std::vector<Point> points;
@@ -66,7 +66,7 @@ int main()
   }
   deformation.insert_control_vertices(top.begin(), top.end());
 
-  // In steps, so that the bar is twisted and bent in the way that is meant.
+  // In small steps, so that the bar twists and bends in the intended direction.
   CGAL::ARAP::Report report;
   for(int step = 0; step < 9; ++step)
   {
@@ -82,7 +82,7 @@ int main()
     std::cout << "step " << step << ": " << report.iterations << " iterations, energy "
               << report.energy.front() << " -> " << report.energy.back() << ", "
               << report.inverted_simplices << " of " << report.simplices
-              << " tetrahedra are inside out" << std::endl;
+              << " tetrahedra are inverted" << std::endl;
   }
   return EXIT_SUCCESS;
 }

@@ -33,7 +33,7 @@ int main()
     deformation.translate(v, Kernel::Vector_3(-1, 0, 0.8));
   }
 
-  // stops when an iteration gains less than one percent
+  // stop when an iteration lowers the energy by less than one percent
   double last = 0;
   const CGAL::ARAP::Report report = deformation.deform(1000, 0, [&](const auto& iterate) {
     const double energy = iterate.energy();
@@ -44,7 +44,7 @@ int main()
   });
   std::cout << report.message << std::endl;
 
-  // what the package promises, anybody can check
+  // check the guarantees: the energy never rises, and the results are rotations
   if(!report || CGAL::ARAP::first_rise_of_energy(report) != 0)
     return EXIT_FAILURE;
   for(vertex_descriptor v : vertices(mesh))

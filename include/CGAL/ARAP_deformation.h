@@ -35,27 +35,28 @@
 namespace CGAL {
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a shape as rigidly as possible \cgalCite{Sorkine2007AsRigidAs}: some of its
-/// vertices are put at target positions, and the others follow so that every small part only
-/// rotates.
+/// \brief deforms a shape as rigidly as possible \cgalCite{Sorkine2007AsRigidAs}: some vertices
+/// move to target positions, and the others follow so that every small part only rotates.
 ///
-/// The *rest shape* is the shape at construction. The vertices in the *region of interest* may
-/// move: the *control vertices* among them go to their targets, or are only pulled there, see
-/// `set_target_weight()`; the others are *free* and are solved for. All other vertices are *fixed*
-/// where they are; so are free vertices without any simplex.
+/// The *rest shape* is the shape at construction. Only vertices in the *region of interest* move:
+/// its *control vertices* move to their targets, or are pulled towards them, see
+/// `set_target_weight()`; its other vertices are *free* and are solved for. All vertices outside
+/// the region are *fixed*, and so are free vertices without an incident simplex.
 ///
-/// Time and memory follow the region of interest and not the mesh, if the mesh has, or is given, an
-/// index map. The mesh must outlive the object. Meanwhile its connectivity must not change, and its
-/// points only by this object. Computations are in `double`, whatever the type of the points.
+/// Time and memory are proportional to the size of the region of interest, not of the mesh, if the
+/// mesh has, or is given, an index map. The mesh must outlive the object. While the object exists,
+/// the connectivity of the mesh must not change, and only the object may move its points.
+/// All computations are in `double`, whatever the type of the points.
 ///
 /// \tparam Mesh the type of the mesh, or of its domain
 /// \tparam Traits a model of `ARAPDeformationTraits_3`, default `ARAP_deformation_traits_3<>`
 /// \tparam Domain a model of `ARAPDomain_3`. The default depends on `Mesh`:
 ///         - if `Mesh` is itself a model of `ARAPDomain_3`, `Mesh`;
-///         - for triangulations and complexes in them `ARAP::Triangulation_domain_3`, whose header
-///           has to be included;
-///         - for linear cell complexes of dimension 3, or over generalized maps,
-///           `ARAP::Linear_cell_complex_domain_3`, whose header has to be included;
+///         - for triangulations and complexes in them, `ARAP::Triangulation_domain_3`: include its
+///           header;
+///         - for linear cell complexes that are no `FaceGraph` (of dimension 3, over generalized
+///           maps, or without face attributes), `ARAP::Linear_cell_complex_domain_3`: include its
+///           header;
 ///         - else `ARAP::Face_graph_domain<Mesh>`.
 template <typename Mesh, typename Traits = Default, typename Domain = Default>
 class ARAP_deformation
@@ -77,7 +78,7 @@ public:
   using vertex_descriptor = typename Domain_::vertex_descriptor; ///< a vertex of the mesh.
   using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face or tetrahedron.
 #ifdef DOXYGEN_RUNNING
-  using Iterate = unspecified_type; ///< what a visitor is given, a model of `ARAPIterate`.
+  using Iterate = unspecified_type; ///< the argument of a visitor, a model of `ARAPIterate`.
 #else
   using Iterate = typename ARAP::internal::Session<Domain_, Traits_>::Iterate;
 #endif
@@ -87,7 +88,7 @@ public:
   /// @{
 
 #ifdef DOXYGEN_RUNNING
-  /// constructs a deformation of `mesh` with the mesh's own points and an empty region of interest.
+  /// constructs a deformation of `mesh` with its own points and an empty region of interest.
   explicit ARAP_deformation(Mesh& mesh, const Deformation_traits& traits = Deformation_traits());
 #else
   template <typename Mesh_, typename = std::enable_if_t<std::is_same_v<Mesh_, Mesh> &&
@@ -97,16 +98,16 @@ public:
   {}
 #endif
 
-  /// constructs a deformation from a domain, which knows the property maps to use.
+  /// constructs a deformation of a domain, which defines the property maps to use.
   explicit ARAP_deformation(Deformation_domain domain,
                             const Deformation_traits& traits = Deformation_traits())
     : m_session(std::move(domain), traits)
   {}
 
-  /// moves. What is moved from can only be assigned to or destroyed.
+  /// moves. A moved-from object can only be assigned to or destroyed.
   ARAP_deformation(ARAP_deformation&&) = default;
 
-  /// moves. What is moved from can only be assigned to or destroyed.
+  /// moves. A moved-from object can only be assigned to or destroyed.
   ARAP_deformation& operator=(ARAP_deformation&&) = default;
 
   /// returns the domain.
@@ -115,7 +116,8 @@ public:
   /// returns the options.
   const ARAP::Options& options() const { return m_session.options(); }
 
-  /// sets the options, or returns `ARAP::Status::invalid_option` and leaves them as they are.
+  /// sets the options. Returns `ARAP::Status::invalid_option`, and changes nothing, if one of them
+  /// is out of range.
   ARAP::Outcome set_options(const ARAP::Options& options)
   {
     return m_session.set_options(options);
@@ -123,10 +125,11 @@ public:
   /// @}
 
   /// \name Region of Interest and Control Vertices
-  /// Constant time for each vertex. The next `deform()` preprocesses again.
+  /// Inserting or erasing a vertex takes constant time, amortized. After a change the next
+  /// `deform()` preprocesses again.
   /// @{
 
-  /// inserts `v` in the region of interest. Returns `true` if it was not in it.
+  /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
   bool insert_roi_vertex(vertex_descriptor v)
   {
     return m_session.insert_roi(v);
@@ -140,20 +143,20 @@ public:
   }
 
   /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
-  /// it. The vertex stays where it is, `reset()` puts it back to the rest shape.
+  /// the region. The vertex stays where it is; `reset()` moves it back to the rest shape.
   bool erase_roi_vertex(vertex_descriptor v)
   {
     return m_session.erase_roi(v);
   }
 
-  /// erases all vertices from the region of interest and the control vertices.
+  /// erases all vertices from the region of interest and the control vertices. Linear time.
   void clear_roi_vertices()
   {
     m_session.clear_roi();
   }
 
-  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Its target is
-  /// where it is, with infinite weight. Returns `true` if it was no control vertex.
+  /// makes `v` a control vertex, and inserts it in the region of interest if needed. Its target is
+  /// its current position, with infinite weight. Returns `true` if it was not a control vertex.
   bool insert_control_vertex(vertex_descriptor v)
   {
     return m_session.insert_control(v);
@@ -166,13 +169,13 @@ public:
     for(; begin != end; ++begin) insert_control_vertex(*begin);
   }
 
-  /// makes the control vertex `v` a free one. Returns `true` if it was a control vertex.
+  /// makes the control vertex `v` a free vertex. Returns `true` if it was a control vertex.
   bool erase_control_vertex(vertex_descriptor v)
   {
     return m_session.erase_control(v);
   }
 
-  /// makes all control vertices free ones.
+  /// makes all control vertices free. Linear time.
   void clear_control_vertices()
   {
     m_session.clear_control();
@@ -198,19 +201,19 @@ public:
   /// @}
 
   /// \name Targets
-  /// Targets are absolute positions; `translate()` and `rotate()` move the targets there are. A
-  /// vertex that is not a control vertex is refused: a precondition, and in Release the status
-  /// `ARAP::Status::not_a_control_vertex`. The functions on ranges stop at the first refusal.
+  /// Targets are absolute positions; `translate()` and `rotate()` move the current target. Passing
+  /// a vertex that is not a control vertex violates a precondition; in Release the call returns
+  /// `ARAP::Status::not_a_control_vertex`. The functions on ranges stop at the first error.
   /// @{
 
-  /// sets the target of the control vertex `v`, which it will get as its `Point` unchanged if it is
-  /// a hard one.
+  /// sets the target of the control vertex `v`. A hard target becomes the point of `v` without any
+  /// rounding.
   ARAP::Outcome set_target_position(vertex_descriptor v, const Point& target)
   {
     return change_target(v, [&target](const Point&) { return target; });
   }
 
-  /// translates the target of the control vertex `v` by `t`, which has `operator[]`.
+  /// translates the target of the control vertex `v` by `t`, whose type has `operator[]`.
   template <typename Vector>
   ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
   {
@@ -226,9 +229,9 @@ public:
     return for_each_until_refused(begin, end, [&](auto v) { return translate(v, t); });
   }
 
-  /// rotates the target of the control vertex `v` about `center`: to `center + q * (target -
-  /// center)`, with `Vector operator*(Quaternion, Vector)`, and `Vector` having `operator[]` and a
-  /// constructor from three coordinates, as Eigen's quaternions and vectors do.
+  /// rotates the target of the control vertex `v` about `center`, to
+  /// `center + q * (target - center)`. `Vector` has `operator[]` and a constructor from three
+  /// coordinates, and `q * vector` is a `Vector`, as with Eigen's quaternions and vectors.
   template <typename Vector, typename Quaternion>
   ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
   {
@@ -249,14 +252,14 @@ public:
 
   /// \brief sets the weight \f$m \geq 0\f$ of the target \f$t\f$ of the control vertex `v`.
   ///
-  /// Infinity, which every control vertex begins with, makes the target a *hard* one: the vertex is
-  /// put there. A finite weight makes it a *soft* one: the vertex is solved for together with the
-  /// free vertices, and the energy has the further term \f$m \|p'_v - t\|^2\f$.
-  /// The unit of \f$m\f$ is that of the weights of edges: with cotangent weights it has none on a
-  /// surface, where 1 is about as strong as one edge, and is a length in a solid. Below about
-  /// \f$10^{-15}\f$ of the weights of the edges nothing of it is left by rounding.
+  /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
+  /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
+  /// gains the term \f$m \|p'_v - t\|^2\f$.
+  /// \f$m\f$ has the unit of the edge weights. Cotangent weights are dimensionless on a surface,
+  /// where 1 is about as strong as one edge, and lengths in a solid. Weights below about
+  /// \f$10^{-15}\f$ times the edge weights are lost to rounding.
   ///
-  /// Another weight asks for another preprocessing, another target does not. Returns
+  /// A new weight requires preprocessing again, a new target does not. Returns
   /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
   ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
   {
@@ -264,14 +267,14 @@ public:
     return m_session.set_weight(v, weight);
   }
 
-  /// sets the weight of the targets of the control vertices of a range.
+  /// sets the weights of the targets of the control vertices of a range.
   template <typename InputIterator>
   ARAP::Outcome set_target_weight(InputIterator begin, InputIterator end, double weight)
   {
     return for_each_until_refused(begin, end, [&](auto v) { return set_target_weight(v, weight); });
   }
 
-  /// returns the weight of the target of the control vertex `v`; in Release, for another vertex, 0.
+  /// returns the weight of the target of the control vertex `v`; in Release, 0 for other vertices.
   /// \pre `is_control_vertex(v)`
   double target_weight(vertex_descriptor v) const
   {
@@ -279,7 +282,7 @@ public:
     return m_session.weight(v);
   }
 
-  /// returns the target of the control vertex `v`; in Release, for another vertex, its point.
+  /// returns the target of the control vertex `v`; in Release, the point of any other vertex.
   /// \pre `is_control_vertex(v)`
   Point target_position(vertex_descriptor v) const
   {
@@ -289,33 +292,32 @@ public:
   /// @}
 
   /// \name Deformation
-  /// Whatever goes wrong, exceptions included, the mesh and the object are as they were before the
-  /// call. (If the property map of the points throws while the result is written, only the object.)
-  /// A visitor must not change the object: a precondition, and in Release such calls are refused.
+  /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
+  /// result throws, only the object is: points written before keep their new values.)
+  /// A visitor must not change the object. This is a precondition; in Release such calls fail.
   /// @{
 
-  /// collects the region, computes weights and matrix, and factorizes it or takes the last factor
-  /// where few vertices have changed, unless that is up to date. `deform()` does so where needed.
-  /// Which failures there are is said at `ARAP::Status`; the sentence of a success names what
-  /// nothing holds, if there is such a part.
+  /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
+  /// last factorization if few vertices have changed. Does nothing if all is up to date.
+  /// `deform()` calls it where needed. `ARAP::Status` lists the failures. The message of a success
+  /// names the unconstrained components, if there are any.
   ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
-  /// moves the control vertices to their targets, or towards soft ones, and the free vertices after
-  /// them, with the iterations and the tolerance of the options.
+  /// moves the control vertices to their targets, or towards soft ones, and the free vertices with
+  /// them, using the iterations and the tolerance of the options.
   ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
 
-  /// deforms with a visitor that sees each iterate, a model of `ARAPDeformationVisitor`.
+  /// deforms with a visitor, a model of `ARAPDeformationVisitor`, that is called at each iterate.
   template <typename Visitor>
   ARAP::Report deform(Visitor&& visitor)
   {
     static_assert(std::is_invocable_r_v<ARAP::Visitor_action, Visitor&, const Iterate&>,
-                  "the visitor does not take an iterate and return an ARAP::Visitor_action; a "
-                  "number of iterations goes with a tolerance: deform(iterations, tolerance)");
+                  "the visitor must take an iterate and return an ARAP::Visitor_action; to set the "
+                  "number of iterations, also pass a tolerance: deform(iterations, tolerance)");
     return deform(options().iterations, options().tolerance, std::forward<Visitor>(visitor));
   }
 
-  /// deforms with a number of iterations and a tolerance for this call only.
-  /// See `ARAP::Options` for their meaning.
+  /// deforms with a number of iterations and a tolerance for this call only, see `ARAP::Options`.
   ARAP::Report deform(unsigned int iterations, double tolerance)
   {
     return deform(iterations, tolerance, ARAP::Default_visitor());
@@ -328,19 +330,19 @@ public:
     return m_session.deform(iterations, tolerance, visitor);
   }
 
-  /// returns all vertices that this object has moved, and all targets, to the rest shape. The
-  /// weights of the targets stay.
+  /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
+  /// the weights of the targets.
   void reset() { m_session.reset(); }
 
-  /// makes the present shape the rest shape. The targets and their weights stay.
+  /// makes the current shape the rest shape. Keeps the targets and their weights.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
   /// @}
 
   /// \name Results
   /// @{
 
-  /// returns the energy after the last `deform()`; not a number if the region, the weight of a
-  /// target, the rest shape or the cells have changed since, or nothing was deformed yet.
+  /// returns the energy after the last `deform()`; not a number before the first one, and after
+  /// `reset()` or a change of the region, the weight of a target, the rest shape or the cells.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has

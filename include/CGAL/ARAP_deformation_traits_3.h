@@ -27,11 +27,10 @@
 namespace CGAL {
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief names the solver, the edge weights and the rotation fitting of a deformation, and hands
-/// out objects of them.
+/// \brief defines the solver, the edge weights and the rotation fitting of a deformation, and
+/// provides objects of them.
 ///
-/// The objects may carry state: construct the traits with them. A deformation works on copies of
-/// what its traits hand out.
+/// The objects may have state: construct the traits from them. A deformation works on copies.
 ///
 /// \tparam SparseSolver a model of `ARAPSparseSolver`, default
 ///         `ARAP::Multifrontal_cholesky_solver`
@@ -39,8 +38,8 @@ namespace CGAL {
 /// \tparam ClosestRotation a model of `ARAPClosestRotation_3`, default
 ///         `ARAP::Newton_closest_rotation`
 /// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`, which
-///         is the default. Results do not depend on it. Parallel is what is linked with TBB
-///         (the macro `CGAL_LINKED_WITH_TBB`).
+///         is the default and runs in parallel if the program is linked with TBB (the macro
+///         `CGAL_LINKED_WITH_TBB`). Results do not depend on it.
 ///
 /// \cgalModels{ARAPDeformationTraits_3}
 template <typename SparseSolver = Default,
@@ -60,7 +59,7 @@ public:
   using Closest_rotation =
     typename Default::Get<ClosestRotation, ARAP::internal::Default_closest_rotation>::type;
 
-  /// whether work is done at the same time.
+  /// the concurrency tag.
   using Concurrency_tag = ConcurrencyTag;
 
 #ifndef CGAL_LINKED_WITH_TBB
@@ -71,14 +70,14 @@ public:
   static_assert(ARAP::internal::Edge_weight_requirements<Edge_weight>::are_met);
   static_assert(ARAP::internal::Closest_rotation_requirements<Closest_rotation>::are_met);
 
-  /// constructs the traits from the objects that they hand out.
+  /// constructs the traits from the objects that they provide.
   explicit ARAP_deformation_traits_3(Sparse_solver solver = Sparse_solver(),
                                      Edge_weight weight = Edge_weight(),
                                      Closest_rotation rotation = Closest_rotation())
     : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
   {}
 
-  /// returns the solver: a copy of it factorizes each matrix.
+  /// returns the solver, a copy of which factorizes each matrix.
   Sparse_solver sparse_solver_object() const { return m_solver; }
 
   /// returns the edge weights.

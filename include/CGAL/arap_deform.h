@@ -31,7 +31,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// the domain of a shape that is a domain or a mesh; named parameters tell about a FaceGraph
+// the domain of a shape that is a domain or a mesh; the named parameters apply to a FaceGraph
 template <typename Shape, typename NamedParameters>
 auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 {
@@ -39,8 +39,8 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
   if constexpr(std::is_same_v<Domain, Face_graph_domain<std::remove_const_t<Shape>>>)
   {
     static_assert(!std::is_const_v<Shape>,
-                  "arap_deform: a const mesh cannot be deformed; give its domain, with a map to "
-                  "write to");
+                  "arap_deform: a const mesh cannot be deformed; pass a domain with an output "
+                  "point map instead");
     return make_face_graph_domain(shape, np);
   }
   else if constexpr(Is_domain<std::remove_const_t<Shape>>::value)
@@ -55,8 +55,8 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \ingroup PkgARAPDeformationRef
 /// \brief deforms a shape as rigidly as possible, in one call.
 ///
-/// The constrained vertices get their targets, and all others follow. To deform a part of a mesh,
-/// to move the targets again and again, or to have soft targets, use the class `ARAP_deformation`.
+/// Moves the constrained vertices to their targets, and all others with them. To deform part of a
+/// mesh, to move the targets repeatedly, or to have soft targets, use the class `ARAP_deformation`.
 ///
 /// \tparam Shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
 ///         `ARAPDomain_3`
@@ -64,33 +64,33 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
 /// \tparam NamedParameters a sequence of named parameters
 ///
-/// \param shape the shape: what it is before the call is the rest shape
-/// \param constrained tells which vertices are fixed at their targets
-/// \param targets gives each constrained vertex its target; for one that stays, its own point
-/// \param options what is chosen at run time
+/// \param shape the shape; as passed, it is the rest shape
+/// \param constrained tells which vertices are constrained to their targets
+/// \param targets the target of each constrained vertex; for one that stays, its own point
+/// \param options the run-time options
 /// \param np an optional sequence of named parameters among those below
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; not
-///                          used for other shapes, whose domain knows the points}
+///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; ignored
+///                          for other shapes, whose domain defines the points}
 ///     \cgalParamType{a model of `ReadWritePropertyMap`}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, from 0 on; not used
-///                          for other shapes}
+///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, starting from 0;
+///                          ignored for other shapes}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_iterations}
-///     \cgalParamDescription{the largest number of iterations}
+///     \cgalParamDescription{the maximum number of iterations}
 ///     \cgalParamType{unsigned int}
 ///     \cgalParamDefault{`options.iterations`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{visitor}
-///     \cgalParamDescription{sees each iterate and may stop or cancel the run; copied unless it is
-///                          given as `std::ref(visitor)`}
+///     \cgalParamDescription{is called at each iterate and may stop or cancel the run; copied
+///                          unless passed as `std::ref(visitor)`}
 ///     \cgalParamType{a model of `ARAPDeformationVisitor`}
 ///     \cgalParamDefault{`ARAP::Default_visitor`}
 ///   \cgalParamNEnd
@@ -106,7 +106,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \returns what was done. If it did not succeed, the shape is as it was.
+/// \returns a report. If the call fails, the shape is unchanged.
 template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
           typename CGAL_NP_TEMPLATE_PARAMETERS>
 ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,

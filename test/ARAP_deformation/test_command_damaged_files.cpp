@@ -47,10 +47,10 @@ void test_off()
   refuse("off", "OFF\n4 2147483647 0\n" + square + "3 0 1 2\n", "face 1 is missing");
   for(const std::string corners : {"4000000000", "1e18", "1e300", "-1", "-1e300", "4", "x"})
     refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n" + corners + " 0 2 3\n",
-           "face 1 has not as many vertices as it announces");
+           "face 1 has fewer vertices than it announces");
   for(const std::string corner : {"-1", "4", "1e300", "-1e300"})
     refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 " + corner + "\n",
-           "face 1 has a vertex that there is not");
+           "face 1 has a vertex that does not exist");
   refuse("off", std::string("OFF BINARY\n\0\0\0\4\177\377\377\377\0\0\0\0", 23), "is binary");
   refuse("off", "4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 0\n3 0 1 2\n", "vertex 2 is at infinity");
   refuse("off", "STOFF\n3 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 0 1\n3 0 1 2\n",
@@ -85,8 +85,8 @@ void test_obj()
   accept("good.obj", square + "f -4 -2 -1\n");
   for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
     refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or is no oriented");
-  refuse("obj", square + "f 1 3 5\n", "face 1 has a vertex that there is not");
-  refuse("obj", "f 1 2 -3\n" + square, "face 0 has a vertex that there is not");
+  refuse("obj", square + "f 1 3 5\n", "face 1 has a vertex that does not exist");
+  refuse("obj", "f 1 2 -3\n" + square, "face 0 has a vertex that does not exist");
   for(const std::string corner : {"6", "-5", "-2147483648", "2147483647", "2147483648"})
     refuse("obj", square + "f 1 3 " + corner + "\n", "");
 }
@@ -131,7 +131,7 @@ void test_ply()
   // corners
   for(const std::string corner : {"4", "-1", "2147483647"})
     refuse_ply(ply("ascii", "float", "4", "uchar int") + square + "3 0 1 2\n3 0 2 " + corner + "\n",
-               "face 1 has a vertex that there is not");
+               "face 1 has a vertex that does not exist");
 
   // types
   refuse_ply("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "has a property before any");

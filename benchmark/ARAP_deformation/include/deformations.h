@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_DEFORMATIONS_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_DEFORMATIONS_H
 
-// Our class and CGAL's with one interface, each on its own copy of the mesh, and what it takes to
-// make both do the same.
+// Our class and CGAL's with a common interface, each on its own copy of the mesh, set up to do the
+// same.
 
 #include "measure.h"
 #include "scenario.h"
@@ -39,8 +39,8 @@ namespace benchmark {
 
 namespace ARAP = CGAL::ARAP;
 
-// The weights of CGAL's ORIGINAL_ARAP: the cotangent of each angle is clamped, and not the sum of
-// both at an edge.
+// The weights of CGAL's ORIGINAL_ARAP: the cotangent of each angle is clamped, not the sum of both
+// at an edge.
 class Clamped_angle_weight : public ARAP::Cotangent_weight
 {
 public:
@@ -53,9 +53,9 @@ public:
   }
 };
 
-// CGAL's class starts with the global step, with identities for rotations, where ours starts with
-// the local step. This fitting leaves the identities where they are as long as it is told to, and
-// so gives our class the same start; afterwards it is the default one.
+// CGAL's class starts with the global step, with identity rotations; ours starts with the local
+// step. This fitting keeps the identities while told to, which gives our class the same start;
+// afterwards it is the default fitting.
 class Rotation_after_identity
 {
   using Rotation = CGAL::ARAP_deformation_traits_3<>::Closest_rotation;
@@ -95,10 +95,10 @@ void for_each_solver(const Function& f)
 #endif
 }
 
-// what a user gets who chooses nothing, but for the weights, which are those of CGAL's class
+// the defaults, except for the weights, which are those of CGAL's class
 using Default_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight>;
 
-// Makes all vertices free but the control vertices.
+// Makes all vertices free except the control vertices.
 template <typename Deformation>
 void insert_vertices(const Scenario& scenario, Deformation& deformation)
 {
@@ -107,7 +107,7 @@ void insert_vertices(const Scenario& scenario, Deformation& deformation)
     deformation.insert_control_vertex(v);
 }
 
-// Goes back to the rest shape with all targets set, those of any kind of scenario.
+// Goes back to the rest shape, with all targets of the scenario set.
 template <typename AnyScenario, typename Deformation>
 void restart(const AnyScenario& scenario, Deformation& deformation)
 {
@@ -138,7 +138,7 @@ public:
     m_preprocess_seconds = m_stopwatch.seconds();
   }
 
-  // all from the construction to the factor
+  // from construction to the factor
   double preprocess_seconds() const { return m_preprocess_seconds; }
   const Mesh& mesh() const { return m_mesh; }
   CGAL::ARAP_deformation<Mesh, Traits>& deformation() { return m_deformation; }
@@ -228,8 +228,8 @@ private:
   double m_preprocess_seconds = 0;
 };
 
-// Fails unless our iterates are those of CGAL's class: both solve the same problem by the same
-// steps. Returns the largest difference, relative to the bounding box, which is at most `bound`.
+// Fails unless our iterates equal those of CGAL's class, since both solve the same problem by the
+// same steps. Returns the largest difference, relative to the bounding box; at most `bound`.
 template <typename Weight, CGAL::Deformation_algorithm_tag Tag, typename Solver = CGAL::Default>
 double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells, double bound = 1e-8)
 {
@@ -246,7 +246,7 @@ double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells, double
     cgal.run(iterations);
     largest = (std::max)(largest, largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal);
   }
-  verify_at_most(largest, bound, "the largest difference of the iterates of our class and CGAL's, "
+  verify_at_most(largest, bound, "the largest difference between our iterates and CGAL's, "
                                 "relative to the bounding box,");
   return largest;
 }

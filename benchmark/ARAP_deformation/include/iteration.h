@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_ITERATION_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_ITERATION_H
 
-// The seconds of a local/global iteration and of what goes before the first.
+// The seconds of a local/global iteration and of the preprocessing.
 
 #include "deformations.h"
 #include "measure.h"
@@ -24,7 +24,7 @@
 
 namespace benchmark {
 
-// so many that a run is long enough to be measured, and not much longer
+// enough iterations for a measurable run, and not many more
 inline unsigned int number_of_iterations(std::size_t number_of_vertices)
 {
   return static_cast<unsigned int>(
@@ -37,8 +37,8 @@ struct Measurements
   std::vector<double> preprocess, iteration, local_step, global_step;
 };
 
-// Adds the measurements of one object of our class. What a run needs before and after its
-// iterations is left out: it is the difference of two runs.
+// Adds the measurements of one object of our class. The difference of two runs leaves out what a
+// run does before and after its iterations.
 template <typename Deformation>
 void measure_ours(Deformation& ours, unsigned int iterations, Measurements& measurements)
 {

@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_LIBIGL_DEFORMATION_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_LIBIGL_DEFORMATION_H
 
-// libigl's deformation, in a file of its own: its headers take a while to compile.
+// libigl's deformation, in a separate file: its headers take long to compile.
 
 #include "scenario.h"
 
@@ -25,7 +25,7 @@ namespace benchmark {
 
 enum class Libigl_energy { spokes, elements };
 
-// the rest shape, whose simplices have three corners or four, and targets of the fixed vertices
+// the rest shape, whose simplices have three or four corners, and the targets of fixed vertices
 struct Libigl_scenario
 {
   Eigen::MatrixXd points;

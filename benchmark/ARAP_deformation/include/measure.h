@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_MEASURE_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_MEASURE_H
 
-// Clocks, statistics, and what stops a benchmark.
+// Clocks, statistics and failures.
 
 #include <algorithm>
 #include <chrono>
@@ -25,13 +25,13 @@
 
 namespace benchmark {
 
-// something that makes a comparison impossible, or wrong; what() is for the user
+// an error that makes a comparison impossible or wrong; what() is for the user
 struct Failure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-// Fails unless `value`, which `what` describes, is at most `largest`. Not a number is too large.
+// Fails unless `value`, described by `what`, is at most `largest`. Not a number fails.
 inline void verify_at_most(double value, double largest, const std::string& what)
 {
   if(value <= largest)
@@ -55,7 +55,7 @@ private:
   Clock::time_point m_start = Clock::now();
 };
 
-// the value that the given share of all values does not exceed
+// the quantile: the value that the given share of all values does not exceed
 inline double quantile(std::vector<double> values, double share)
 {
   std::sort(values.begin(), values.end());
@@ -69,8 +69,8 @@ inline double median(std::vector<double> values)
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-// The median of the seconds of f(), called until `least_seconds` have passed, and at least
-// `least_calls` times; prepare() goes before each call and does not count.
+// The median time of f() in seconds. Calls it until `least_seconds` have passed, and at least
+// `least_calls` times; calls prepare() before each call, untimed.
 template <typename Prepare, typename Function>
 double median_seconds(double least_seconds, unsigned int least_calls, const Prepare& prepare,
                       const Function& f)

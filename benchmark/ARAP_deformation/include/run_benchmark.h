@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_RUN_BENCHMARK_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_RUN_BENCHMARK_H
 
-// What all benchmarks have in common: the command line, the machine, the file of results.
+// Common to all benchmarks: the command line, the machine, the results file.
 
 #include "measure.h"
 #include "section.h"
@@ -109,7 +109,7 @@ inline Json machine()
           {"libraries", library_versions()}};
 }
 
-// Replaces one section of the file of results, which need not exist.
+// Replaces one section of the results file, which need not exist.
 inline void write_section(const std::string& file, const std::string& name, const Json& section)
 {
   Json results;
@@ -133,10 +133,10 @@ inline bool parse_command_line(int argc, char** argv, const std::string& usage,
   options.add_options()
     ("quick", po::bool_switch(&settings.quick), "smaller meshes, fewer repetitions")
     ("repetitions", po::value(&repetitions)->value_name("N"),
-     "timed runs of each kind, of which medians are printed; 7, with --quick 3")
+     "number of timed runs of each kind, whose medians are printed; 7, with --quick 3")
     ("mesh", po::value(&settings.mesh_file)->value_name("FILE"), "another triangulated surface")
     ("json", po::value(&settings.json_file)->value_name("FILE"),
-     "put the numbers into FILE, next to those of other benchmarks")
+     "add the results to FILE, next to those of other benchmarks")
     ("help,h", "print this and exit");
 
   po::variables_map values;
@@ -177,7 +177,7 @@ int run_benchmark(int argc, char** argv, const std::string& name, const std::str
   try
   {
 #ifndef NDEBUG
-    std::cout << "NOTICE: assertions are on: these times are not those of a release\n";
+    std::cout << "NOTICE: assertions are enabled: these are not the times of a release build\n";
 #endif
     const Json section = run(settings);
     print_text(std::cout, section);

@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_SCENARIO_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_SCENARIO_H
 
-// What is deformed, and to where.
+// The shapes to deform, and their targets.
 
 #include "measure.h"
 
@@ -54,7 +54,7 @@ inline Mesh read_mesh(const std::string& file)
   return mesh;
 }
 
-// Cuts each edge into `parts` equal ones, and each triangle into parts^2: the same surface with
+// Cuts each edge into `parts` equal parts, and each triangle into parts^2: the same surface with
 // about parts^2 times as many vertices. The vertices of the mesh come first.
 inline Mesh subdivided(const Mesh& mesh, std::size_t parts)
 {

@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_SECTION_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_SECTION_H
 
-// What a benchmark finds out: a section of the file of results, with the table that is made of it.
+// The results of a benchmark: a section of the results file, and its table.
 
 #include <nlohmann/json.hpp>
 
@@ -29,8 +29,8 @@ namespace benchmark {
 
 using Json = nlohmann::ordered_json;
 
-// Columns are pairs of a key and a title. Rows are objects; keys that are no column are numbers
-// that the table does not show.
+// Columns are pairs of a key and a title. Rows are objects; keys without a column are numbers that
+// the table does not show.
 inline Json make_section(const std::string& title, const std::string& description,
                          const std::vector<std::pair<std::string, std::string>>& columns)
 {
@@ -75,7 +75,7 @@ inline std::string format_cell(const Json& row, const std::string& key)
   return format_number(value.get<double>());
 }
 
-// all cells of the table, with the titles as first row
+// all cells of the table, with the titles as the first row
 inline std::vector<std::vector<std::string>> format_cells(const Json& section)
 {
   std::vector<std::vector<std::string>> lines(1);

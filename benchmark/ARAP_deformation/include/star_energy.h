@@ -12,9 +12,9 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_STAR_ENERGY_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_STAR_ENERGY_H
 
-// The energy that CGAL's ORIGINAL_ARAP minimizes, and its gradient and matrix: computed without any
-// code of this package, with Eigen's singular value decomposition, so that all that is measured is
-// judged by the same measure.
+// The energy that CGAL's ORIGINAL_ARAP minimizes, its gradient and its matrix. Computed with
+// Eigen's singular value decomposition and no code of this package: an independent measure for all
+// results.
 
 #include "scenario.h"
 
@@ -50,7 +50,7 @@ public:
   struct Value
   {
     double energy = 0;
-    double gradient = 0; // the norm of its part that belongs to free vertices
+    double gradient = 0; // the norm of its part for the free vertices
   };
 
   Value operator()(const Mesh& deformed) const

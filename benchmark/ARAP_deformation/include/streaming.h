@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_STREAMING_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_STREAMING_H
 
-// How fast this machine reads memory.
+// The memory bandwidth of this machine.
 
 #include "measure.h"
 
@@ -37,8 +37,8 @@ inline std::uint64_t sum(const std::uint64_t* begin, const std::uint64_t* end)
   return total;
 }
 
-// The bytes that are read in a second from a buffer of that size, by so many threads that each read
-// their own part of it again and again. The best of several runs: others only make it slower.
+// The bytes per second that the given number of threads read from a buffer of the given size, each
+// its own part repeatedly. The best of several runs, since other processes only slow it down.
 inline double streaming_bandwidth(std::size_t bytes, unsigned int threads)
 {
   const std::size_t n = bytes / sizeof(std::uint64_t) / threads;
@@ -57,7 +57,7 @@ inline double streaming_bandwidth(std::size_t bytes, unsigned int threads)
         for(std::size_t pass = 0; pass < passes; ++pass)
           total += sum(begin, begin + n);
         const double seconds = stopwatch.seconds();
-        if(total == passes * n) // the sum has to be computed
+        if(total == passes * n) // forces the sum to be computed
           bandwidth[t] = static_cast<double>(passes * n * sizeof(std::uint64_t)) / seconds;
       });
     for(std::thread& worker : workers)

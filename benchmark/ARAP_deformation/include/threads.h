@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_BENCHMARK_THREADS_H
 #define CGAL_ARAP_DEFORMATION_BENCHMARK_THREADS_H
 
-// How many threads are at work. Without TBB this is always one.
+// The number of threads. Without TBB it is always one.
 
 #include <vector>
 
@@ -32,7 +32,7 @@ inline unsigned int number_of_threads()
 #endif
 }
 
-// one thread, and all of them
+// one thread, and all threads
 inline std::vector<unsigned int> thread_counts()
 {
   std::vector<unsigned int> counts = {1};
@@ -41,7 +41,7 @@ inline std::vector<unsigned int> thread_counts()
   return counts;
 }
 
-// as long as it lives, at most so many threads are at work
+// limits the number of threads during its lifetime
 class Thread_limit
 {
 public:

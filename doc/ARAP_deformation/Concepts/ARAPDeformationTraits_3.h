@@ -2,13 +2,13 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPDeformationTraits_3` names the numeric parts of the class
-`CGAL::ARAP_deformation`, and hands out objects of them.
+\brief The concept `ARAPDeformationTraits_3` defines the types of the numeric parts of the class
+`CGAL::ARAP_deformation`, and provides objects of them.
 
-The class keeps a copy of its traits, and asks for each object once in every preprocessing. Whatever
-data the objects need, the traits hold.
+The class keeps a copy of its traits, and requests the objects anew in every preprocessing. The
+traits store any data that the objects need.
 
-`DefaultConstructible` is asked for only where a `CGAL::ARAP_deformation` is constructed without
+A model must be `DefaultConstructible` only if a `CGAL::ARAP_deformation` is constructed without
 traits.
 
 \cgalRefines{CopyConstructible,Assignable}
@@ -32,8 +32,8 @@ public:
   /// a model of `ARAPClosestRotation_3`.
   using Closest_rotation = unspecified_type;
 
-  /// `CGAL::Sequential_tag`, `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`, which is taken
-  /// where this type is missing. Results do not depend on it.
+  /// `CGAL::Sequential_tag`, `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`. Optional;
+  /// the last one is the default. Results do not depend on it.
   using Concurrency_tag = unspecified_type;
 
   /// @}
@@ -41,7 +41,7 @@ public:
   /// \name Objects
   /// @{
 
-  /// returns a solver, of which a copy factorizes each matrix.
+  /// returns the solver, a copy of which factorizes each matrix.
   Sparse_solver sparse_solver_object() const;
 
   /// returns the edge weights.

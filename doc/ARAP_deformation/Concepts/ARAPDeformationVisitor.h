@@ -2,16 +2,15 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPDeformationVisitor` describes a function object that sees each iterate of a
-run, and says whether the run goes on.
+\brief The concept `ARAPDeformationVisitor` describes a function object, for example a lambda, that
+is called at each iterate of a run and decides whether the run continues.
 
-`CGAL::ARAP_deformation::deform()` takes it by reference and does not copy it. The named parameter
-`visitor` of `CGAL::arap_deform()` copies what it is given: pass `std::ref(visitor)` to keep state.
-A visitor must not change the object whose run it visits; it may read it.
-A lambda expression will do.
+`CGAL::ARAP_deformation::deform()` takes the visitor by reference and does not copy it. The named
+parameter `visitor` of `CGAL::arap_deform()` copies its argument: pass `std::ref(visitor)` to keep
+state. A visitor may read the object whose run it visits, but must not change it.
 
-An exception that it throws leaves the run like `CGAL::ARAP::Visitor_action::cancel` does, with the
-mesh and the deformation as they were before, and goes on to the caller.
+An exception that a visitor throws ends the run, leaves the mesh and the deformation unchanged, as
+`CGAL::ARAP::Visitor_action::cancel` does, and propagates to the caller.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Default_visitor}
@@ -22,12 +21,13 @@ mesh and the deformation as they were before, and goes on to the caller.
 class ARAPDeformationVisitor
 {
 public:
-  /// is called with the initial guess, and then after each iteration, the last one included.
+  /// is called with the initial guess and after each iteration, including the last one. Need not be
+  /// `const`.
   ///
-  /// What is returned takes precedence: a run that is stopped at its last iteration ends with
-  /// `CGAL::ARAP::Status::stopped`. It need not be a `const` function.
+  /// The returned action takes precedence: a run that is stopped at its last iteration ends with
+  /// `CGAL::ARAP::Status::stopped`. The mesh keeps its points until the run ends: read the iterate
+  /// from `iterate`, not from the mesh.
   ///
-  /// \pre The call does not change the deformation, and does not read the mesh for the
-  /// iterate: the mesh keeps its points until the run ends.
+  /// \pre The call does not change the deformation.
   CGAL::ARAP::Visitor_action operator()(const ARAPIterate& iterate);
 };

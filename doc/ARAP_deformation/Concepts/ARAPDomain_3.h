@@ -5,23 +5,22 @@
 \brief The concept `ARAPDomain_3` describes a mesh as the class `CGAL::ARAP_deformation` sees it:
 vertices with points, and simplices of one dimension.
 
-The simplices are the triangles and polygons of a surface, or the tetrahedra of a volume. Nothing is
-asked about how they are connected beyond which of them are at a vertex.
+The simplices are the triangles and polygons of a surface, or the tetrahedra of a volume. The only
+connectivity needed is which simplices are incident to a vertex.
 
-The class reads points where vertices are inserted and where it preprocesses, computes on arrays of
-coordinates, and writes the points at the end of a run. It walks from vertex to vertex over the simplices
-of the region of interest, and never over the whole mesh.
+The class reads points when vertices are inserted and when it preprocesses, computes on arrays of
+coordinates, and writes the points at the end of a run. It traverses the simplices of the region of
+interest from vertex to vertex, and never the whole mesh.
 
-An object is a handle: copies of it stand for the same mesh. All member functions are `const`,
-`set_point()` included, which changes the mesh and not the handle. As long as a
-`CGAL::ARAP_deformation` uses the domain, the vertices and simplices of the mesh do not change.
+An object is a handle: its copies refer to the same mesh. All member functions are `const`,
+including `set_point()`, which changes the mesh and not the handle. While a `CGAL::ARAP_deformation`
+uses the domain, the vertices and simplices of the mesh must not change.
 
-A call may throw. If `set_point()` does so while a result is written, points that were written
-before keep their new values; an exception from any other function leaves all points as they were.
+Any function may throw. If `set_point()` throws while a result is written, points that were written
+before keep their new values; an exception from any other function leaves all points unchanged.
 
-To be constructible from a mesh, `CGAL::ARAP_deformation` needs a constructor of the domain that takes
-a mesh. `CGAL::ARAP::check_domain()` tests a model on a mesh: programs that have a domain of their own
-can call it in their tests.
+To construct a `CGAL::ARAP_deformation` directly from a mesh, the domain needs a constructor that
+takes a mesh. `CGAL::ARAP::check_domain()` tests a model on a mesh.
 
 \cgalRefines{CopyConstructible,Assignable}
 
@@ -44,14 +43,14 @@ public:
   using vertex_descriptor = unspecified_type;
 
   /// identifies a simplex. A model of `CopyConstructible`, `Assignable` and `EqualityComparable`: a
-  /// simplex has the same descriptor wherever it is met.
+  /// simplex has the same descriptor at each of its vertices.
   using simplex_descriptor = unspecified_type;
 
-  /// a point. A model of `CopyConstructible` and `Assignable`. Copies may throw; if to move a point
-  /// throws, the mesh and the object may be left with a part of what was to change.
+  /// a point. A model of `CopyConstructible` and `Assignable`. Copying may throw; if moving a point
+  /// throws, the mesh and the object may be left partially changed.
   ///
-  /// `CGAL::ARAP_deformation::translate()`, and no other function, also needs `operator[]`, which
-  /// returns a %Cartesian coordinate, and to be constructed from three of them.
+  /// Only `CGAL::ARAP_deformation::translate()` also needs `operator[]`, which returns a %Cartesian
+  /// coordinate, and a constructor from three coordinates.
   using Point = unspecified_type;
 
   /// @}
@@ -69,25 +68,24 @@ public:
 
   /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`.
   ///
-  /// It is used by `CGAL::arap_deform()`, and by functions that look at a whole mesh; the class
-  /// `CGAL::ARAP_deformation` does not call it.
+  /// Used by `CGAL::arap_deform()` and by functions that process a whole mesh, but not by the class
+  /// `CGAL::ARAP_deformation`.
   unspecified_type vertices() const;
 
-  /// returns the index of `v`. No two vertices have the same one.
+  /// returns the index of `v`, which is unique.
   ///
-  /// The memory that tables take follows the spread of the indices that are used: they had better be
-  /// 0, 1, ..., with few gaps. Sentences in reports name a vertex by its index, and models of
-  /// `ARAPEdgeWeight_3` know it by this number.
+  /// Use indices 0, 1, ... with few gaps: the memory of index tables grows with the spread of the
+  /// indices. Messages and models of `ARAPEdgeWeight_3` identify a vertex by its index.
   std::size_t index(vertex_descriptor v) const;
 
   /// returns the point of `v`.
   Point point(vertex_descriptor v) const;
 
-  /// sets the point of `v`, in the mesh or in another place that was given for the output.
+  /// sets the point of `v`, in the mesh or in a separate output.
   void set_point(vertex_descriptor v, const Point& point) const;
 
-  /// returns whether `point()` returns what `set_point()` has set. If not, points are read only once,
-  /// and what `point()` returns does not change.
+  /// returns whether `point()` returns what `set_point()` has set. If not, points are read only
+  /// once, and the result of `point()` must not change.
   bool is_in_place() const;
 
   /// returns whether no simplex is incident to `v`.
@@ -109,18 +107,18 @@ public:
   /// \name Simplices
   /// @{
 
-  /// returns the corners of `s`: a range whose iterators have the value type `vertex_descriptor`, which
-  /// is valid until the next call. The corners of a polygon are in their order around it, from any
-  /// of them on and in either direction; those of a tetrahedron are in any order.
+  /// returns the corners of `s`: a range whose iterators have the value type `vertex_descriptor`,
+  /// valid until the next call. The corners of a polygon are in cyclic order, starting anywhere and
+  /// in either direction; those of a tetrahedron are in any order.
   unspecified_type simplex_vertices(simplex_descriptor s) const;
 
-  /// calls `f(s, corners)` once for each simplex `s` that is incident to `v`, with a range `corners` as
-  /// `simplex_vertices()` returns it.
+  /// calls `f(s, corners)` once for each simplex `s` incident to `v`, with the range `corners` that
+  /// `simplex_vertices(s)` returns.
   ///
-  /// What is given need not be a simplex: a face with fewer than three corners, a volume that does not
-  /// have four, or one with a corner twice makes `CGAL::ARAP_deformation::preprocess()`
-  /// return `CGAL::ARAP::Status::not_a_simplex`. A model gives an empty range where a corner does
-  /// not exist.
+  /// The cells need not be valid simplices: for a face with fewer than three corners, a volume
+  /// without exactly four, or a repeated corner, `CGAL::ARAP_deformation::preprocess()` returns
+  /// `CGAL::ARAP::Status::not_a_simplex`. If a corner does not exist, a model passes an empty
+  /// range.
   template <typename Function>
   void for_each_incident_simplex(vertex_descriptor v, const Function& f) const;
 

@@ -4,30 +4,30 @@
 
 \brief The concept `ARAPEdgeWeight_3` describes how the edges of a shape are weighted in the energy.
 
-Weights are computed while `CGAL::ARAP_deformation` preprocesses, from the rest shape alone, in two
-steps. `simplex_weights()` gives each edge of each simplex its weight there. `edge_weight()` then
-turns them into the weight of an edge in an edge set: it gets the sum over those simplices at the edge
-that belong to the edge set. In the star of a vertex these are all simplices at the edge; in a simplex it
-is this simplex alone.
+`CGAL::ARAP_deformation` computes the weights in preprocessing, from the rest shape alone, in two
+steps. `simplex_weights()` returns the weight of each edge in each simplex. `edge_weight()` then
+returns the weight of an edge in an edge set, given the sum over the simplices that contain the edge
+and belong to the edge set. In the star of a vertex these are all simplices at the edge; in a
+simplex it is this simplex alone.
 
-A polygon has the average weights of all its triangulations, on its edges and on its diagonals. A model
-has nothing to do for it: it is asked about the triangles. The share of a
-triangle goes to zero where its corners come to lie on a line, unless those of all others do so, too.
+The weights of the edges and diagonals of a polygon are averages over all its triangulations. A
+model need not support polygons: it is called for their triangles. The share of a triangle goes to
+zero as its corners become collinear, unless all other triangles degenerate too.
 
-The energy \f$\sum w \|e' - R e\|^2\f$ scales with the weights and its minima do not, so that their unit
-is free. Cotangents have none in triangles and are lengths in tetrahedra: with them the energy is an
-area or a volume.
+The energy \f$\sum w \|e' - R e\|^2\f$ scales with the weights, but its minima do not: the unit of
+the weights is arbitrary. Cotangent weights are dimensionless in triangles and lengths in
+tetrahedra: the energy is then an area or a volume.
 
-The matrix of the system gets the sum of the weights that an edge has in all edge sets, so that it is
-symmetric whatever they are. If no weight is negative, no cell has a negative energy. Negative weights are
-allowed where the matrix is positive definite: this is tested by its factorization.
+The matrix of the system sums the weights of an edge over all edge sets, so it is always symmetric.
+If no weight is negative, no cell has a negative energy. Negative weights are allowed as long as the
+matrix is positive definite, which the factorization checks.
 
-Stars are asked for in two cases: if the cells are `CGAL::ARAP::Cell_scheme::spokes()`, and for
-`CGAL::ARAP::Initial_guess::laplacian` whatever the cells.
+Weights in stars are needed for the cells `CGAL::ARAP::Cell_scheme::spokes()`, and for
+`CGAL::ARAP::Initial_guess::laplacian` with any cells.
 
-A model may hold data. `CGAL::ARAP_deformation` works on a copy of the object that its traits hand
-out, and calls it from several threads at once where programs are linked with TBB: it must not change
-what it holds. `CGAL::ARAP::check_edge_weight()` tests a model.
+A model may have state. `CGAL::ARAP_deformation` works on a copy of the object that its traits
+provide. In programs linked with TBB several threads call it concurrently: a call must not change
+the state. `CGAL::ARAP::check_edge_weight()` tests a model.
 
 \cgalRefines{CopyConstructible,Assignable}
 
@@ -44,33 +44,32 @@ what it holds. `CGAL::ARAP::check_edge_weight()` tests a model.
 class ARAPEdgeWeight_3
 {
 public:
-  /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$ and \f$(1,2)\f$ of a triangle, given by
-  /// the coordinates of its vertices in the rest shape.
+  /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$ and \f$(1,2)\f$ of a triangle, given
+  /// by the coordinates of its vertices in the rest shape.
   ///
-  /// The order of the vertices carries no meaning: in another order the weights are those of the
-  /// same edges. A weight that is infinite or not a number makes the preprocessing fail with
-  /// `CGAL::ARAP::Status::non_finite_weight` and a sentence that names the triangle.
+  /// The weight of an edge must not depend on the order of the vertices. If a weight is infinite or
+  /// not a number, preprocessing fails with `CGAL::ARAP::Status::non_finite_weight` and a message
+  /// that names the triangle.
   std::array<double, 3>
   simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const;
 
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(0,3)\f$, \f$(1,2)\f$,
   /// \f$(1,3)\f$ and \f$(2,3)\f$ of a tetrahedron, given by the coordinates of its vertices in the
-  /// rest shape. What is said about triangles holds here too.
+  /// rest shape. The same rules as for triangles apply.
   ///
-  /// A model for surfaces only need not have this function: then it cannot be used with a domain of
-  /// tetrahedra.
+  /// Optional: without it a model cannot be used with tetrahedra.
   std::array<double, 6>
   simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>& tetrahedron) const;
 
   /// returns the weight of an edge in an edge set of the given kind.
   ///
   /// \param edge_set the kind of the edge set
-  /// \param i the index of one vertex of the edge in the domain; of a star, its centre
+  /// \param i the domain's index of one vertex of the edge; in a star, of its centre
   /// \param j the index of the other vertex
-  /// \param sum the sum of the weights that `simplex_weights()` gave the edge in the simplices of the
-  ///        edge set
+  /// \param sum the sum of the weights of the edge, as returned by `simplex_weights()`, over the
+  ///        simplices of the edge set
   ///
-  /// If the weights at a free vertex do not add up to a positive finite number the preprocessing
-  /// fails with `CGAL::ARAP::Status::singular_matrix`.
+  /// Preprocessing fails with `CGAL::ARAP::Status::singular_matrix` if the sum of the weights at a
+  /// free vertex is not positive and finite.
   double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const;
 };

@@ -18,19 +18,19 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationOptions
-/// the two kinds of edge sets whose edges carry the weights of the energy.
+/// the kinds of edge sets over which the energy is summed.
 enum class Edge_set
 {
   star,   ///< the edges \f$(i, j)\f$ from a vertex \f$i\f$ to its neighbours
-  simplex ///< the edges of one simplex: three in a triangle, six in a tetrahedron, and in a polygon
-          ///< its sides and diagonals
+  simplex ///< the edges of one simplex: the three of a triangle, the six of a tetrahedron, the
+          ///< sides and diagonals of a polygon
 };
 
 /// \ingroup PkgARAPDeformationOptions
-/// \brief says which edges share one rotation: a value, so that it can be chosen at run time.
+/// \brief defines which edges share a rotation. Chosen at run time.
 ///
-/// A *cell* is a group of edge sets that share one rotation. The schemes differ in the edge sets
-/// and in whether a cell is one of them or all those at a vertex.
+/// A *cell* is a group of edge sets that share one rotation. The schemes differ in the kind of edge
+/// set, and in whether a cell is a single edge set or all edge sets at a vertex.
 class Cell_scheme
 {
 public:
@@ -38,20 +38,23 @@ public:
   /// edges to its neighbours.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
-  /// one cell for each vertex, with the edges of each incident simplex
-  /// \cgalCite{Chao2010SimpleGeomModel}. Never negative with cotangent weights; the default.
+  /// one cell for each vertex, with the edges of all incident simplices
+  /// \cgalCite{Chao2010SimpleGeomModel}. The energy is never negative with cotangent weights. The
+  /// default.
   static constexpr Cell_scheme spokes_and_rims() { return Cell_scheme(Edge_set::simplex, true); }
 
-  /// one cell for each simplex. On surfaces nothing resists bending: a membrane that folds freely.
+  /// one cell for each simplex. A surface then has no bending stiffness: it is a membrane that
+  /// folds freely.
   static constexpr Cell_scheme elements() { return Cell_scheme(Edge_set::simplex, false); }
 
-  /// the kind of the edge sets.
+  /// returns the kind of the edge sets.
   constexpr Edge_set edge_set() const { return m_edge_set; }
 
-  /// `true` if a cell consists of all simplices at a vertex, `false` if each edge set is a cell.
+  /// returns `true` if a cell consists of all simplices at a vertex, `false` if each edge set is a
+  /// cell.
   constexpr bool grouped_at_vertices() const { return m_grouped_at_vertices; }
 
-  /// `true` if there is one cell for each vertex, `false` if there is one for each simplex.
+  /// returns `true` if there is one cell for each vertex, `false` if one for each simplex.
   constexpr bool has_vertex_cells() const
   {
     return m_edge_set == Edge_set::star || m_grouped_at_vertices;

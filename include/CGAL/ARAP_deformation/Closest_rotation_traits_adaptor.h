@@ -25,27 +25,26 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRotations
-/// \brief makes a rotation fitting of any model of CGAL's concept
-/// `DeformationClosestRotationTraits_3`, as it is.
+/// \brief adapts any model of CGAL's concept `DeformationClosestRotationTraits_3` to this package.
 ///
-/// No operation is used but those of that concept, whose covariances are the transposes of ours.
-/// Before they are handed over they are scaled by powers of two to about one, so that nothing
-/// overflows or underflows. The zero matrix gets the identity, and is not handed over.
+/// Uses only the operations of that concept. Its covariances are the transposes of ours, and are
+/// scaled by powers of two to about one, so that nothing overflows or underflows. The rotation of
+/// the zero matrix is the identity; the model is not called for it.
 ///
-/// A result that is orthonormal but for a small error is made orthonormal up to rounding: CGAL's
+/// Results that are orthonormal up to a small error are made orthonormal up to rounding: CGAL's
 /// `Deformation_Eigen_polar_closest_rotation_traits_3` leaves errors of up to \f$5 \cdot
-/// 10^{-7}\f$. Any other result is passed on as it is.
+/// 10^{-7}\f$. All other results are returned unchanged.
 ///
-/// \tparam ClosestRotationTraits a model of `DeformationClosestRotationTraits_3`. One object of it
-///         is made for each batch; where programs are linked with TBB, several may be in use at the
-///         same time, in different threads.
+/// \tparam ClosestRotationTraits a model of `DeformationClosestRotationTraits_3`. One object is
+///         constructed for each batch; in programs linked with TBB several may be in use at once,
+///         in different threads.
 ///
 /// \cgalModels{ARAPClosestRotation_3}
 template <typename ClosestRotationTraits>
 class Closest_rotation_traits_adaptor
 {
 public:
-  /// the type of the rotation fitting that is adapted.
+  /// the adapted type.
   using Closest_rotation_traits = ClosestRotationTraits;
 
   /// computes `rotations[k]`, the rotation closest to `covariances[k]`, for `k` in `[0, n)`.
@@ -82,8 +81,8 @@ private:
     return result;
   }
 
-  // one step r (I - e / 2) towards the orthonormal matrix closest to r, where e = r^T r - I, of
-  // which e becomes the square; returns whether there was anything to remove that is small
+  // One step r (I - e / 2) towards the orthonormal matrix closest to r, with e = r^T r - I, which
+  // converges quadratically. Returns false if e is too large to remove, or only rounding.
   static bool remove_small_shear(Matrix_3x3& r)
   {
     Matrix_3x3 correction;
@@ -109,7 +108,7 @@ private:
     return true;
   }
 
-  // the sum over the columns c of c e^T, with e the unit vector of the column
+  // the sum of c e^T over the columns c of m, with e the unit vector of the column
   static Matrix matrix(ClosestRotationTraits& traits, const Matrix_3x3& m)
   {
     Matrix result = traits.zero_matrix();
@@ -119,7 +118,7 @@ private:
     return result;
   }
 
-  // column by column, each the product with a unit vector
+  // column by column, each as the product with a unit vector
   static Matrix_3x3 entries(ClosestRotationTraits& traits, const Matrix& m)
   {
     Matrix_3x3 result;

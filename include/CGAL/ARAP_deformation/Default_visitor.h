@@ -18,16 +18,16 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRun
-/// what a visitor wants to happen next.
+/// what a visitor asks the run to do next.
 enum class Visitor_action
 {
-  proceed, ///< go on
+  proceed, ///< continue
   stop,    ///< end the run and keep this iterate
   cancel   ///< end the run and leave the mesh and the object as they were before it
 };
 
 /// \ingroup PkgARAPDeformationRun
-/// \brief the visitor that lets every run proceed.
+/// \brief a visitor that lets every run proceed.
 ///
 /// \cgalModels{ARAPDeformationVisitor}
 struct Default_visitor

@@ -36,11 +36,12 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief weights that the user gives, one for each edge, whatever the geometry.
+/// \brief user-defined weights, one for each edge, independent of the geometry.
 ///
-/// An edge has its weight in each edge set that it belongs to: in the stars of both its vertices,
-/// or in each simplex at it. An edge that was given none weighs 0, as do the diagonals of polygons.
-/// With weights that are not negative no cell has a negative energy. Copies share the weights.
+/// An edge has the same weight in every edge set that it belongs to: in the stars of both its
+/// vertices, or in each incident simplex. Edges without a weight, and the diagonals of polygons,
+/// have weight 0. If no weight is negative, no cell has a negative energy. Copies share the
+/// weights.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 ///
@@ -48,8 +49,8 @@ namespace ARAP {
 class Edge_map_weight
 {
 public:
-  /// gives the edge between the vertices with the indices `i` and `j` of the domain the weight
-  /// `weight`, in both directions.
+  /// sets the weight, in both directions, of the edge between the vertices with the indices `i` and
+  /// `j` in the domain.
   void set_weight(std::size_t i, std::size_t j, double weight)
   {
     (*m_weights)[std::minmax(i, j)] = weight;
@@ -61,7 +62,7 @@ public:
   /// returns zeros.
   std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>&) const { return {}; }
 
-  /// returns the weight that was given to the edge, or 0.
+  /// returns the weight that was set for the edge, or 0.
   double edge_weight(Edge_set, std::size_t i, std::size_t j, double) const
   {
     const auto found = m_weights->find(std::minmax(i, j));
@@ -76,7 +77,7 @@ private:
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief returns the weights of a map from the edges of a mesh. Linear time.
+/// \brief returns the weights given by a property map on the edges of a mesh. Linear time.
 ///
 /// \param mesh a model of `EdgeListGraph`
 /// \param edge_weight_map a model of `ReadablePropertyMap` from edges to numbers
@@ -84,7 +85,7 @@ private:
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex: the one that the domain has}
+///     \cgalParamDescription{a unique index for each vertex: the same as that of the domain}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd

@@ -36,26 +36,26 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief points that follow a tetrahedral complex: those of a shape that cannot be deformed
-/// itself, in a coarse volume around it that can (Section 5 of \cgalCite{Sorkine2007AsRigidAs}).
+/// \brief points that follow a tetrahedral complex. Lets a shape that cannot be deformed itself
+/// follow a coarse volume around it (Section 5 of \cgalCite{Sorkine2007AsRigidAs}).
 ///
 /// At construction each point \f$p\f$ is bound to the tetrahedron that contains it, by its
 /// barycentric coordinates \f$\lambda_k\f$: \f$p = \sum_k \lambda_k p_k\f$ with
 /// \f$\sum_k \lambda_k = 1\f$, where \f$p_k\f$ are the corners. When these have moved to
-/// \f$p'_k\f$, the point is at \f$p' = \sum_k \lambda_k p'_k\f$. This reproduces affine maps, and
-/// is continuous in the complex.
+/// \f$p'_k\f$, the point is at \f$p' = \sum_k \lambda_k p'_k\f$. This map reproduces affine maps,
+/// and is continuous in the complex.
 ///
-/// A point outside is bound in the same way to the nearest tetrahedron, whose affine map it
-/// follows: some coordinates are negative. The map has jumps there, which grow with the distance
-/// from the complex: `distance()` is there to refuse what is too far. If several tetrahedra are
-/// equally near, the one with the largest smallest coordinate is taken. The order of the simplices
-/// has no influence.
+/// A point outside the complex is bound in the same way to the nearest tetrahedron, and follows its
+/// affine map: some of its coordinates are negative. Outside, the map is discontinuous; the jumps
+/// grow with the distance from the complex. Use `distance()` to reject points that are too far
+/// away. Among equally near tetrahedra the one with the largest minimum coordinate is chosen. The
+/// order of the simplices does not matter.
 ///
-/// No point is bound to a tetrahedron without volume, that is, one that is flat up to 1e-12 of its
-/// size. The others must not overlap when the points are bound.
+/// Tetrahedra without volume, that is, flat up to 1e-12 of their size, are ignored. The others must
+/// not overlap when the points are bound.
 ///
-/// The mesh of the domain must outlive the object; its simplices must not change meanwhile. The
-/// points that are embedded are not needed later.
+/// The mesh of the domain must outlive the object, and its simplices must not change in the
+/// meantime. The embedded points are only read at construction.
 ///
 /// \tparam Domain a model of `ARAPDomain_3` of dimension 3
 template <typename Domain>
@@ -68,20 +68,20 @@ public:
   /// a vertex of the complex.
   using vertex_descriptor = typename Domain::vertex_descriptor;
 
-  /// \brief binds points to the present shape of a complex, which ought to be its rest shape.
+  /// \brief binds points to the current shape of a complex, which should be its rest shape.
   ///
-  /// If this is not possible, `outcome()` says why, and the object has no points:
+  /// If this fails, `outcome()` tells why, and the object has no points:
   ///  - `Status::non_finite_point`: a point or a vertex has a coordinate that is infinite or not a
-  ///    number, or a point is so far away that the arithmetic overflows;
+  ///    number, or a point is so far from the complex that the computation overflows;
   ///  - `Status::not_a_simplex`: a simplex is not a tetrahedron;
-  ///  - `Status::no_tetrahedron`: there is no tetrahedron with a volume.
+  ///  - `Status::no_tetrahedron`: no tetrahedron has a volume.
   ///
-  /// Takes \f$O(n \log n)\f$ time and linear memory for a search tree over `n` tetrahedra, which is
-  /// gone afterwards, and as a rule \f$O(\log n)\f$ time for each point.
+  /// Takes \f$O(n \log n)\f$ time and linear memory for a temporary search tree over \f$n\f$
+  /// tetrahedra, and typically \f$O(\log n)\f$ time for each point.
   ///
   /// \param domain the complex
-  /// \param points a range of points with `operator[]`, for example a `std::vector` or what
-  ///        `Surface_mesh::points()` returns
+  /// \param points a range of points, for example a `std::vector` or `Surface_mesh::points()`. The
+  ///        points have `operator[]`.
   template <typename PointRange>
   Embedding(const Domain& domain, const PointRange& points)
     : m_domain(domain)
@@ -97,10 +97,10 @@ public:
   /// returns the number of points.
   std::size_t size() const { return m_bindings.size(); }
 
-  /// \brief returns where point `k` is for the present points of the domain. Constant time.
+  /// \brief returns the position of point `k` for the current points of the domain. Constant time.
   ///
-  /// These are the points that the domain reads. If it writes to other ones, such as those of
-  /// another range, use a domain that reads these.
+  /// The current points are those that the domain reads. If the deformation writes to other points,
+  /// use a domain that reads these.
   /// \pre `k < size()`
   Coordinates position(std::size_t k) const
   {
@@ -111,11 +111,11 @@ public:
     return result;
   }
 
-  /// \brief assigns all positions to the points of a range, in the order of those that were
-  /// embedded. Linear time.
+  /// \brief assigns all positions to the points of a range, in the order of the embedded points.
+  /// Linear time.
   ///
-  /// \param points a range of points, for example that which was embedded
-  /// \pre the range has `size()` points; in Release nothing is written if it has not
+  /// \param points a range of points, for example the one that was embedded
+  /// \pre the range has `size()` points; in Release nothing is written otherwise
   template <typename PointRange>
   void put_points(PointRange&& points) const
   {
@@ -124,7 +124,7 @@ public:
     CGAL_precondition(static_cast<std::size_t>(n) == size());
     if(static_cast<std::size_t>(n) != size())
       return;
-    std::vector<Point> moved; // all of them before the first is assigned: what throws changes none
+    std::vector<Point> moved; // all before the first is assigned: an exception changes none
     moved.reserve(size());
     for(std::size_t k = 0; k < size(); ++k)
     {
@@ -134,12 +134,12 @@ public:
     std::move(moved.begin(), moved.end(), std::begin(points));
   }
 
-  /// returns how far outside of the complex point `k` was when it was bound: 0 if it was inside, or
-  /// outside by no more than 1e-12 of the extent of the complex.
+  /// returns how far outside the complex point `k` was when it was bound: 0 if it was inside, or
+  /// outside by at most 1e-12 of the longest side of the bounding box of the complex.
   /// \pre `k < size()`
   double distance(std::size_t k) const { return binding(k).distance; }
 
-  /// returns the vertices of the tetrahedron to which point `k` is bound, with ascending indices.
+  /// returns the vertices of the tetrahedron to which point `k` is bound, by ascending index.
   /// \pre `k < size()`
   const std::array<vertex_descriptor, 4>& vertices(std::size_t k) const
   {
@@ -191,7 +191,7 @@ private:
             outcome = internal::outcome(Status::not_a_simplex,
                                         internal::vertex_name(m_domain.index(v)));
         }
-        else if(!is_before(corners[0], v)) // at one of its vertices
+        else if(!is_before(corners[0], v)) // at the first of its vertices only
           tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
       });
     std::sort(tetrahedra.begin(), tetrahedra.end(), [&](const auto& a, const auto& b) {
@@ -230,7 +230,7 @@ private:
       const auto location = search.locate(c);
       if(!location)
         return Outcome(Status::non_finite_point,
-                       name + " is too far from the tetrahedra for the arithmetic");
+                       name + " is too far from the tetrahedra: the computation overflows");
       m_bindings.push_back(
         {tetrahedra[location->tetrahedron], location->coordinates, location->distance});
     }

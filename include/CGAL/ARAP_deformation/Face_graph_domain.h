@@ -34,14 +34,14 @@ namespace ARAP {
 
 namespace internal {
 
-// outside of the class, where `vertices` is its member
+// outside the class, which has a member `vertices`
 template <typename Graph>
 auto vertices_of_graph(const Graph& graph)
 {
   return vertices(graph);
 }
 
-// The type of a map is often written as decltype of a const variable; a domain can be assigned to.
+// without const: map types are often the decltype of a const variable, but domains are assignable
 template <typename PolygonMesh, typename VertexPointMap>
 using Vertex_point_map_or_default = typename Default::Get<
   std::remove_const_t<VertexPointMap>,
@@ -53,20 +53,19 @@ using Vertex_point_map_or_default = typename Default::Get<
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a surface of triangles or polygons, given as any model of `FaceGraph`.
+/// \brief a surface of triangles or polygons, given by any model of `FaceGraph`.
 ///
-/// Only the free functions of the BGL and the property maps are used. The faces are the simplices;
-/// a polygon has the average weights of all its triangulations, which takes \f$O(k^3)\f$ time in
-/// preprocessing and \f$O(k^2)\f$ in each iteration for \f$k\f$ corners.
-/// The mesh must outlive the domain; its connectivity must not change meanwhile.
+/// The faces are the simplices. A polygon with \f$k\f$ corners has the average weights of all its
+/// triangulations; it takes \f$O(k^3)\f$ time in preprocessing and \f$O(k^2)\f$ per iteration.
+/// The mesh must outlive the domain, and its connectivity must not change in the meantime.
 ///
-/// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; it may be `const` if the
-///         points are written to an output map
+/// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; may be `const` if the points
+///         are written to an output map
 /// \tparam VertexPointMap a model of `ReadablePropertyMap` from the vertices to their points, and
 ///         of `ReadWritePropertyMap` if there is no output map; default the internal map of the
-///         mesh. A point type has `operator[]` and a constructor from three coordinates.
+///         mesh. The points have `operator[]` and a constructor from three coordinates.
 /// \tparam VertexIndexMap a model of `ReadablePropertyMap` from the vertices to 0, 1, ..., default
-///         the internal map of the mesh or, if there is none, one that is filled at construction
+///         the internal map of the mesh or, if there is none, one initialized at construction
 /// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
 ///         type, default `VertexPointMap`
 ///
@@ -115,46 +114,46 @@ public:
   {
     static_assert(!std::is_const_v<Mesh>,
                   "Face_graph_domain: the points of a const mesh cannot be written; construct the "
-                  "domain with a map to write to");
+                  "domain with an output point map");
   }
 
-  /// constructs the domain with a map to the points and the default map to the indices.
+  /// constructs the domain with a point map and the default index map.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map)
     : Face_graph_domain(mesh, vertex_point_map,
                         get_initialized_vertex_index_map(std::as_const(mesh)))
   {}
 
-  /// constructs the domain with both maps. Points are written to where they are read from.
+  /// constructs the domain with both maps. Points are changed in place.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map)
     : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(vertex_point_map),
       m_index_map(vertex_index_map), m_is_in_place(true)
   {}
 
-  /// constructs the domain with a map to the points that are read, and one to those that are
-  /// written: the points of all vertices of the region of interest.
+  /// constructs the domain with separate maps for reading and writing points. The points of all
+  /// vertices of the region of interest are written.
   Face_graph_domain(Mesh& mesh, Vertex_point_map vertex_point_map,
                     Vertex_index_map vertex_index_map, Output_point_map output_point_map)
     : m_mesh(&mesh), m_point_map(vertex_point_map), m_output_point_map(output_point_map),
       m_index_map(vertex_index_map), m_is_in_place(false)
   {}
 
-  /// returns the index of `v`, by which tables are indexed and sentences name the vertex.
+  /// returns the index of `v`, which messages also name it by.
   std::size_t index(vertex_descriptor v) const
   {
     return static_cast<std::size_t>(get(m_index_map, v));
   }
 
-  /// returns the point of `v` in the map that is read.
+  /// returns the point of `v` in the input map.
   Point point(vertex_descriptor v) const { return get(m_point_map, v); }
 
-  /// sets the point of `v` in the map that is written.
+  /// sets the point of `v` in the output map.
   void set_point(vertex_descriptor v, const Point& point) const
   {
     put(m_output_point_map, v, point);
   }
 
-  /// returns whether points are written to where they are read from.
+  /// returns whether points are changed in place.
   bool is_in_place() const { return m_is_in_place; }
 
   /// returns the range of all vertices.
@@ -210,7 +209,7 @@ private:
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex, from 0 on}
+///     \cgalParamDescription{a unique index for each vertex, starting from 0}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd

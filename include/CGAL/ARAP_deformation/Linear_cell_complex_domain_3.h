@@ -35,15 +35,14 @@ namespace ARAP {
 /// \brief the volumes of a linear cell complex of dimension 3, or the faces of one of dimension 2,
 /// over a combinatorial or a generalized map.
 ///
-/// Volumes must be tetrahedra, and faces closed: one that is not is refused where the region of
-/// interest meets it.
+/// Volumes must be tetrahedra, and faces must be closed: preprocessing fails if the region of
+/// interest meets any other cell.
 ///
-/// Construction takes linear time and memory, for tables of vertices and simplices. The complex
-/// must outlive the domain; its cells must not change meanwhile.
+/// Construction builds tables of vertices and simplices, in linear time and memory. The complex
+/// must outlive the domain, and its cells must not change in the meantime.
 ///
 /// \tparam LinearCellComplex a `CGAL::Linear_cell_complex_for_combinatorial_map` or
-///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with points in
-///         space
+///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with 3D points
 ///
 /// \cgalModels{ARAPDomain_3}
 template <typename LinearCellComplex>
@@ -51,11 +50,11 @@ class Linear_cell_complex_domain_3
   : public internal::Point_conversion<typename LinearCellComplex::Point>
 {
   static_assert(LinearCellComplex::dimension == 2 || LinearCellComplex::dimension == 3,
-                "Linear_cell_complex_domain_3: the dimension of the complex is 2 or 3");
+                "Linear_cell_complex_domain_3: the dimension of the complex must be 2 or 3");
   static_assert(LinearCellComplex::ambient_dimension == 3,
-                "Linear_cell_complex_domain_3: the points of the complex are in space");
+                "Linear_cell_complex_domain_3: the points of the complex must be 3D");
 
-  // the names of handles are not the same in all versions of CGAL
+  // the handle types have different names in different versions of CGAL
   using Dart = decltype(std::declval<LinearCellComplex&>().create_dart());
 
 public:
@@ -93,7 +92,7 @@ public:
     m_complex->point_of_vertex_attribute(v) = point;
   }
 
-  /// returns `true`: points are written to where they are read from.
+  /// returns `true`: points are changed in place.
   bool is_in_place() const { return true; }
 
   /// returns the range of all vertices.
@@ -105,8 +104,8 @@ public:
     return m_tables->incidences->is_isolated(index(v));
   }
 
-  /// returns the vertices of `s`, those of a face in their order around it; nothing if `s` is not
-  /// closed or not a tetrahedron.
+  /// returns the vertices of `s`, those of a face in their order around it; an empty range if `s`
+  /// is not a closed face or not a tetrahedron.
   auto simplex_vertices(simplex_descriptor s) const
   {
     return boost::make_iterator_range(m_tables->corners[s]);
@@ -142,7 +141,7 @@ private:
       {
         corners.push_back(corners_of_cell(complex, it));
         numbers.emplace_back();
-        // a cell is incident to its vertices whatever it is
+        // a cell that is refused is incident to its vertices too
         auto darts = complex.template one_dart_per_incident_cell<0, dimension>(it);
         for(auto dart = darts.begin(); dart != darts.end(); ++dart)
           numbers.back().push_back(indices.at(complex.vertex_attribute(dart)));
@@ -150,7 +149,7 @@ private:
       incidences = std::make_unique<const internal::Incidence_table>(vertices.size(), numbers);
     }
 
-    // nothing if the cell is not closed, or not a tetrahedron
+    // empty if the cell is not a closed face or not a tetrahedron
     static std::vector<vertex_descriptor> corners_of_cell(LinearCellComplex& complex, Dart cell)
     {
       std::vector<vertex_descriptor> corners;

@@ -24,62 +24,62 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationOptions
-/// where a run starts from; hard control vertices are at their targets in either case.
+/// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  previous, ///< the current positions: right for interaction, where each frame starts from the last
-  laplacian ///< naive Laplacian editing: the minimizer of \f$\|L p' - L p\|^2\f$ under the fixed
-            ///< positions and with all control vertices at their targets, soft ones too; \f$L\f$ is
-            ///< the Laplacian of the weights of stars, whatever the cells, and \f$p\f$ the rest
-            ///< shape. It costs a second factorization, of \f$L^T L\f$, at its first use after a
-            ///< preprocessing.
+  previous, ///< the current positions: for interaction, where each frame starts from the last
+  laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
+            ///< where they are, and the control vertices, soft ones of positive weight included, at
+            ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and
+            ///< \f$p\f$ the rest shape. Its first use after preprocessing costs a second
+            ///< factorization, of \f$L^T L\f$.
 };
 
 /// \ingroup PkgARAPDeformationOptions
-/// how the energy is minimized. By either its value never rises, and an iteration costs about the
-/// same: one fit of the rotations and one solution of the linear system.
+/// the minimization algorithm. With either one the energy never rises, and an iteration costs about
+/// the same: one fit of the rotations and one solve of the linear system.
 enum class Minimizer
 {
   automatic,    ///< `quasi_newton` if `Options::tolerance` is positive, else `local_global`
-  local_global, ///< the iteration of the paper: the most for the first few iterations of a frame,
-                ///< and needs the least memory
-  quasi_newton  ///< L-BFGS in the metric of the Laplacian: many times fewer iterations to the
-                ///< minimum. It takes about 200 bytes more for each free vertex.
+  local_global, ///< the iteration of the paper: gains the most in the first few iterations, and
+                ///< needs the least memory
+  quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs many times fewer iterations to the
+                ///< minimum, and about 200 bytes more for each free vertex
 };
 
 /// \ingroup PkgARAPDeformationOptions
-/// what a program chooses at run time.
+/// the run-time options.
 struct Options
 {
-  /// which edges share one rotation. Another choice asks for another preprocessing.
+  /// which edges share a rotation. A new value requires preprocessing again.
   Cell_scheme cells = Cell_scheme::spokes_and_rims();
 
-  /// where each run starts from.
+  /// the initial guess of each run.
   Initial_guess initial_guess = Initial_guess::previous;
 
-  /// how the energy is minimized.
+  /// the minimization algorithm.
   Minimizer minimizer = Minimizer::automatic;
 
-  /// the largest number of iterations of a run; 0 only moves to the initial guess.
-  /// Two or three a frame are enough in an interactive program.
+  /// the maximum number of iterations of a run; 0 only moves to the initial guess.
+  /// An interactive program needs two or three per frame.
   unsigned int iterations = 1000;
 
-  /// the run ends when `Report::estimated_relative_gap` is at most this; not negative.
+  /// a run stops when `Report::estimated_relative_gap` is at most this; finite and not negative.
   /// 0 runs all iterations. The estimate is usually too large, so that the true gap is well below
   /// the tolerance.
   double tolerance = 1e-3;
 
-  /// how many threads may be at work in a call; 0 for as many as TBB takes by itself. Without TBB
-  /// (the macro `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is one.
-  /// Results are the same to the last bit, whatever the number.
+  /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro
+  /// `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is only one.
+  /// Results are the same to the last bit for any number.
   unsigned int threads = 0;
 
-  /// returns `Status::success`, or `Status::invalid_option` and a sentence that names the option.
+  /// returns `Status::success`, or `Status::invalid_option` and a message that names the option.
   Outcome check() const
   {
     if(!(tolerance >= 0) || !std::isfinite(tolerance))
       return Outcome(Status::invalid_option, "the option tolerance is " +
-                     std::to_string(tolerance) + "; it must be a finite number, 0 or larger");
+                     std::to_string(tolerance) + "; it must be finite and not negative");
     return Outcome(Status::success, "the options are valid");
   }
 };

@@ -28,9 +28,9 @@ namespace ARAP {
 struct Phase_seconds
 {
   double preprocess = 0;    ///< region, weights, matrix and factorization; 0 if all was up to date
-  double initial_guess = 0; ///< its factorization (once a preprocessing) and its solution
+  double initial_guess = 0; ///< factorization (once per preprocessing) and solve of the guess
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
-  double global_steps = 0;  ///< substitutions over the factor, over all iterations
+  double global_steps = 0;  ///< solves with the factor, over all iterations
   double total = 0;         ///< the whole call
 };
 
@@ -49,51 +49,52 @@ struct Stages
 };
 
 /// \ingroup PkgARAPDeformationRun
-/// \brief tells what a call of `CGAL::ARAP_deformation::deform()` or `CGAL::arap_deform()` did.
+/// \brief describes what a call of `CGAL::ARAP_deformation::deform()` or `CGAL::arap_deform()` did.
 ///
-/// Where `succeeded(status)` is `false` the mesh and the object are as they were before the call.
+/// If `succeeded(status)` is `false`, the mesh and the object are as they were before the call.
 struct Report : Outcome
 {
-  unsigned int iterations = 0; ///< the number of global steps taken
+  unsigned int iterations = 0; ///< the number of iterations, each with one global step
 
-  /// the energy \f$E\f$, always with the best rotations for the positions: `energy[0]` at the
-  /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell counts
+  /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
+  /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
   /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex
   /// \f$m \|p' - t\|^2\f$.
   std::vector<double> energy;
 
-  /// \f$s\f$, the energy's natural unit: \f$\sum k |w| \|e\|^2\f$ over the edges of all cells in
-  /// the rest shape; larger with the square of what the positions and targets span, where that is
-  /// more than what the rest shape does.
+  /// \f$s\f$, the natural unit of the energy: the sum of \f$|w| \|e\|^2\f$ over the edges of all
+  /// cells in the rest shape. Scaled with the squared diagonal of the bounding box of positions and
+  /// targets where that is larger than that of the rest shape.
   double energy_scale = 0;
 
-  /// \f$z\f$, what rounding the coordinates makes of an energy of zero: it is large where targets,
-  /// or all, are far from the origin. Of an energy \f$E\f$ it makes about \f$16 \sqrt{E z}\f$.
-  /// Differences that are below this, or below a rounding error of \f$E + s\f$, mean nothing.
+  /// \f$z\f$, the rounding level of the energy: the value that rounding the coordinates makes of a
+  /// zero energy. It is large if the targets, or the whole shape, are far from the origin. The
+  /// rounding error of an energy \f$E\f$ is about \f$16 \sqrt{E z}\f$. Differences below this, or
+  /// below the rounding error of \f$E + s\f$, are meaningless.
   double rounding_level = 0;
 
-  /// an estimate of \f$(E - E^*) / E^*\f$, with \f$E^*\f$ the minimum that the run tends to,
-  /// extrapolated from the decreases of the energy; infinity where too few are known, or where they
-  /// do not shrink. It is meant to be too large rather than too small, but it is not a bound: see
-  /// \ref ARAPDeformation_Gap for how good it is.
+  /// an estimate of \f$(E - E^*) / E^*\f$, where \f$E^*\f$ is the minimum that the run converges
+  /// to, extrapolated from the decreases of the energy; infinity if there are too few of them, or
+  /// if they do not shrink. It errs on the large side, but is not a bound: see
+  /// \ref ARAPDeformation_Gap for its accuracy.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
-  std::size_t free_vertices = 0; ///< vertices whose positions were solved for
-  std::size_t simplices = 0;     ///< simplices in the region that was considered
+  std::size_t free_vertices = 0; ///< the number of vertices that were solved for
+  std::size_t simplices = 0;     ///< the number of simplices at free vertices and their neighbours
 
-  /// tetrahedra among them that are inside out: the sign of their volume is no longer that in the
-  /// rest shape. 0 on a surface, whose faces have no inside.
+  /// the number of these tetrahedra that are inverted: the sign of their volume differs from that
+  /// in the rest shape. 0 on a surface.
   std::size_t inverted_simplices = 0;
 
-  /// the connected parts of the region that nothing holds, each by the smallest index of its
-  /// vertices: no chain of edges of non-zero weight ties it to a vertex that is fixed or pulled to
-  /// a target. They stayed where they were, and are not counted above. Always empty for
-  /// `Surface_mesh_deformation`, which refuses them.
+  /// the unconstrained components of the region, each given by its smallest vertex index: no path
+  /// of edges of non-zero weight connects them to a vertex that is fixed or has a soft target of
+  /// positive weight. They stay where they are, and are not counted above. Always empty for
+  /// `Surface_mesh_deformation`, where they are an error.
   std::vector<std::size_t> unconstrained_components;
 
   Stages stages; ///< what was done before the iterations, because of what had changed
 
-  Phase_seconds seconds; ///< where the time went
+  Phase_seconds seconds; ///< the time of each phase
 };
 
 } // namespace ARAP

@@ -30,22 +30,21 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a surface or a tetrahedral complex, given as a range of points and a range of simplices
+/// \brief a surface or a tetrahedral complex, given by a range of points and a range of simplices
 /// that index them.
 ///
-/// Vertices and simplices are identified by their places in the ranges. Nothing else is asked for:
-/// faces need not be oriented, an edge may have any number of faces, a tetrahedron either sign. A
-/// simplex with a corner that does not exist, or with a corner twice, is refused where the region
-/// of interest meets it.
+/// Vertices and simplices are identified by their positions in the ranges. The faces need not be
+/// oriented or manifold, and tetrahedra may have either orientation. Preprocessing fails if the
+/// region of interest meets a simplex with a nonexistent or a repeated corner.
 ///
-/// Construction takes linear time and memory, for a table of the simplices at each vertex. The
-/// ranges must outlive the domain; their sizes, and the simplices, must not change meanwhile.
+/// Construction builds a table of the simplices at each vertex, in linear time and memory. The
+/// ranges must outlive the domain; their sizes and the simplices must not change in the meantime.
 ///
 /// \tparam Dimension 2 if the simplices are triangles or polygons, 3 if they are tetrahedra
-/// \tparam PointRange a model of `RandomAccessContainer` of points. A point type has `operator[]`
+/// \tparam PointRange a model of `RandomAccessContainer` of points. The points have `operator[]`
 ///         and a constructor from three coordinates.
 /// \tparam SimplexRange a model of `RandomAccessContainer` of ranges of integers, such as
-///         `std::vector<std::array<int, 3>>`. The corners of a polygon are in their order around
+///         `std::vector<std::array<int, 3>>`. The corners of a polygon are listed in order around
 ///         it.
 ///
 /// \cgalModels{ARAPDomain_3}
@@ -54,17 +53,17 @@ class Simplex_soup_domain
   : public internal::Point_conversion<typename PointRange::value_type>
 {
   static_assert(Dimension == 2 || Dimension == 3,
-                "Simplex_soup_domain: the dimension of the simplices is 2 (triangles and polygons) "
-                "or 3 (tetrahedra)");
+                "Simplex_soup_domain: the dimension of the simplices must be 2 (triangles and "
+                "polygons) or 3 (tetrahedra)");
 
 public:
   /// the type of a point.
   using Point = typename PointRange::value_type;
 
-  /// a vertex: the place of its point in the range.
+  /// a vertex: the position of its point in the range.
   using vertex_descriptor = std::size_t;
 
-  /// a simplex: its place in the range.
+  /// a simplex: its position in the range.
   using simplex_descriptor = std::size_t;
 
   /// the dimension of the simplices.
@@ -75,8 +74,8 @@ public:
     : Simplex_soup_domain(points, simplices, points)
   {}
 
-  /// constructs the domain with points that are read, and others that are written: those of all
-  /// vertices of the region of interest.
+  /// constructs the domain with separate ranges for reading and writing points. The points of all
+  /// vertices of the region of interest are written.
   /// \pre `output_points.size() == points.size()`
   Simplex_soup_domain(const PointRange& points, const SimplexRange& simplices,
                       PointRange& output_points)
@@ -94,13 +93,13 @@ public:
     return v;
   }
 
-  /// returns the point of `v` in the range that is read.
+  /// returns the point of `v` in the input range.
   const Point& point(vertex_descriptor v) const { return (*m_points)[v]; }
 
-  /// sets the point of `v` in the range that is written.
+  /// sets the point of `v` in the output range.
   void set_point(vertex_descriptor v, const Point& point) const { (*m_output_points)[v] = point; }
 
-  /// returns whether points are written to where they are read from.
+  /// returns whether points are changed in place.
   bool is_in_place() const { return m_points == m_output_points; }
 
   /// returns the range of all vertices.
@@ -109,7 +108,7 @@ public:
   /// returns whether no simplex is incident to `v`.
   bool is_isolated(vertex_descriptor v) const { return m_incidences->is_isolated(v); }
 
-  /// returns the corners of `s`, or nothing if one of them does not exist.
+  /// returns the corners of `s`, or an empty range if one of them does not exist.
   auto simplex_vertices(simplex_descriptor s) const
   {
     const auto& simplex = (*m_simplices)[s];
@@ -137,12 +136,12 @@ private:
 };
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a range of points and a range of triangles or polygons.
+/// \brief a surface, given by a range of points and a range of triangles or polygons.
 template <typename PointRange, typename PolygonRange>
 using Polygon_soup_domain = Simplex_soup_domain<2, PointRange, PolygonRange>;
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a range of points and a range of tetrahedra.
+/// \brief a tetrahedral complex, given by a range of points and a range of tetrahedra.
 template <typename PointRange, typename TetrahedronRange>
 using Tetrahedron_soup_domain = Simplex_soup_domain<3, PointRange, TetrahedronRange>;
 

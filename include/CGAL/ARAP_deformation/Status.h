@@ -21,34 +21,34 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRun
-/// what became of a call.
+/// the result of a call.
 enum class Status
 {
-  not_run,              ///< nothing was done yet
-  success,              ///< a call that does not iterate did its work
-  converged,            ///< the estimated relative gap to the minimum is below the tolerance
-  iteration_limit,      ///< all iterations that were asked for were run
-  stopped,              ///< a visitor stopped the run, the last iterate was kept
-  cancelled,            ///< a visitor cancelled the run, everything is as before
-  invalid_option,       ///< an option is out of its range
+  not_run,              ///< the call was not made yet
+  success,              ///< a call that does not iterate succeeded
+  converged,            ///< the estimated relative gap to the minimum is within the tolerance
+  iteration_limit,      ///< the maximum number of iterations was run
+  stopped,              ///< a visitor stopped the run; the last iterate was kept
+  cancelled,            ///< a visitor cancelled the run; nothing was changed
+  invalid_option,       ///< an option is out of range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
-  not_a_control_vertex, ///< a target or a weight was given to a vertex that is not a control vertex
+  not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
   invalid_weight,       ///< the weight of a target is negative or not a number
-  not_a_simplex,        ///< a face or cell of the region is no polygon or tetrahedron
+  not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
-  no_simplex,           ///< no vertex of the region of interest has a simplex
+  no_simplex,           ///< no vertex of the region of interest has an incident simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
-  non_finite_weight,    ///< a weight of an edge in a simplex is not finite
-  no_fixed_vertex,       ///< nothing in the region is fixed, or pulled with a positive weight
+  non_finite_weight,    ///< the weight of an edge is infinite or not a number
+  no_fixed_vertex,      ///< no vertex of the region is fixed or has a target of positive weight
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
                         ///< its solution made the energy rise
-  non_finite_energy     ///< the numbers overflowed during the run
+  non_finite_energy     ///< the energy overflowed during the run
 };
 
 /// \ingroup PkgARAPDeformationRun
-/// returns whether `status` is one of those after which a call has done what it was asked for:
-/// `Status::success`, `Status::converged`, `Status::iteration_limit` and `Status::stopped`.
+/// returns whether `status` is a success: `Status::success`, `Status::converged`,
+/// `Status::iteration_limit` or `Status::stopped`.
 inline bool succeeded(Status status)
 {
   return status == Status::success || status == Status::converged ||
@@ -56,7 +56,7 @@ inline bool succeeded(Status status)
 }
 
 /// \ingroup PkgARAPDeformationRun
-/// returns the name of `status` as it is spelled in the enumeration.
+/// returns the name of the enumerator `status`.
 inline const char* to_string(Status status)
 {
   switch(status)
@@ -85,19 +85,19 @@ inline const char* to_string(Status status)
 }
 
 /// \ingroup PkgARAPDeformationRun
-/// \brief a status with a sentence that says what happened, and to which vertex, face or option.
+/// \brief a status, and a message that tells what happened to which vertex, simplex or option.
 ///
 /// It converts to `true` if `succeeded(status)`.
 struct Outcome
 {
   Status status = Status::not_run; ///< the status.
-  /// the sentence; empty if setting a target or a weight has succeeded.
+  /// the message; empty after setting a target or a weight successfully.
   std::string message = "nothing was run yet";
 
-  /// constructs the outcome of a call that was not made.
+  /// constructs the outcome of a call that was not made yet.
   Outcome() = default;
 
-  /// constructs an outcome from its parts.
+  /// constructs an outcome from a status and a message.
   Outcome(Status status_, std::string message_)
     : status(status_), message(std::move(message_))
   {}

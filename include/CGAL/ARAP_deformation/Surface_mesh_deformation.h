@@ -47,44 +47,45 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief `CGAL::Surface_mesh_deformation` with the numeric part of this package: for programs
-/// that use that class already.
+/// \brief a drop-in replacement for `CGAL::Surface_mesh_deformation`, with the numeric core of this
+/// package.
 ///
-/// A program moves over by including this header and writing
-/// `CGAL::ARAP::Surface_mesh_deformation`. Template parameters, members, their meaning, and the
-/// iterates are those of `CGAL::Surface_mesh_deformation` in the version of \cgal that is
-/// installed; its reference manual applies. For new programs there is `CGAL::ARAP_deformation`.
+/// To switch, include this header and use `CGAL::ARAP::Surface_mesh_deformation`. The template
+/// parameters, the members and their meaning, and the iterates are those of
+/// `CGAL::Surface_mesh_deformation` in the installed version of \cgal; its reference manual
+/// applies. New programs should use `CGAL::ARAP_deformation`.
 ///
-/// As there, the weights of all halfedges are computed at construction, and
-/// `overwrite_initial_geometry()` computes those at vertices of the region of interest again.
-/// The rotations are kept from one `deform()` to the next, and each iteration solves for the
-/// positions first. A vertex that leaves the region of interest returns to its rest position.
+/// As in that class, the weights of all halfedges are computed at construction, and
+/// `overwrite_initial_geometry()` recomputes those at vertices of the region of interest.
+/// The rotations are kept from one `deform()` to the next, and each iteration first solves for the
+/// positions. A vertex that leaves the region of interest returns to its rest position.
 ///
-/// What differs:
+/// Differences:
 ///
-/// - *Failure.* `preprocess()` returns `false` as before, and `outcome()` says why, and which
-///   vertex is to blame. `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the
-///   mesh and the object as they were. Functions that set a target return an `Outcome`.
-/// - *Targets* of vertices that are not control vertices are ignored by all functions, not only by
-///   `set_target_position()`; the outcome is `Status::not_a_control_vertex`.
+/// - *Failure.* `preprocess()` returns `false`, and `outcome()` tells why and names the vertex.
+///   `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the mesh and the object
+///   unchanged. Functions that set a target return an `Outcome`.
+/// - *Targets.* All functions, not only `set_target_position()`, ignore vertices that are not
+///   control vertices; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
-///   \cgal's. The defaults are those of `CGAL::ARAP_deformation_traits_3`. A Cholesky
-///   factorization needs weights for which the matrix is positive definite, as it is with those of
-///   \cgal; where negative weights make it indefinite, `preprocess()` fails.
-/// - *Free parts.* If a part of the region of interest is not tied to any vertex that is fixed,
-///   `preprocess()` always fails, and never depends on rounding.
-/// - *Points.* Within a run positions are `double`; they are rounded to the type of the points
-///   once, at the end. Points may be of any type that `CGAL::to_double()` knows the coordinates of.
-///   No point outside the region of interest is written but those of vertices that leave it.
+///   \cgal. The defaults are those of `CGAL::ARAP_deformation_traits_3`. A Cholesky factorization
+///   needs a positive definite matrix, which the weights of \cgal give; where negative weights
+///   make it indefinite, `preprocess()` fails.
+/// - *Unconstrained components.* If a component of the region of interest is not connected to any
+///   fixed vertex, `preprocess()` always fails, independently of rounding.
+/// - *Points.* A run computes in `double`, and rounds to the type of the points once, at the end.
+///   `CGAL::to_double()` must accept the coordinates of the points. Outside the region of interest
+///   only points of vertices that leave it are written.
 /// - *Index maps.* The halfedge index map may number the halfedges in any order.
 /// - *Copies.* The class cannot be copied, whatever its template arguments.
-/// - *Cost.* `erase_roi_vertex()` takes constant time, amortized. The functions that only
-///   read are `const`; `target_position()` returns a copy, and does not put back what has left.
-/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` can be run, which
-///   is `ORIGINAL_ARAP`. With any other value, 0.02 if none is set, `preprocess()` works, and
+/// - *Cost.* `erase_roi_vertex()` takes amortized constant time. Functions that only read are
+///   `const`; `target_position()` returns a copy, and does not move back vertices that have left
+///   the region of interest.
+/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` is supported, which
+///   is `ORIGINAL_ARAP`. With any other value, such as the default 0.02, `preprocess()` works, but
 ///   `deform()` returns `Status::invalid_option` and does nothing.
 ///
-/// \tparam TM a model of `FaceGraph` and `VertexListGraph` of which all faces are triangles
+/// \tparam TM a model of `FaceGraph` and `VertexListGraph` all of whose faces are triangles
 /// \tparam VIM a model of `ReadablePropertyMap` from the vertices to 0, 1, ...
 /// \tparam HIM a model of `ReadablePropertyMap` from the halfedges to 0, 1, ...
 /// \tparam TAG `SPOKES_AND_RIMS`, `ORIGINAL_ARAP` or `SRE_ARAP`
@@ -173,8 +174,8 @@ public:
   /// erases all control vertices, which stay in the region of interest.
   void clear_control_vertices() { m_session.clear_control(); }
 
-  /// makes `v` a control vertex, and a vertex of the region of interest if it is not. Returns
-  /// `true` if it was no control vertex.
+  /// makes `v` a control vertex, and inserts it in the region of interest if needed. Returns `true`
+  /// if it was not a control vertex.
   bool insert_control_vertex(vertex_descriptor v) { return m_session.insert_control(v); }
 
   /// makes the vertices of a range control vertices.
@@ -184,7 +185,8 @@ public:
     for(; begin != end; ++begin) insert_control_vertex(*begin);
   }
 
-  /// makes `v` no control vertex. It stays in the region of interest. Returns `true` if it was one.
+  /// erases `v` from the control vertices; it stays in the region of interest. Returns `true` if it
+  /// was a control vertex.
   bool erase_control_vertex(vertex_descriptor v) { return m_session.erase_control(v); }
 
   /// inserts the vertices of a range in the region of interest.
@@ -194,32 +196,32 @@ public:
     for(; begin != end; ++begin) insert_roi_vertex(*begin);
   }
 
-  /// inserts `v` in the region of interest. Returns `true` if it was not in it.
+  /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
   bool insert_roi_vertex(vertex_descriptor v) { return m_session.insert_roi(v); }
 
   /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
-  /// it. The next call that needs the region puts the vertex back to its rest position.
+  /// the region. The next call that needs the region moves `v` back to its rest position.
   bool erase_roi_vertex(vertex_descriptor v) { return m_session.erase_roi(v); }
 
-  /// prepares the system, if this was not done since the last change. `deform()` calls it. Returns
-  /// `false` if it fails, and then `outcome()` says why.
+  /// prepares the system, unless nothing has changed since the last time. `deform()` calls it.
+  /// Returns `false` if it fails; `outcome()` then tells why.
   bool preprocess() { return static_cast<bool>(m_session.preprocess()); }
 
-  /// returns what became of the last preprocessing.
+  /// returns the outcome of the last preprocessing.
   const Outcome& outcome() const { return m_session.preparation(); }
   /// @}
 
   /// \name Deformation
   /// @{
 
-  /// sets the target of a control vertex. Ignored if `v` is none.
+  /// sets the target of a control vertex. Ignores any other vertex.
   Outcome set_target_position(vertex_descriptor v, const Point& target_position)
   {
     return change_target(v, [&](const Point&) { return target_position; });
   }
 
-  /// translates the target of a control vertex by `t`, which has an `operator[]`. Ignored if `v` is
-  /// none.
+  /// translates the target of a control vertex by `t`, whose type has `operator[]`. Ignores any
+  /// other vertex.
   template <typename Vect>
   Outcome translate(vertex_descriptor v, const Vect& t)
   {
@@ -236,8 +238,8 @@ public:
     return for_each(begin, end, [&](vertex_descriptor v) { return translate(v, t); });
   }
 
-  /// rotates the target of a control vertex by the quaternion `quat` about the point that the
-  /// vector `to_rotation_center` leads to from the origin. Ignored if `v` is no control vertex.
+  /// rotates the target of a control vertex by the quaternion `quat` about the point with the
+  /// coordinates of `to_rotation_center`. Ignores any other vertex.
   template <typename Quaternion, typename Vect>
   Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
   {
@@ -271,11 +273,11 @@ public:
   /// deforms with `iterations()` and `tolerance()`.
   Report deform() { return deform(m_iterations, m_tolerance); }
 
-  /// moves the region of interest: its control vertices to their targets, the others by at most
-  /// `iterations` iterations. If `tolerance` is positive, an iteration that changes the energy by
-  /// less than `tolerance` of itself is the last; the status is then `Status::converged`.
+  /// moves the control vertices to their targets, and all other vertices of the region of interest
+  /// by at most `iterations` iterations. If `tolerance` is positive, the run stops, with
+  /// `Status::converged`, after an iteration whose relative change of the energy is below it.
   ///
-  /// `Report::energy[0]` is the energy with the targets and the rotations of the run before.
+  /// `Report::energy[0]` is the energy with the targets and the rotations of the previous run.
   /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
@@ -292,21 +294,21 @@ public:
     return m_session.deform(iterations, tolerance, visitor);
   }
 
-  /// puts the region of interest back to the rest shape, targets included.
+  /// moves the region of interest, targets included, back to the rest shape.
   void reset()
   {
     m_session.put_back_erased();
     m_session.reset();
   }
 
-  /// takes the present points of the region of interest for the rest shape, and computes the
-  /// weights at its vertices again.
+  /// makes the current points of the region of interest the rest shape, and recomputes the weights
+  /// at its vertices.
   void overwrite_initial_geometry()
   {
     if(roi_vertices().empty())
       return;
     m_session.put_back_erased();
-    m_weights.recompute_at(roi_vertices());
+    m_weights.recompute_at(m_roi);
     m_session.overwrite_initial_geometry();
   }
   /// @}
@@ -314,22 +316,25 @@ public:
   /// \name Utilities
   /// @{
 
-  /// returns the number of iterations of `deform()`, 5 if none was set.
+  /// returns the maximum number of iterations of `deform()`, by default 5.
   unsigned int iterations() const { return m_iterations; }
 
-  /// returns the tolerance of `deform()`, 1e-4 if none was set.
+  /// returns the tolerance of `deform()`, by default 1e-4.
   double tolerance() const { return m_tolerance; }
 
-  /// sets the number of iterations of `deform()`.
+  /// sets the maximum number of iterations of `deform()`.
   void set_iterations(unsigned int iterations) { m_iterations = iterations; }
 
-  /// sets the tolerance of `deform()`. With 0 all iterations are run.
+  /// sets the tolerance of `deform()`. 0 runs all iterations.
   void set_tolerance(double tolerance) { m_tolerance = tolerance; }
 
-  /// returns the vertices of the region of interest in the order of their insertion. Linear time.
+  /// returns the vertices of the region of interest in the order of insertion. Linear time.
   const Roi_vertex_range& roi_vertices() const
   {
-    m_roi = m_session.vertices().select([](const auto& entry) { return entry.is_roi; });
+    Roi_vertex_range roi =
+      m_session.vertices().select([](const auto& entry) { return entry.is_roi; });
+    if(roi != m_roi) // else iterators stay valid
+      m_roi = std::move(roi);
     return m_roi;
   }
 
@@ -349,8 +354,8 @@ public:
   const Triangle_mesh& halfedge_graph() const { return triangle_mesh(); }
 #endif
 
-  /// sets the weight of the differences of rotations, for the tag `SRE_ARAP`; 0.02 if none was set.
-  /// Only 0 can be run.
+  /// sets the weight of the differences of rotations for the tag `SRE_ARAP`, by default 0.02. Only
+  /// 0 is supported.
   void set_sre_arap_alpha(double alpha) { m_alpha = alpha; }
   /// @}
 
@@ -358,7 +363,7 @@ private:
   template <typename InputIterator, typename Function>
   Outcome for_each(InputIterator begin, InputIterator end, const Function& f)
   {
-    m_session.put_back_erased(); // also where the range is empty
+    m_session.put_back_erased(); // even for an empty range
     Outcome first(Status::success, "all targets are set");
     for(; begin != end; ++begin)
       if(Outcome outcome = f(*begin); first && !outcome)

@@ -33,15 +33,15 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationDomains
 /// \brief the finite cells of a 3D triangulation, or a selection of them.
 ///
-/// Deforming moves vertices and changes nothing else: the combinatorial structure, indices and
-/// weights of the points are kept. **A deformed triangulation is in general no longer %Delaunay or
-/// regular**, a cell may be inside out, and the boundary need no longer be convex. Locating points
-/// in it, inserting and removing vertices, or dual constructions must then not be asked of it;
-/// walking over its cells, and writing it to a file, is fine. What cells keep for later, such as
-/// circumcenters and qualities, is marked out of date at each vertex that is moved.
+/// Deformation only moves vertices: the combinatorial structure, the indices and the weights of the
+/// points do not change. **In general a deformed triangulation is no longer %Delaunay or regular**,
+/// cells may be inverted, and the boundary may be non-convex. Do not locate points in it, insert or
+/// remove vertices, or use dual constructions; traversing its cells and writing it to a file are
+/// fine. Data that cells cache, such as circumcenters and qualities, is invalidated at each vertex
+/// that moves.
 ///
-/// Construction takes linear time, to number the vertices. The triangulation must outlive the
-/// domain; its vertices and cells, and which cells are selected, must not change meanwhile.
+/// Construction numbers the vertices, in linear time. The triangulation must outlive the domain;
+/// its vertices, its cells and the selection must not change in the meantime.
 ///
 /// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not
 ///
@@ -78,8 +78,8 @@ public:
       m_indices->emplace(v, m_indices->size());
   }
 
-  /// constructs the domain of all finite cells. If cells have a subdomain index, those where it has
-  /// its default value, which stands for the outside, are left out: set the indices first.
+  /// constructs the domain of all finite cells. If cells have a subdomain index, those with its
+  /// default value, which denotes the outside, are left out: set the indices first.
   explicit Triangulation_domain_3(Triangulation& triangulation)
     : Triangulation_domain_3(triangulation, [](simplex_descriptor cell) {
         return internal::is_in_a_subdomain(*cell);
@@ -92,15 +92,14 @@ public:
   /// returns the point of `v`.
   Point point(vertex_descriptor v) const { return internal::bare_point<Point>(v->point()); }
 
-  /// sets the point of `v`, which keeps its weight, and marks what the cells at `v` have cached as
-  /// out of date.
+  /// sets the point of `v`, which keeps its weight, and invalidates the caches of the cells at `v`.
   void set_point(vertex_descriptor v, const Point& point) const
   {
     v->set_point(internal::with_weight_of(v->point(), point));
     for_each_incident_cell(v, [](simplex_descriptor cell) { internal::invalidate_caches(*cell); });
   }
 
-  /// returns `true`: points are written to where they are read from.
+  /// returns `true`: points are changed in place.
   bool is_in_place() const { return true; }
 
   /// returns the range of all finite vertices.
@@ -138,7 +137,7 @@ private:
     return !m_triangulation->is_infinite(cell) && m_is_selected(cell);
   }
 
-  // calls f for each cell at v, infinite ones too
+  // calls f for each cell at v, infinite ones included
   template <typename Function>
   void for_each_incident_cell(vertex_descriptor v, const Function& f) const
   {
@@ -157,7 +156,7 @@ private:
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of all finite cells of a 3D triangulation. If cells have a subdomain
-/// index, those where it has its default value, which stands for the outside, are left out.
+/// index, those with its default value, which denotes the outside, are left out.
 template <typename Triangulation>
 Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& triangulation)
 {
@@ -165,9 +164,9 @@ Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& t
 }
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of the cells of a complex in a 3D triangulation, of all subdomains.
-/// Vertices are numbered as in the domain that `ARAP_deformation` makes of the complex. The complex
-/// must outlive the domain.
+/// \brief returns the domain of all cells of a complex in a 3D triangulation, in any subdomain.
+/// The vertex indices are those of the domain that `ARAP_deformation` constructs for the complex.
+/// The complex must outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>
@@ -181,9 +180,9 @@ make_complex_domain(MeshComplex& complex)
 }
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices that it
-/// shares with others belong to it: hold them if the others are to keep their shape. The complex
-/// must outlive the domain.
+/// \brief returns the domain of one subdomain of a complex in a 3D triangulation. Vertices shared
+/// with other subdomains belong to it: fix them to keep the shape of the others. The complex must
+/// outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
 Triangulation_domain_3<typename MeshComplex::Triangulation>

@@ -27,24 +27,24 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief cotangent weights as they are, of either sign.
+/// \brief unmodified cotangent weights, of either sign.
 ///
-/// The edge of a triangle weighs half the cotangent of the opposite angle, the edge of a star the
-/// sum over its triangles: \f$w_{ij} = (\cot \alpha_{ij} + \cot \beta_{ij}) / 2\f$
-/// \cgalCite{Pinkall1993Cotangent}. The edge \f$(i, j)\f$ of a tetrahedron \f$ijkl\f$ weighs
-/// \f$|kl| \cot \theta_{kl} / 6\f$, with \f$\theta_{kl}\f$ the dihedral angle at the opposite
-/// edge. For every linear map \f$D\f$ the sum of \f$w \|D e\|^2\f$ over the edges of a
-/// simplex is then its area or volume times \f$\|D\|_F^2\f$, over its plane or space.
+/// The weight of an edge in a triangle is half the cotangent of the opposite angle; in a star it is
+/// the sum over the triangles, \f$w_{ij} = (\cot \alpha_{ij} + \cot \beta_{ij}) / 2\f$
+/// \cgalCite{Pinkall1993Cotangent}. The weight of the edge \f$(i, j)\f$ in a tetrahedron
+/// \f$ijkl\f$ is \f$|kl| \cot \theta_{kl} / 6\f$, with \f$\theta_{kl}\f$ the dihedral angle at the
+/// opposite edge. For every linear map \f$D\f$, restricted to the plane of a triangle, the sum of
+/// \f$w \|D e\|^2\f$ over the edges of a simplex is its area or volume times \f$\|D\|_F^2\f$.
 ///
-/// With simplices as edge sets the energy is never negative. With stars it can be where angles are
-/// obtuse, and its minimum is then a distorted shape: prefer `Safe_cotangent_weight`.
+/// With simplices as edge sets the energy is never negative. With stars it can be negative where
+/// angles are obtuse, and its minimum is then a distorted shape: prefer `Safe_cotangent_weight`.
 ///
-/// All weights are finite, unless the arithmetic overflows (with edges longer than \f$10^{76}\f$).
-/// Where a simplex is degenerate, or so thin that a weight would be larger than \f$10^6\f$ (in a
-/// tetrahedron \f$10^6\f$ times its longest edge), its weights are multiplied by a common factor
-/// that makes this the largest one; and the smaller the factor is, the more is added of the weights
-/// of a regular simplex with the same longest edge. So the corners of a degenerate simplex are tied
-/// together, unless it is a tetrahedron in one point, and its energy is still not negative.
+/// All weights are finite, unless the computation overflows (edges longer than \f$10^{76}\f$).
+/// If a simplex is degenerate, or so thin that a weight would exceed \f$10^6\f$ (in a tetrahedron
+/// \f$10^6\f$ times its longest edge), its weights are scaled down to this maximum. The smaller the
+/// scale factor, the larger the added share of the weights of a regular simplex with the same
+/// longest edge. This connects the corners of degenerate simplices, except of a tetrahedron in a
+/// single point, and keeps their energy non-negative.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Cotangent_weight
@@ -65,7 +65,7 @@ public:
   }
 
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$, \f$(0,3)\f$, \f$(1,2)\f$,
-  /// \f$(1,3)\f$, \f$(2,3)\f$ of a tetrahedron, a length.
+  /// \f$(1,3)\f$, \f$(2,3)\f$ of a tetrahedron; they are lengths.
   std::array<double, 6> simplex_weights(const std::array<Coordinates, 4>& tetrahedron) const
   {
     // The gradients of the barycentric coordinates are g / (6 V), and the weight of an edge (i, j)
@@ -95,8 +95,8 @@ private:
   static constexpr double smallest = 1e-300; // products below it have lost digits
 
   // Divides the weights by the divisor, or by what makes the largest of them 10^6 units. The more
-  // this differs, the more of the weight of a regular simplex is added: a triangle on a line could
-  // be sheared along it without any energy. Weights that are nothing but rounding do not count.
+  // these differ, the more of the weight of a regular simplex is added: otherwise a triangle on a
+  // line could be sheared along it without any energy. Weights below `rounding` are dropped.
   template <std::size_t N>
   static std::array<double, N> quotients(std::array<double, N> weights, double divisor, double unit,
                                          double rounding, double regular)
@@ -123,18 +123,18 @@ private:
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief cotangent weights, of which negative ones are replaced by 0.
+/// \brief cotangent weights, with negative weights replaced by 0.
 ///
-/// It is the weight of an edge in its edge set that is clamped: in a star the sum over the
-/// simplices at the edge. The energy is never negative, whatever the cells. With simplices as
-/// edge sets obtuse ones lose an edge, and the identity of `Cotangent_weight` with the area or
-/// volume is lost there too: prefer `Safe_cotangent_weight`.
+/// Clamps the weight of an edge in its edge set: in a star, the sum over the simplices at the edge.
+/// The energy is never negative, whatever the cells. With simplices as edge sets, obtuse simplices
+/// lose an edge, and the identity of `Cotangent_weight` with the area or volume no longer holds
+/// there: prefer `Safe_cotangent_weight`.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Clamped_cotangent_weight : public Cotangent_weight
 {
 public:
-  /// returns `sum` or 0, whichever is larger; a `sum` that is not a number is returned.
+  /// returns the larger of `sum` and 0; not a number if `sum` is not a number.
   double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const
   {
     return sum < 0 ? 0 : sum;
@@ -142,9 +142,10 @@ public:
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief clamped cotangents for stars, cotangents for simplices: the default.
+/// \brief clamped cotangents for stars, unmodified cotangents for simplices: the default.
 ///
-/// The closest to the cotangent weights for which no cell scheme has a negative energy.
+/// These weights change cotangents no more than is needed for the energy to be non-negative with
+/// every cell scheme.
 ///
 /// \cgalModels{ARAPEdgeWeight_3}
 class Safe_cotangent_weight : public Cotangent_weight
@@ -158,10 +159,9 @@ public:
 };
 
 /// \ingroup PkgARAPDeformationWeights
-/// \brief 1 for each edge of each edge set, whatever the shape; the diagonals of a polygon are
-/// edges too.
+/// \brief weight 1 for each edge of each edge set, diagonals of polygons included.
 ///
-/// Needs no geometry and never fails, but the result depends on how the shape is meshed (Figure 2
+/// Uses no geometry and never fails, but the result depends on the meshing of the shape (Figure 2
 /// of \cgalCite{Sorkine2007AsRigidAs}).
 ///
 /// \cgalModels{ARAPEdgeWeight_3}

@@ -26,12 +26,11 @@ namespace ARAP {
 using Coordinates = std::array<double, 3>;
 
 /// \ingroup PkgARAPDeformationTypes
-/// a 3 x 3 matrix, row by row: entry \f$(r, c)\f$ is element `3 * r + c`.
+/// a 3 x 3 matrix in row-major order: entry \f$(r, c)\f$ is element `3 * r + c`.
 using Matrix_3x3 = std::array<double, 9>;
 
 /// \ingroup PkgARAPDeformationTypes
-/// a symmetric sparse matrix, of which only the lower triangle is stored, column by column with
-/// ascending rows.
+/// a symmetric sparse matrix. Only the lower triangle is stored, by columns, with ascending rows.
 using Sparse_matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 } // namespace ARAP

@@ -42,7 +42,7 @@ class Closest_rotation_check
 
   using Matrix = Eigen::Matrix3d;
 
-  // a covariance, and what its singular value decomposition says about it
+  // a covariance, and its closest rotation by singular value decomposition
   struct Sample
   {
     std::string name;
@@ -50,7 +50,7 @@ class Closest_rotation_check
     Matrix closest;
     double largest_trace; // of R^T C
     double scale;         // the largest singular value
-    double gap;           // relative to it; the closest rotation is unique if positive
+    double gap;           // relative to scale; the closest rotation is unique if this is positive
 
     bool is_unique() const { return gap > 1e-4; }
   };
@@ -86,7 +86,7 @@ private:
       .toRotationMatrix();
   }
 
-  // by an independent way: Eigen's singular value decomposition
+  // computed independently, by Eigen's singular value decomposition
   void add(const std::string& name, const Matrix& covariance)
   {
 #if EIGEN_VERSION_AT_LEAST(3, 4, 90)
@@ -149,7 +149,7 @@ private:
     return result;
   }
 
-  // The rotations of the samples, `batch` at a time, from what is given as the previous rotations.
+  // fits the rotations of all samples, `batch` at a time, starting from `previous`
   std::vector<Matrix> fit_all(const ClosestRotation& f, std::size_t batch,
                               const std::vector<Matrix>& previous)
   {
@@ -159,7 +159,7 @@ private:
     return fit(f, batch, covariances, previous);
   }
 
-  // Behind each batch there are matrices that are not to be touched.
+  // Each batch stands between two matrices that must not be touched.
   std::vector<Matrix> fit(const ClosestRotation& f, std::size_t batch,
                           const std::vector<Matrix>& covariances,
                           const std::vector<Matrix>& previous)
@@ -177,14 +177,14 @@ private:
       }
       f(n, c.data() + 1, r.data() + 1);
       m_violations.check(r.front() == untouched && r.back() == untouched,
-                         "rotations outside [0, n) are written");
+                         "rotations outside [0, n) are overwritten");
       for(std::size_t k = 0; k < n; ++k)
         result.push_back(dense(r[k + 1]));
     }
     return result;
   }
 
-  // The trace is flat where it is largest: a rotation has half as many digits as its trace.
+  // The trace is flat at its maximum: a rotation has half as many correct digits as its trace.
   double rotation_tolerance(const Sample& sample) const
   {
     return 10 * std::sqrt(m_tolerance) / (std::min)(sample.gap, 1.0);
@@ -209,26 +209,26 @@ private:
       m_violations.check(error <= m_tolerance, "the result is not orthonormal for ", sample.name);
       m_violations.check(!(r.determinant() < 0), "the result is a reflection for ", sample.name);
 
-      // the products of huge matrices do not overflow when scaled
+      // scaled, since the products of huge matrices overflow
       const Matrix c = sample.scale > 0 ? Matrix(sample.covariance / sample.scale)
                                         : sample.covariance;
       const double largest = sample.scale > 0 ? sample.largest_trace / sample.scale : 0;
       const double trace = (r.transpose() * c).trace();
       m_violations.check(trace >= largest - m_tolerance, "the result is not the closest rotation, "
-                         "of which the trace of R^T C is the largest, for ", sample.name);
-      check_same(sample, r, sample.closest, "the result is another rotation than the closest one");
+                         "which has the largest trace of R^T C, for ", sample.name);
+      check_same(sample, r, sample.closest, "the result differs from the closest rotation");
       for(double angle : {1e-3, 0.1, 1.5, 3.1})
       {
         const Eigen::Vector3d axis = Eigen::Vector3d(random(), random(), random()).normalized();
         const Matrix turned = Eigen::AngleAxisd(angle, axis) * r;
         m_violations.check((turned.transpose() * c).trace() <= trace + m_tolerance,
-                           "a rotation near the result is closer, for ", sample.name);
+                           "a perturbed rotation is closer than the result, for ", sample.name);
       }
     }
     const std::vector<Matrix> again = fit(m_fit, fitted.size(), fitted, identities());
     for(std::size_t k = 0; k < fitted.size(); ++k)
       m_violations.check((again[k] - fitted[k]).norm() <= 10 * std::sqrt(m_tolerance),
-                         "a rotation is not the rotation closest to itself");
+                         "the closest rotation to a rotation is not the rotation itself");
   }
 
   void check_warm_starts(const std::vector<Matrix>& fitted)
@@ -250,7 +250,7 @@ private:
     }
   }
 
-  // of turned edges, and of turned rest shapes
+  // under rotations of the edges, and of the rest shape
   void check_equivariance(const std::vector<Matrix>& fitted)
   {
     const Matrix q = random_rotation();
@@ -278,7 +278,7 @@ private:
     Matrix_3x3 nothing = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     const Matrix_3x3 untouched = nothing, covariance = flat(Matrix::Identity());
     m_fit(0, &covariance, &nothing);
-    m_violations.check(nothing == untouched, "something is written for n = 0");
+    m_violations.check(nothing == untouched, "rotations are written for n = 0");
 
     const ClosestRotation copy(m_fit);
     for(std::size_t batch : {std::size_t(1), std::size_t(7), std::size_t(64)})
@@ -289,10 +289,10 @@ private:
                    "batch, or a copy fits other rotations");
     }
     m_violations.check(fit_all(m_fit, fitted.size(), identities()) == fitted,
-                       "the same arguments give another result when asked for again");
+                       "the result differs when asked for again with the same arguments");
   }
 
-  // anything is accepted, but the call returns, and has no influence on the next
+  // any result is accepted, but the call must return and must not affect other rotations
   void check_what_is_not_finite()
   {
     const double infinity = std::numeric_limits<double>::infinity();
@@ -304,7 +304,7 @@ private:
         fit(m_fit, 3, covariances, std::vector<Matrix>(3, Matrix::Identity()));
       for(int k : {0, 2})
         m_violations.check((fitted[k] - Matrix::Identity()).norm() <= 10 * std::sqrt(m_tolerance),
-                           "a covariance that is not finite spoils the rotations of others");
+                           "a covariance that is not finite changes the rotations of others");
     }
   }
 
@@ -318,18 +318,18 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a sentence for each identity that a model of `ARAPClosestRotation_3` violates,
-/// and nothing if it conforms.
+/// \brief returns a message for each identity that a model of `ARAPClosestRotation_3` violates;
+/// none if it conforms.
 ///
-/// The results must be rotations that are the closest ones: compared with Eigen's singular value
-/// decomposition and with rotations near them, for random and singular matrices, negative
-/// determinants, tiny and huge entries. Where they are unique they must not depend on the batch or
-/// the previous rotations, and turn with their arguments. Milliseconds.
+/// Tests that the results are the closest rotations, against Eigen's singular value decomposition
+/// and against perturbed rotations, for random and singular matrices, negative determinants, and
+/// tiny and huge entries. Unique results must not depend on the batch or the previous rotations,
+/// and must rotate with their arguments. Takes milliseconds.
 ///
-/// \param closest_rotation the model; copies are used too
+/// \param closest_rotation the model; also copied
 /// \param tolerance the largest error of \f$R^T R\f$, and of the trace of \f$R^T C\f$ relative to
-///        the largest singular value of \f$C\f$. What a rotation itself may deviate from another
-///        follows: about the square root of it.
+///        the largest singular value of \f$C\f$. Two rotations may thus differ by about its square
+///        root.
 template <typename ClosestRotation>
 std::vector<std::string> check_closest_rotation(const ClosestRotation& closest_rotation,
                                                 double tolerance = 1e-12)

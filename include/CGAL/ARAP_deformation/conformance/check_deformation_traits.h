@@ -26,12 +26,11 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a sentence for each identity that the objects of a model of
-/// `ARAPDeformationTraits_3` violate, and nothing if they conform.
+/// \brief returns a message for each identity that the objects of a model of
+/// `ARAPDeformationTraits_3` violate; none if they conform.
 ///
-/// The objects are those that a copy of `traits` hands out. They are checked with
-/// `check_sparse_solver()`, `check_edge_weight()` and `check_closest_rotation()` and their default
-/// tolerances.
+/// Applies `check_sparse_solver()`, `check_edge_weight()` and `check_closest_rotation()`, with
+/// their default tolerances, to the objects of a copy of `traits`.
 template <typename DeformationTraits>
 std::vector<std::string> check_deformation_traits(const DeformationTraits& traits)
 {

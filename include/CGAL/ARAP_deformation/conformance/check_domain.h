@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  // each sentence once, with the first vertex
+  // reports each message once, for the first vertex
   void require(bool holds, const std::string& sentence, vertex_descriptor v)
   {
     if(!holds && m_known.insert(sentence).second)
@@ -86,7 +86,7 @@ private:
     return times == 1;
   }
 
-  // a simplex is the same from each of its corners
+  // each simplex must be the same when visited from any of its corners
   void check_simplices(vertex_descriptor v)
   {
     bool is_isolated = true;
@@ -113,7 +113,7 @@ private:
             "is_isolated() and for_each_incident_simplex() disagree", v);
   }
 
-  // up to rounding: a mesh may have coordinates in float
+  // up to rounding: a mesh may have float coordinates
   static bool are_close(const Coordinates& a, const Coordinates& b)
   {
     const double error = std::numeric_limits<float>::epsilon() *
@@ -122,7 +122,7 @@ private:
            std::abs(a[2] - b[2]) <= error;
   }
 
-  // what is written is read, by copies too
+  // points that are written must be read back, also by copies
   void check_points(vertex_descriptor v, const Domain& copy)
   {
     const Point before = m_domain.point(v);
@@ -136,7 +136,7 @@ private:
             "a copy of the domain does not stand for the same mesh", v);
     m_domain.set_point(v, before);
     require(are_close(Domain::coordinates(m_domain.point(v)), c),
-            "set_point() does not put a point back", v);
+            "set_point() does not restore a point", v);
     require(are_close(Domain::coordinates(Domain::make_point(c)), c),
             "coordinates() and make_point() are not inverse to each other", v);
   }
@@ -150,15 +150,15 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief tests a model of `ARAPDomain_3` on a mesh: not only that it compiles, but that what its
-/// functions say of each vertex and simplex agrees.
+/// \brief tests a model of `ARAPDomain_3` on a mesh: its functions must agree at each vertex and
+/// simplex.
 ///
-/// Each point is moved and put back, so that the mesh is afterwards as it was, if the domain
-/// conforms and throws no exception. Takes time in proportion to the sum of the squares of the
-/// numbers of simplices at the vertices.
+/// Moves each point and restores it: the mesh is unchanged afterwards if the domain conforms and
+/// does not throw. Takes time proportional to the sum of the squared numbers of simplices at the
+/// vertices.
 ///
-/// \returns a sentence for each requirement that the domain does not fulfil, with the first vertex
-/// where this is seen; nothing if the domain conforms.
+/// \returns a message for each requirement that the domain violates, with the first vertex where it
+/// does; none if the domain conforms.
 template <typename Domain>
 std::vector<std::string> check_domain(const Domain& domain)
 {

@@ -60,7 +60,7 @@ public:
 private:
   double random() { return std::uniform_real_distribution<double>(-1, 1)(m_random); }
 
-  // a regular simplex of any size and at any place, its corners moved by a tenth of its edges
+  // a regular simplex of random size and position, its corners perturbed by a tenth of its edges
   template <std::size_t N>
   std::array<Coordinates, N> well_shaped_simplex()
   {
@@ -101,7 +101,7 @@ private:
       if(!std::isfinite(largest))
         continue;
       m_violations.check(m_weight.simplex_weights(simplex) == weights, "the weights of a ", name,
-                         " are others when asked for again");
+                         " differ when asked for again");
       m_violations.check(copy.simplex_weights(simplex) == weights,
                          "a copy gives other weights in a ", name);
 
@@ -127,7 +127,7 @@ private:
   void check_sums()
   {
     const EdgeWeight copy(m_weight);
-    std::vector<double> sums = m_weights; // on the border, and of two simplices
+    std::vector<double> sums = m_weights; // of one simplex, at a border edge, and of two
     for(std::size_t k = 1; k < m_weights.size(); ++k)
       sums.push_back(m_weights[k - 1] + m_weights[k]);
     sums.push_back(0);
@@ -141,9 +141,9 @@ private:
             if(!std::isfinite(w))
               continue;
             m_violations.check(m_weight.edge_weight(edge_set, i, j, sum) == w,
-                               "edge_weight() is another when asked for again");
+                               "edge_weight() differs when asked for again");
             m_violations.check(copy.edge_weight(edge_set, i, j, sum) == w,
-                               "edge_weight() of a copy is another");
+                               "edge_weight() of a copy differs");
           }
   }
 
@@ -157,16 +157,16 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a sentence for each identity that a model of `ARAPEdgeWeight_3` violates, and
-/// nothing if it conforms.
+/// \brief returns a message for each identity that a model of `ARAPEdgeWeight_3` violates; none if
+/// it conforms.
 ///
-/// In well-shaped triangles, and in tetrahedra if the model has weights for them, the weights must
-/// be finite, not depend on the order of the vertices, and be the same when asked for again and
-/// from a copy. Sums of them must have finite edge weights. Milliseconds.
+/// In well-shaped triangles, and in tetrahedra if the model supports them, the weights must be
+/// finite, independent of the order of the vertices, and the same in a second call and for a copy.
+/// `edge_weight()` must be finite for their sums. Takes milliseconds.
 ///
 /// \param weight the model
-/// \param edges the edges that `edge_weight()` is called with, given by the indices of their
-///        vertices: if the model looks weights up, edges that it knows
+/// \param edges the edges to call `edge_weight()` with, given by the indices of their vertices; if
+///        the model looks up weights, edges that it knows
 template <typename EdgeWeight>
 std::vector<std::string>
 check_edge_weight(const EdgeWeight& weight,

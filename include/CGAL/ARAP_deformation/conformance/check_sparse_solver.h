@@ -50,7 +50,7 @@ public:
       check_family("a matrix with one row", [this] { return path(1); });
       check_family("a path", [this] { return path(10); });
       check_family("a grid", [this] { return grid(9, 7, 0.1); });
-      check_family("a grid of which some edges have the weight zero",
+      check_family("a grid with some edges of weight zero",
                    [this] { return grid(12, 11, 0.1, 0.3); });
       check_family("an ill-conditioned grid", [this] { return grid(14, 14, 1e-5); });
       check_copies_and_moves();
@@ -69,8 +69,8 @@ private:
     return std::uniform_real_distribution<double>(low, high)(m_random);
   }
 
-  // the Laplacian of a graph with random weights, of which a fraction is zero, plus `shift` times
-  // the identity; the pattern does not depend on the weights
+  // The Laplacian of a graph with random weights, a fraction of them zero, plus a random diagonal
+  // from `shift` to `2 * shift`. The pattern does not depend on the weights.
   Sparse_matrix laplacian(int n, const std::vector<std::pair<int, int>>& edges, double shift,
                           double fraction_of_zeros)
   {
@@ -159,7 +159,7 @@ private:
     return result;
   }
 
-  // Solves in an array that is longer than the matrix.
+  // Solves in an array with a margin on both sides, which must not be touched.
   void check_solution(SparseSolver& solver, const Sparse_matrix& a, const Rows& b,
                       const std::string& name)
   {
@@ -175,10 +175,10 @@ private:
     const auto errors = residuals(a, Rows(array.begin() + margin, array.begin() + margin + n), b);
     for(int c = 0; c < 3; ++c)
       m_violations.check(errors[c] <= m_tolerance, "solve() leaves in column ", c, " a relative "
-                         "residual of ", errors[c], ", more than ", m_tolerance, ", for ", name);
+                         "residual of ", errors[c], ", above ", m_tolerance, ", for ", name);
   }
 
-  // the product with all entries, one column after the other, and several times
+  // with full right-hand sides, twice, then with one nonzero column at a time, then with zeros
   void check_solutions(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
   {
     check_solution(solver, a, random_rows(a), name);
@@ -189,7 +189,7 @@ private:
       for(Coordinates& row : b)
         for(int c = 0; c < 3; ++c)
           row[c] = c == column ? row[c] : 0;
-      check_solution(solver, a, b, name + " and a right-hand side of which only column " +
+      check_solution(solver, a, b, name + " and a right-hand side in which only column " +
                      std::to_string(column) + " is not zero");
     }
     check_solution(solver, a, Rows(static_cast<std::size_t>(a.rows()), Coordinates{0, 0, 0}),
@@ -198,7 +198,7 @@ private:
 
   bool prepare(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
   {
-    // copies, which do not outlive the calls
+    // copies, since a solver must not refer to the matrix after the call
     const bool is_analyzed = solver.analyze(Sparse_matrix(a));
     m_violations.check(is_analyzed, "analyze() returns false for ", name);
     return is_analyzed && factorize(solver, a, name);
@@ -251,14 +251,14 @@ private:
                    "a grid after the solver was assigned by a move with its factor");
   }
 
-  // A border with multipliers and with further unknowns, taken away and given again.
+  // A border with multipliers and with further unknowns, removed and set again.
   void check_borders()
   {
     const Sparse_matrix a = grid(9, 8, 0.3);
     const int n = static_cast<int>(a.rows()), size = 7, number_of_multipliers = 3;
     const Sparse_matrix none(n, 0);
     SparseSolver solver(m_prototype);
-    if(!prepare(solver, a, "a grid that gets a border"))
+    if(!prepare(solver, a, "a grid that will get a border"))
       return;
     const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
       const bool is_set = solver.set_border(b, d);
@@ -296,11 +296,11 @@ private:
       if(set_border(b, d) && set_border(none, Eigen::MatrixXd()))
         check_solution(solver, a, random_rows(a), "a matrix without the border that it had");
       if(set_border(b, d) && factorize(solver, a, "a grid that had a border"))
-        check_solution(solver, a, random_rows(a), "a matrix that is factorized with a border");
+        check_solution(solver, a, random_rows(a), "a matrix that was factorized with a border set");
     }
   }
 
-  // the lower triangle
+  // the bordered matrix, its lower triangle
   static Sparse_matrix bordered(const Sparse_matrix& a, const Sparse_matrix& b,
                                 const Eigen::MatrixXd& d)
   {
@@ -321,7 +321,7 @@ private:
     return result;
   }
 
-  // What is not positive definite is refused, or else the solution is right.
+  // A matrix that is not positive definite must be refused, or solved correctly.
   void check_refusals()
   {
     const auto matrix = [](int n, double diagonal, double off_diagonal) {
@@ -344,7 +344,7 @@ private:
       if(solver.factorize(a) && solver.solve(x.size(), x.data()))
         for(double error : residuals(a, x, b))
           m_violations.check(error <= m_tolerance, "nothing is refused, but the solution is wrong "
-                             "for ", name, ": the relative residual is ", error);
+                             "for ", name, ": its relative residual is ", error);
       const Sparse_matrix good = matrix(static_cast<int>(a.rows()), 3, 1);
       const std::string after = "a positive definite matrix after " + name;
       if(factorize(solver, good, after))
@@ -366,18 +366,17 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a sentence for each identity that a model of `ARAPSparseSolver` violates, and
-/// nothing if it conforms.
+/// \brief returns a message for each identity that a model of `ARAPSparseSolver` violates; none if
+/// it conforms.
 ///
-/// Small positive definite matrices are factorized, explicit zeros and others of the same pattern
-/// among them, and the residuals of all three columns computed. Copies must be independent, moves
-/// keep the factor, and what is not positive definite must be refused or solved right. Borders are
-/// set, refused and removed where the model has them.
-/// Milliseconds.
+/// Factorizes small positive definite matrices, some with explicit zeros and some with the same
+/// pattern, and computes the residuals of all three columns. Copies must be independent, moves must
+/// keep the factor, and matrices that are not positive definite must be refused or solved
+/// correctly. Borders are set, refused and removed if the model supports them. Takes milliseconds.
 ///
 /// \param solver the model; its copies are used
-/// \param tolerance the largest residual relative to the right-hand side, both measured by their
-///        largest entries in a column. The matrices have condition numbers up to \f$10^6\f$.
+/// \param tolerance the largest residual relative to the right-hand side, both in the maximum norm
+///        of a column. The matrices have condition numbers up to \f$10^6\f$.
 template <typename SparseSolver>
 std::vector<std::string> check_sparse_solver(const SparseSolver& solver, double tolerance = 1e-9)
 {

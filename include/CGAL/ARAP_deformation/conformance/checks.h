@@ -47,8 +47,8 @@ inline bool is_rotation(const Matrix_3x3& r, double tolerance = 1e-12)
 }
 
 /// \ingroup PkgARAPDeformationChecks
-/// returns the number of the first iteration after which the energy is higher than before it, or 0
-/// if it never rises. Differences below the rounding error of the energy do not count.
+/// returns the number of the first iteration that makes the energy rise, or 0 if none does.
+/// Differences below the rounding error of the energy do not count.
 inline std::size_t first_rise_of_energy(const Report& report)
 {
   for(std::size_t k = 1; k < report.energy.size(); ++k)
@@ -62,7 +62,7 @@ inline std::size_t first_rise_of_energy(const Report& report)
 
 namespace internal {
 
-// sums over edges, of which two points each are given in the rest shape and in the deformed one
+// sums over edges, each given by its end points in the rest shape and in the deformed shape
 class Edge_length_error
 {
 public:
@@ -98,8 +98,10 @@ private:
 /// \cgalCite{Sorkine2007AsRigidAs}).
 ///
 /// \param mesh a model of `EdgeListGraph`
-/// \param rest_points a readable property map to the points of the rest shape, lengths \f$l\f$
-/// \param points a readable property map to the points of the deformed shape, lengths \f$l'\f$
+/// \param rest_points a readable property map to the points of the rest shape, with lengths
+///        \f$l\f$
+/// \param points a readable property map to the points of the deformed shape, with lengths
+///        \f$l'\f$
 template <typename Mesh, typename RestPointMap, typename VertexPointMap>
 double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, VertexPointMap points)
 {
@@ -113,8 +115,8 @@ double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, Ve
 }
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns the relative root mean square error of the edge lengths as above, over the edges
-/// of all simplices of a domain, each once. The edges of a polygon are its sides.
+/// \brief returns the relative root mean square error of the edge lengths, as above, over all edges
+/// of the simplices of a domain. The edges of a polygon are its sides.
 ///
 /// \param domain a model of `ARAPDomain_3` from which the points of the deformed shape are read
 /// \param rest_points a range with `operator[]`: the point of `v` in the rest shape is

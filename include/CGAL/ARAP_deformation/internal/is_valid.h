@@ -28,7 +28,7 @@ template <template <typename...> class Expression, typename... Arguments>
 struct Is_valid<std::void_t<Expression<Arguments...>>, Expression, Arguments...>
   : std::true_type {};
 
-// whether the alias template Expression has a meaning for the arguments
+// whether the alias template Expression is well-formed for the arguments
 template <template <typename...> class Expression, typename... Arguments>
 constexpr bool is_valid = Is_valid<void, Expression, Arguments...>::value;
 

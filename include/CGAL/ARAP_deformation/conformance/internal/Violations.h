@@ -24,11 +24,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Sentences about the identities that a model violates, each once.
+// collects messages about the identities that a model violates, each once
 class Violations
 {
 public:
-  // adds the sentence that is made of the parts if the identity does not hold
+  // adds the message composed of the parts if the identity does not hold
   template <typename... Parts>
   void check(bool holds, const Parts&... parts)
   {

@@ -69,16 +69,16 @@ using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangu
 template <typename T>
 using Begin_of = decltype(std::begin(std::declval<T&>()));
 
-// only a linear cell complex over a combinatorial map has this member
+// only a linear cell complex over a combinatorial map has the member beta()
 template <typename T, typename = void>
 struct Is_generalized_map : std::true_type {};
 template <typename T>
 struct Is_generalized_map<T, std::void_t<
   decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1))>> : std::false_type {};
 
-// Whether a mesh is a linear cell complex that is no FaceGraph: it is of dimension 3, or its map is
-// a generalized one, or its faces have no attributes. CGAL has graph_traits for the first and the
-// last that do not work.
+// Whether a mesh is a linear cell complex that is not a FaceGraph: its dimension is 3, its map is
+// generalized, or its faces have no attributes. (CGAL defines graph_traits for the first and the
+// last case, but they do not work.)
 template <typename Mesh>
 constexpr bool is_complex_without_graph()
 {
@@ -94,14 +94,14 @@ struct Is_complete : std::false_type {};
 template <typename T>
 struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
 
-// The domain of a mesh that ARAP_deformation and arap_deform() take if none is given. Those of
-// volumes have headers of their own, so that programs that deform surfaces do not pay for them.
+// The default domain of a mesh in ARAP_deformation and arap_deform(). Domains of volumes have
+// separate headers, so that programs that deform only surfaces do not compile them.
 template <typename Mesh, typename = void>
 struct Default_domain
 {
-  // boost::graph_traits cannot be asked whether a mesh is a FaceGraph: it then does not compile
+  // boost::graph_traits cannot tell whether a mesh is a FaceGraph: it does not compile if not
   static_assert(!is_valid<Begin_of, Mesh>,
-                "a range is no mesh: ranges of points and simplices are deformed through their "
+                "a range is not a mesh: to deform ranges of points and simplices, construct their "
                 "domain, CGAL::ARAP::Simplex_soup_domain");
   using type = Face_graph_domain<Mesh>;
 };

@@ -22,12 +22,12 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// For each of the vertices 0, 1, ... the simplices that have it as a corner, for complexes that
-// cannot tell. Linear time and memory.
+// The incident simplices of each vertex 0, 1, ..., for complexes that do not store them. Linear
+// time and memory.
 class Incidence_table
 {
 public:
-  // Each simplex is a range of integers. Corners that are no vertices are left out.
+  // Each simplex is a range of integers. Corners that are not vertices are ignored.
   template <typename SimplexRange>
   Incidence_table(std::size_t number_of_vertices, const SimplexRange& simplices)
     : m_begin(number_of_vertices + 1, 0)
@@ -47,7 +47,7 @@ public:
   void for_each_simplex_at(std::size_t v, const Function& f) const
   {
     for(std::size_t k = m_begin[v]; k < m_begin[v + 1]; ++k)
-      if(k == m_begin[v] || m_simplices[k] != m_simplices[k - 1]) // else v is a corner twice
+      if(k == m_begin[v] || m_simplices[k] != m_simplices[k - 1]) // else v is a repeated corner
         f(m_simplices[k]);
   }
 

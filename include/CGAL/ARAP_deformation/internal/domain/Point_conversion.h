@@ -25,13 +25,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// a point from its coordinates, which are not rounded if the point takes them as they are
+// constructs a point from its coordinates, without rounding if the point accepts their type
 template <typename Point, typename FT>
 Point construct_point(const FT& x, const FT& y, const FT& z)
 {
   if constexpr(std::is_constructible_v<Point, FT, FT, FT>)
     return Point(x, y, z);
-  else // std::array, which takes no other type than its own
+  else // std::array, which accepts only its own type
   {
     using Coordinate = std::decay_t<decltype(std::declval<const Point&>()[0])>;
     return Point{static_cast<Coordinate>(x), static_cast<Coordinate>(y),
@@ -39,8 +39,8 @@ Point construct_point(const FT& x, const FT& y, const FT& z)
   }
 }
 
-// What ARAPDomain_3 asks about points, for each type that has operator[] and is made of three
-// coordinates. A base of the domains.
+// A base of the domains: the point functions of ARAPDomain_3, for any type with operator[] and a
+// constructor from three coordinates.
 template <typename Point>
 struct Point_conversion
 {

@@ -46,9 +46,9 @@ namespace internal {
 using Barycentric_coordinates = std::array<double, 4>;
 using Tetrahedron_corners = std::array<Coordinates, 4>;
 
-// The barycentric coordinates of a point, or nothing if the tetrahedron has no volume up to
-// rounding. They add up to 1. The solution is backward stable: they reproduce the point also
-// where the tetrahedron is thin.
+// The barycentric coordinates of a point, or none if the tetrahedron has no volume up to rounding.
+// Their sum is 1. The solution is backward stable: the coordinates reproduce the point even if the
+// tetrahedron is thin.
 inline std::optional<Barycentric_coordinates>
 barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& point)
 {
@@ -70,23 +70,23 @@ barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& p
 
 // Finds the tetrahedron that contains a point, or else the nearest one.
 //
-// Both have the face that is nearest to the point: the segment to the nearest point of all faces
-// crosses no other face, and so does not leave the tetrahedron, or the outside, where it begins.
-// Several faces can be equally near, those at an edge or a vertex for example. Of the tetrahedra of
-// all faces that are nearest up to rounding, the one with the largest smallest barycentric
-// coordinate is taken: it contains the point if one of them does, and else extrapolates least. If
-// there are several even then, the first one is taken.
+// Either one has the face nearest to the point: the segment to the nearest point of all faces
+// crosses no other face, and so stays in the tetrahedron, or outside, where it starts. Several
+// faces can be equally near, for example at an edge or a vertex. Of the tetrahedra of all faces
+// that are nearest up to rounding, the one with the largest minimum barycentric coordinate is
+// chosen: it contains the point if any of them does, and otherwise extrapolates least. Ties go to
+// the first one.
 class Tetrahedron_search
 {
 public:
   struct Location
   {
-    std::size_t tetrahedron;             // its number in the order of the constructor
+    std::size_t tetrahedron;             // its index in the argument of the constructor
     Barycentric_coordinates coordinates;
-    double distance; // from the tetrahedron, 0 if it contains the point up to rounding
+    double distance; // from the tetrahedron; 0 if it contains the point up to rounding
   };
 
-  // Tetrahedra without volume are left out.
+  // Tetrahedra without volume are ignored.
   explicit Tetrahedron_search(std::vector<Tetrahedron_corners> tetrahedra)
     : m_tetrahedra(std::move(tetrahedra))
   {
@@ -118,7 +118,7 @@ public:
 
   bool is_empty() const { return m_tree.empty(); }
 
-  // returns nothing if the point is so far away that the numbers overflow
+  // returns none if the point is so far away that the computation overflows
   std::optional<Location> locate(const Coordinates& point) const
   {
     const Coordinates c = scaled(point);
@@ -131,7 +131,7 @@ public:
     constexpr double tolerance = 1e-12;
     std::vector<const Face*> faces = {nearest_face};
     Location best = best_at(faces, point);
-    if(smallest_coordinate(best) <= tolerance) // else no other one contains the point
+    if(smallest_coordinate(best) <= tolerance) // else no other tetrahedron contains the point
     {
       const double upper_bound = distance + tolerance * (1 + distance);
       m_tree.all_intersected_primitives(Kernel::Sphere_3(query, upper_bound * upper_bound),
@@ -186,8 +186,8 @@ private:
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 #endif
 
-  // The tree sees the complex at the origin and with the box 1, so that squares neither overflow
-  // nor vanish.
+  // The tree stores the complex centred at the origin and scaled to longest side 1, so that squares
+  // neither overflow nor underflow.
   void fit_to(const std::vector<Tetrahedron_corners>& tetrahedra)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -218,7 +218,7 @@ private:
     return *std::min_element(location.coordinates.begin(), location.coordinates.end());
   }
 
-  // the best tetrahedron at one of these faces, but for the distance
+  // the best tetrahedron at any of these faces; does not set the distance
   Location best_at(const std::vector<const Face*>& faces, const Coordinates& point) const
   {
     std::vector<std::size_t> candidates;
@@ -240,7 +240,7 @@ private:
   }
 
   std::vector<Tetrahedron_corners> m_tetrahedra;
-  std::vector<Face> m_faces; // those with the same corners follow each other
+  std::vector<Face> m_faces; // faces with the same corners are consecutive
   Coordinates m_centre = {0, 0, 0};
   double m_extent = 0;
   Tree m_tree;

@@ -89,15 +89,15 @@ using Call_for_each_incident_simplex =
   decltype(std::declval<const Domain&>().for_each_incident_simplex(
     std::declval<Vertex_of<Domain>>(), std::declval<const Function_of_simplex<Domain>&>()));
 
-// 0 if there is no constant
+// 0 if Domain has no such constant
 template <typename Domain, typename = void>
 constexpr int dimension_of = 0;
 template <typename Domain>
 constexpr int dimension_of<Domain, std::void_t<Constant_dimension<Domain>>> =
   Constant_dimension<Domain>::value;
 
-// What a domain needs, and what the weights need for its dimension. (Members that return `auto` are
-// instantiated to know what they return.)
+// The requirements of a domain, and those of the weights for its dimension. (Members that return
+// `auto` are instantiated to deduce their types.)
 template <typename Domain, typename Weight>
 struct Domain_requirements
 {

@@ -23,7 +23,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Vertices and cells have what their base classes give them.
+// The base classes of vertices and cells determine which of these members exist.
 
 template <typename Cell>
 using Call_subdomain_index = decltype(std::declval<const Cell&>().subdomain_index());
@@ -56,7 +56,7 @@ Point with_weight_of(const Point& point, const Bare_point& place)
     return Point(place, point.weight());
 }
 
-// whether the subdomain index of a cell, if it has one, does not stand for the outside
+// whether the subdomain index of a cell, if it has one, does not denote the outside
 template <typename Cell>
 bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)
 {
@@ -66,7 +66,7 @@ bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)
     return true;
 }
 
-// marks what a cell has computed from the points of its vertices as out of date
+// invalidates the data that a cell has cached from the points of its vertices
 template <typename Cell>
 void invalidate_caches([[maybe_unused]] Cell& cell)
 {

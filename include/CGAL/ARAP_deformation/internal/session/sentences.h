@@ -39,18 +39,19 @@ inline std::string simplex_name(const Region& region, int simplex)
   return name;
 }
 
-// what a message ends with if there are parts that nothing holds
+// the end of a message if there are unconstrained components, given by their smallest vertices
 inline std::string about_unconstrained_components(const std::vector<std::size_t>& parts)
 {
   if(parts.empty())
     return std::string();
-  return "; what nothing holds stays where it is: " +
-         (parts.size() == 1 ? std::string("the part")
-                            : std::to_string(parts.size()) + " parts, the first one") +
+  return "; left in place: " +
+         (parts.size() == 1
+            ? std::string("the unconstrained component")
+            : std::to_string(parts.size()) + " unconstrained components, the first that") +
          " of " + vertex_name(parts.front());
 }
 
-// The sentence for a status that is about a vertex, a simplex, or the whole (an empty `what`).
+// The outcome for a status; `what` names the vertex or the simplex concerned, or is empty.
 inline Outcome outcome(Status status, const std::string& what = std::string())
 {
   const auto about = [status, &what](const std::string& rest) {
@@ -60,41 +61,40 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   {
   case Status::not_run: return Outcome();
   case Status::success: return about("everything is ready to deform");
-  case Status::converged: return about("the energy is as close to its minimum as was asked for");
-  case Status::iteration_limit: return about("all iterations that were asked for were run");
-  case Status::stopped: return about("the visitor stopped the run and kept the last iterate");
-  case Status::cancelled: return about("the visitor cancelled the run and nothing was changed");
-  case Status::invalid_option: return about("an option is out of its range");
+  case Status::converged:
+    return about("the estimated gap of the energy to its minimum is within the tolerance");
+  case Status::iteration_limit: return about("the maximum number of iterations was run");
+  case Status::stopped: return about("the visitor stopped the run; the last iterate was kept");
+  case Status::cancelled: return about("the visitor cancelled the run; nothing was changed");
+  case Status::invalid_option: return about("an option is out of range");
   case Status::in_a_run:
-    return about("a visitor must not change the object whose run it is visiting");
+    return about("a visitor must not change the object that it is visiting");
   case Status::not_a_control_vertex:
     return about(" is not a control vertex and has no target; insert it as a control vertex first");
   case Status::invalid_weight:
-    return about(" was given a weight for its target that is negative or not a number");
+    return about(" was given a target weight that is negative or not a number");
   case Status::not_a_simplex:
-    return about(" is at a face or cell that is neither a polygon nor a tetrahedron with different "
-                 "corners that exist");
+    return about(" is incident to a face that is not a polygon, or to a cell that is not a "
+                 "tetrahedron: the number of corners is wrong, or a corner is repeated or missing");
   case Status::no_tetrahedron:
     return about("there is no tetrahedron with a volume to embed points in");
   case Status::no_simplex:
-    return about("no vertex of the region of interest has a simplex in the domain: nothing ties "
-                 "them together");
+    return about("no vertex of the region of interest has an incident simplex in the domain");
   case Status::non_finite_point:
     return about(" has a coordinate that is infinite or not a number");
   case Status::non_finite_weight:
     return about(" has edges whose weights are not finite");
   case Status::no_fixed_vertex:
-    return about(" is free, but no chain of edges with a non-zero weight ties it to a vertex that "
-                 "is fixed or pulled to a target; hold a vertex of its component");
+    return about(" is free, but no path of edges with non-zero weights connects it to a vertex "
+                 "that is fixed or has a target; fix a vertex of its component");
   case Status::singular_matrix:
     return what.empty()
       ? about("the matrix of the system is not positive definite and cannot be factorized")
-      : about(" makes the system singular: the weights of its edges do not add up to a positive "
-              "finite number");
+      : about(" makes the system singular: the sum of the weights of its edges is not positive and "
+              "finite");
   case Status::solver_failed: return about("the solver failed to solve the factorized system");
   case Status::non_finite_energy:
-    return about("the energy overflowed: the targets are too far away for the arithmetic, or their "
-                 "weights too large");
+    return about("the energy overflowed: the targets are too far away, or their weights too large");
   }
   return Outcome(status, to_string(status));
 }

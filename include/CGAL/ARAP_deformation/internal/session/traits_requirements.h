@@ -43,7 +43,7 @@ template <typename Traits>
 using Call_closest_rotation_object = Requires_convertible<
   decltype(std::declval<const Traits&>().closest_rotation_object()), Closest_rotation_of<Traits>>;
 
-// The requirements of a nested type; none if there is no such type, of which a sentence tells.
+// The requirements of a nested type; none if the type is missing, which is reported by itself.
 template <template <typename> class Requirements, template <typename...> class Type,
           typename Traits, bool = is_valid<Type, Traits>>
 struct Requirements_of : Requirements<Type<Traits>> {};

@@ -26,10 +26,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What a model of a concept lacks is said where it enters and not where it is first used:
+// Reports what a model of a concept lacks where it is passed, and not where it is first used:
 //   static_assert(Sparse_solver_requirements<Solver>::are_met);
-// The assertion never fails itself. Naming the member instantiates the class, whose own assertions
-// have the sentences.
+// This assertion never fails itself: naming the member instantiates the class, whose own assertions
+// have the messages.
 
 template <typename Solver>
 using Call_analyze = Requires_convertible<
@@ -43,7 +43,7 @@ template <typename Solver>
 using Call_solve = Requires_convertible<
   decltype(std::declval<Solver&>().solve(std::size_t(), std::declval<Coordinates*>())), bool>;
 
-// not required: a border saves a factorization when handles change
+// optional: a border saves a factorization when control vertices change
 template <typename Solver>
 using Call_set_border = Requires_convertible<
   decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
