@@ -74,7 +74,7 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
       copy.begin(), boost::typed_identity_property_map<std::size_t>()));
     double error = 0;
     for(std::size_t v = 0; v < copy.size(); ++v)
-      error = (std::max)(error, (vector(copy[v]) - iterates[iterate.iteration()][v]).norm());
+      error = larger(error, (vector(copy[v]) - iterates[iterate.iteration()][v]).norm());
     CHECK_AT_MOST(error, 1e-10 * diameter);
     return CGAL::ARAP::Visitor_action::proceed;
   });

@@ -86,8 +86,8 @@ void test_degenerate_simplices()
         laplacian(a, a) += w;
         laplacian(b, b) += w;
         laplacian(a, b) = laplacian(b, a) = -w;
-        longest = (std::max)(longest, (vector(simplex[a]) - vector(simplex[b])).norm());
-        largest = (std::max)(largest, std::abs(w));
+        longest = larger(longest, (vector(simplex[a]) - vector(simplex[b])).norm());
+        largest = larger(largest, std::abs(w));
       }
     const double unit = N == 3 ? 1 : longest;
     CHECK_AT_MOST(largest, (1e6 + 0.3) * unit);

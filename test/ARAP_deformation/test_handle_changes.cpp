@@ -110,7 +110,7 @@ struct Pair
       CHECK_AT_MOST(std::abs(a.energy[k] - b.energy[k]), 1e-10 * (b.energy[k] + b.energy_scale));
     double largest = 0;
     for(std::size_t v = 0; v < points.size(); ++v)
-      largest = (std::max)(largest, std::sqrt(squared_distance(points[v], other_points[v])));
+      largest = larger(largest, std::sqrt(squared_distance(points[v], other_points[v])));
     CHECK_AT_MOST(largest, 1e-9);
     return a.status;
   }

@@ -31,7 +31,7 @@ double largest_distance(const Mesh& mesh, const std::vector<Eigen::Vector3d>& x)
 {
   double distance = 0;
   for(auto v : mesh.vertices())
-    distance = (std::max)(distance, (vector(mesh.point(v)) - x[v]).norm());
+    distance = larger(distance, (vector(mesh.point(v)) - x[v]).norm());
   return distance;
 }
 

@@ -34,7 +34,7 @@ double largest_distance(const Mesh& a, const Mesh& b, const Eigen::Isometry3d& m
 {
   double distance = 0;
   for(auto v : a.vertices())
-    distance = (std::max)(distance, (m * vector(a.point(v)) - vector(b.point(v))).norm());
+    distance = larger(distance, (m * vector(a.point(v)) - vector(b.point(v))).norm());
   return distance;
 }
 
@@ -131,7 +131,7 @@ void check_rigid_guess(const Shape& shape, Cell_scheme cells, Minimizer minimize
     double distance = 0;
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j < 3; ++j)
-        distance = (std::max)(distance, std::abs(r[3 * i + j] - motion.linear()(i, j)));
+        distance = larger(distance, std::abs(r[3 * i + j] - motion.linear()(i, j)));
     number_of_turned_cells += distance < 1e-7;
   };
   if(cells.has_vertex_cells())

@@ -141,7 +141,7 @@ struct Samples
 
 double orthonormality_error(const Matrix& r)
 {
-  return (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff();
+  return (r.transpose() * r - Matrix::Identity()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 template <typename Rotation>
@@ -156,10 +156,10 @@ void check_closest(const Rotation& rotation, const Samples& samples, const Matri
   {
     const Matrix r = dense(fitted[k]), c = dense(samples.covariances[k]);
     const double trace = (r.transpose() * c).trace();
-    largest_error = (std::max)(largest_error, orthonormality_error(r));
-    largest_loss = (std::max)(largest_loss, ((dense(expected[k]).transpose() * c).trace() - trace)
+    largest_error = larger(largest_error, orthonormality_error(r));
+    largest_loss = larger(largest_loss, ((dense(expected[k]).transpose() * c).trace() - trace)
                                               / c.cwiseAbs().maxCoeff());
-    largest_distance = (std::max)(largest_distance,
+    largest_distance = larger(largest_distance,
                                   (r - samples.closest[k]).norm() * samples.gaps[k]);
     number_of_rotations += r.determinant() > 0;
   }

@@ -270,7 +270,7 @@ public:
   void compare()
   {
     for(std::size_t k = 0; k < m_size; ++k)
-      m_largest_difference = (std::max)(m_largest_difference,
+      m_largest_difference = larger(m_largest_difference,
                                         (m_ours.point(k) - m_cgal.point(k)).norm() / m_diameter);
     ++m_number_of_comparisons;
     CHECK_AT_MOST(m_largest_difference, bound);
@@ -409,7 +409,7 @@ void run_sequences(const std::string& name, unsigned int first_seed, int number_
       start(pair, shape);
       for(int k = 0; k < 60; ++k)
         step(pair);
-      largest.difference = (std::max)(largest.difference, pair.largest_difference());
+      largest.difference = larger(largest.difference, pair.largest_difference());
       largest.comparisons += pair.number_of_comparisons();
     }
   std::cout << name << ": " << largest.comparisons << " comparisons, largest difference "

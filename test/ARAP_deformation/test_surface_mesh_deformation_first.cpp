@@ -53,7 +53,7 @@ double largest_distance(const std::vector<Eigen::Vector3d>& a,
 {
   double largest = 0;
   for(std::size_t k = 0; k < a.size(); ++k)
-    largest = (std::max)(largest, (a[k] - b[k]).norm());
+    largest = larger(largest, (a[k] - b[k]).norm());
   return largest;
 }
 

@@ -68,7 +68,7 @@ public:
           m_default.push_back(deformed(traits, cells, target_weight));
         const std::vector<Eigen::Vector3d> points = deformed(traits, cells, target_weight);
         for(std::size_t v = 0; v < points.size(); ++v)
-          largest = (std::max)(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
+          largest = larger(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
       }
     m_run = 0;
     std::printf("%-60s %.1e\n", name, largest);

@@ -141,6 +141,13 @@ void test_stop()
 
 void test_checks()
 {
+  // what is not a number is never lost
+  const double nan = std::nan("");
+  CHECK(larger(1, 2) == 2 && larger(2, 1) == 2);
+  CHECK(std::isnan(larger(1, nan)) && std::isnan(larger(nan, 1)));
+  CHECK(std::isnan(largest_distance({Point(0, nan, 0), Point(3, 0, 0)},
+                                    {Point(0, 0, 0), Point(1, 0, 0)})));
+
   Report report;
   report.energy_scale = 1;
   report.energy = {3, 2, 1, 1};

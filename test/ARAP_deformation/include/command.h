@@ -109,16 +109,16 @@ inline void check_refused(const std::string& arguments, int exit_code, const std
   CHECK(content(folder / "precious.off") == "precious");
 }
 
-// Calls test() in a new folder with the command whose path is the argument of the program; without
-// it nothing is tested. Returns what main() returns.
+// Calls test() in a new folder with the command whose path is the argument of the program. Returns
+// what main() returns; where there is no command the test has failed.
 template <typename Test>
 int test_command(int argc, char** argv, const Test& test)
 {
-  if(argc < 2)
+  if(argc < 2 || !fs::is_regular_file(argv[1]))
   {
-    std::cout << "NOTICE: no path of the command arap_deform is given; nothing was tested."
+    std::cerr << "usage: " << argv[0] << " PATH_OF_ARAP_DEFORM [...]; nothing was tested"
               << std::endl;
-    return EXIT_SUCCESS;
+    return EXIT_FAILURE;
   }
   command = fs::absolute(argv[1]).string();
   const std::string unique = std::to_string(std::random_device()());

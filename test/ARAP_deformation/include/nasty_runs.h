@@ -102,7 +102,7 @@ inline double largest_rise(const Report& report)
 {
   double largest = 0;
   for(std::size_t k = 1; k < report.energy.size(); ++k)
-    largest = (std::max)(largest, report.energy[k] / report.energy[k - 1] - 1);
+    largest = larger(largest, report.energy[k] / report.energy[k - 1] - 1);
   return largest;
 }
 
