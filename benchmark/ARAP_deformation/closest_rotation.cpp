@@ -105,7 +105,7 @@ void add_row(const std::string& name, const Rotation& rotation, const std::strin
   {
     const Matrix expected = Star_energy::closest_rotation(
       Eigen::Map<const Matrix>(batch.covariances[k].data()));
-    largest = (std::max)(largest,
+    largest = larger(largest,
                          (Eigen::Map<const Matrix>(rotations[k].data()) - expected).norm());
   }
   verify_at_most(largest, 1e-6, "the largest difference between the rotations of " + name +

@@ -43,7 +43,7 @@ void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
   libigl.run(1);
   double largest = 0;
   for(vertex_descriptor v : vertices(ours.mesh()))
-    largest = (std::max)(largest, (to_vector(ours.mesh().point(v)) -
+    largest = larger(largest, (to_vector(ours.mesh().point(v)) -
                                    libigl.points().row(v.idx()).transpose()).norm());
   verify_at_most(largest / scenario.diagonal, 1e-3,
                  "the largest difference between our first iterate and libigl's, relative to the "

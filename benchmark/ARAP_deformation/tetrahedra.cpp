@@ -165,7 +165,7 @@ double verify_libigl(const Bar& bar, Libigl_deformation& libigl)
   for(std::size_t v = 0; v < bar.points.size(); ++v)
   {
     box.extend(to_vector(bar.points[v]));
-    largest = (std::max)(largest, (to_vector(ours.points()[v]) -
+    largest = larger(largest, (to_vector(ours.points()[v]) -
                                    libigl.points().row(static_cast<Eigen::Index>(v)).transpose())
                                     .norm());
   }

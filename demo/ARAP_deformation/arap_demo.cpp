@@ -164,7 +164,12 @@ double asymmetry(const Mesh& rest, const Mesh& mesh)
     {
       const auto &p = rest.point(v), &q = rest.point(w);
       if(p.x() > 0 && std::abs(p.x() + q.x()) < 1e-9 && std::abs(p.y() - q.y()) < 1e-9)
-        largest = (std::max)(largest, std::abs(mesh.point(v).z() - mesh.point(w).z()));
+      {
+        const double difference = std::abs(mesh.point(v).z() - mesh.point(w).z());
+        if(std::isnan(difference)) // std::max() would lose it
+          return difference;
+        largest = (std::max)(largest, difference);
+      }
     }
   return largest;
 }

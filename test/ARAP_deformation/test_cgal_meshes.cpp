@@ -12,7 +12,7 @@
 // Every surface in CGAL's data folder, as ranges, and as a mesh where it is one: it deforms with an
 // energy that never rises, or is refused with a sentence if it has no faces. Twice the run with the
 // default options gives twice the same. Prints the table of the manual, in which a file is in the
-// first row that fits. Says so when the folder is not there.
+// first row that fits.
 
 #include "include/domains.h"
 
@@ -152,9 +152,9 @@ int main()
   }
   if(table.empty())
   {
-    std::cout << "NOTICE: CGAL's data meshes are missing; nothing was tested on them. script/setup "
-                 "gets them, CGAL_DATA_DIR tells where they are." << std::endl;
-    return EXIT_SUCCESS;
+    std::cerr << folder << " has no meshes; nothing was tested. script/setup gets them, "
+                 "CGAL_DATA_DIR tells where they are." << std::endl;
+    return EXIT_FAILURE;
   }
   std::cout << "| What became of them | Files | |\n|:--|--:|:--|\n";
   for(const auto& [row, names] : table)

@@ -9,28 +9,41 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The command arap_deform on surfaces, run as a user runs it: results, report, formats, and what it
-// says and leaves behind when it is given nonsense. Its path is the argument; without it nothing is
-// tested.
+// The command arap_deform on surfaces and tetrahedra, run as a user runs it: results, report, formats,
+// and what it says and leaves behind when it is given nonsense. Its path is the argument.
 
 #include "include/check.h"
 #include "include/command.h"
+#include "include/domains.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation_traits_3.h>
+
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
+
+// The command arap_deform on surfaces, run as a user runs it: results, report, formats, and what it
+// says and leaves behind when it is given nonsense.
+namespace surfaces {
 
 // a tube of about a hundred vertices, twisted
 const Shape shape = grid("tube", 8, 12, [](double u, double v) {
@@ -417,15 +430,416 @@ void test_help()
     CHECK(help.out.find(option) != std::string::npos);
 }
 
+void test_all()
+{
+  write("in.off", off(shape));
+  write("in.sel", selection());
+  write("in.def", quarter_turn);
+  test_help();
+  test_success();
+  test_polygons();
+  test_refusals();
+}
+
+} // namespace surfaces
+
+// The command arap_deform on tetrahedra in .mesh files, run as a user runs it.
+namespace volumes {
+
+const Block shape = block(4, 2, 2);
+const std::size_t number_of_vertices = shape.points.size();
+
+// a row of coordinates, with as many digits as needed
+std::string row(const Eigen::Vector3d& p)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << p.x() << ' ' << p.y() << ' ' << p.z();
+  return out.str();
+}
+
+// The vertices of a .mesh file, with all that may be between them.
+std::string vertices(const std::vector<Eigen::Vector3d>& points)
+{
+  std::string text = "Vertices # with references\r\n" + std::to_string(points.size()) + "\n";
+  for(std::size_t v = 0; v < points.size(); ++v)
+    text += row(points[v]) + '\t' + std::to_string(100 + v) + (v % 3 ? "\n" : " # one\n\n");
+  return text;
+}
+
+std::string tetrahedra(const Block& block)
+{
+  std::string text = "Tetrahedra " + std::to_string(block.tetrahedra.size()) + '\n';
+  int reference = 0;
+  for(const auto& [a, b, c, d] : block.tetrahedra)
+    text += std::to_string(a + 1) + ' ' + std::to_string(b + 1) + ' ' + std::to_string(c + 1) +
+            "  " + std::to_string(d + 1) + ' ' + std::to_string(reference++ % 4) + '\n';
+  return text;
+}
+
+const std::string head = "MeshVersionFormatted 2\n\n# a comment: Vertices 3\nDimension\n3\n";
+const std::string before = "Corners 2\n1\n2\nMyOwnSection 3 4.5 1e3\n";
+const std::string after = "Triangles 1 1 2 3 77 Ridges\n0\nNormals\n1\n0 0 1.50\n\nEnd\nVertices\n";
+
+std::string mesh_file(const std::vector<Eigen::Vector3d>& points)
+{
+  return head + before + vertices(points) + tetrahedra(shape) + after;
+}
+
+std::string selection(const std::vector<int>& statuses)
+{
+  std::string text;
+  for(int status : statuses)
+    text += std::to_string(status) + '\n';
+  return text;
+}
+
+std::string matrix(const Eigen::Isometry3d& motion)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << motion.matrix() << '\n';
+  return out.str();
+}
+
+// what is in the Vertices of a .mesh file of this test
+std::vector<Eigen::Vector3d> read_points(const std::string& file)
+{
+  const std::string text = content(folder / file);
+  std::istringstream in(text.substr((std::min)(text.find("references"), text.size())));
+  std::string line;
+  std::size_t n = 0;
+  std::getline(in, line);
+  in >> n;
+  std::vector<Eigen::Vector3d> points(n);
+  for(auto& p : points)
+  {
+    in >> p.x() >> p.y() >> p.z();
+    std::getline(in, line);
+  }
+  CHECK(in);
+  return points;
+}
+
+nlohmann::json report() { return nlohmann::json::parse(content(folder / "r.json")); }
+
+// a scenario whose handle is moved by a rigid motion of all its vertices
+struct Task
+{
+  std::vector<int> statuses;
+  Eigen::Isometry3d motion;
+};
+
+Task make_task()
+{
+  Task task{{}, rigid_motion(1.2, {1, 0.4, -0.3}, {0.1, 0.2, 0.5})};
+  for(const auto& p : shape.points)
+    task.statuses.push_back(p.x() < 0.1 ? 0 : p.x() > 1.9 ? 2 : 1);
+  return task;
+}
+
+void write_task(const Task& task)
+{
+  write("in.sel", selection(task.statuses));
+  write("in.def", matrix(task.motion));
+}
+
+const std::string call = "in.mesh --selection in.sel --transform in.def -o out.mesh "
+                         "--report r.json --quiet ";
+
+template <typename Weight>
+CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_scheme cells)
+{
+  using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
+                                                     std::vector<std::array<std::size_t, 4>>>;
+  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>> d(
+    Domain(points, shape.tetrahedra));
+  CGAL::ARAP::Options options;
+  options.cells = cells;
+  d.set_options(options);
+  const Eigen::Matrix4d m = task.motion.matrix();
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+  {
+    if(task.statuses[v] != 0)
+      d.insert_roi_vertex(v);
+    if(task.statuses[v] == 2)
+    {
+      d.insert_control_vertex(v);
+      d.set_target_position(v, point((m * shape.points[v].homogeneous()).head<3>()));
+    }
+  }
+  return d.deform(5, 0);
+}
+
+// every cell scheme with every weight, against the library
+void test_choices()
+{
+  const Task task = make_task();
+  write("in.mesh", mesh_file(shape.points));
+  write_task(task);
+  const std::vector<std::pair<std::string, Cell_scheme>> schemes = {
+    {"spokes", Cell_scheme::spokes()}, {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+    {"elements", Cell_scheme::elements()}};
+  std::set<double> energies;
+  for(const auto& [cells, scheme] : schemes)
+    for(const std::string weights : {"cotangent", "clamped_cotangent", "safe_cotangent", "uniform"})
+    {
+      test_case() = cells + ", " + weights;
+      std::vector<Point> points = points_of(shape.points);
+      const CGAL::ARAP::Report expected =
+        weights == "cotangent" ? deform<CGAL::ARAP::Cotangent_weight>(task, points, scheme)
+        : weights == "clamped_cotangent"
+          ? deform<CGAL::ARAP::Clamped_cotangent_weight>(task, points, scheme)
+        : weights == "safe_cotangent"
+          ? deform<CGAL::ARAP::Safe_cotangent_weight>(task, points, scheme)
+          : deform<CGAL::ARAP::Uniform_weight>(task, points, scheme);
+      const Run done = run(call + "--iterations 5 --tolerance 0 --cells " + cells + " --weights " +
+                           weights);
+      CHECK(bool(expected) == (done.exit_code == 0));
+      if(!CHECK(done.exit_code == 0))
+      {
+        std::cerr << "    " << done.err;
+        continue;
+      }
+      const auto json = report();
+      const auto energy = json["energy"].get<std::vector<double>>();
+      CHECK(energy.size() == expected.energy.size());
+      for(std::size_t k = 0; k < energy.size() && k < expected.energy.size(); ++k)
+        CHECK_AT_MOST(std::abs(energy[k] - expected.energy[k]), 1e-10 * expected.energy[0]);
+      CHECK(json["vertices"] == number_of_vertices);
+      CHECK(json["simplices"] == shape.tetrahedra.size());
+      CHECK(json["free_vertices"] == expected.free_vertices);
+      CHECK(json["inverted_simplices"] == expected.inverted_simplices);
+      const std::vector<Eigen::Vector3d> result = read_points("out.mesh");
+      CHECK(result.size() == number_of_vertices);
+      for(std::size_t v = 0; v < result.size(); ++v)
+        CHECK_AT_MOST((result[v] - vector(points[v])).norm(), 1e-10);
+
+      // the edges of all tetrahedra, each once
+      std::set<std::pair<std::size_t, std::size_t>> edges;
+      for(const auto& t : shape.tetrahedra)
+        for(int i = 0; i < 4; ++i)
+          for(int j = 0; j < i; ++j)
+            edges.insert(std::minmax(t[i], t[j]));
+      double errors = 0, lengths = 0;
+      for(const auto& [v, w] : edges)
+      {
+        const double length = (shape.points[v] - shape.points[w]).norm();
+        errors += std::pow((result[v] - result[w]).norm() - length, 2);
+        lengths += length * length;
+      }
+      CHECK_AT_MOST(std::abs(json["edge_length_error"].get<double>() - std::sqrt(errors / lengths)),
+                    1e-12);
+      energies.insert(energy.back());
+
+      // all else is the same: the file is that of the new points
+      CHECK(content(folder / "out.mesh") == mesh_file(result));
+    }
+  CHECK(energies.size() >= 9); // only safe ones agree with the clamped or the plain ones
+}
+
+void test_text()
+{
+  test_case() = "nothing moves";
+  // ways to write numbers that a program would not choose
+  const std::string odd = head + "Vertices 6\n0.0 -0 +0.000 1 1. 0 0e5 -2\n0 1.00 0 3 0 0 "
+                          "1.0000000000000000001 4#x\n1 1 1 5\n50 60.0 7e1 6\n"
+                          "Tetrahedra\n2\n1 2 3 4 0\n2 3 4 5 0\n" + after;
+  write("odd.mesh", odd);
+  write("all.sel", "0\n1\n1\n1\n2\n1\n");
+  write("identity.def", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const std::string odd_call = "odd.mesh --selection all.sel --report r.json -o new.mesh ";
+  CHECK(run(odd_call + "--transform identity.def").exit_code == 0);
+  CHECK(content(folder / "new.mesh") == odd);
+  CHECK(report()["energy"].back() == 0);
+  write("fixed.sel", "0\n0\n0\n0\n0\n0\n");
+  CHECK(run("odd.mesh --selection fixed.sel -o new.mesh --transform identity.def").exit_code == 0);
+  CHECK(content(folder / "new.mesh") == odd);
+
+  test_case() = "a vertex without a tetrahedron stays";
+  write("shift.def", "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  CHECK(run(odd_call + "--transform shift.def").exit_code == 0);
+  const std::string moved = content(folder / "new.mesh");
+  CHECK(moved.find("\n1.25 1 1 5\n50 60.0 7e1 6\nTetrahedra\n2\n") != std::string::npos);
+  CHECK(moved.find("Vertices 6\n0.0 -0 +0.000 1 ") != std::string::npos);
+  CHECK(moved.substr(moved.find("Tetrahedra")) == odd.substr(odd.find("Tetrahedra")));
+
+  test_case() = "in place, without an End, upper case";
+  const std::string end = "\nEnd\nVertices\n";
+  write("SELF.MESH", odd.substr(0, odd.size() - end.size()));
+  CHECK(run("SELF.MESH --selection all.sel -o SELF.MESH --transform shift.def").exit_code == 0);
+  CHECK(content(folder / "SELF.MESH") + end == moved);
+}
+
+void test_rigid_motion()
+{
+  test_case() = "the boundary moves rigidly";
+  Task task = make_task();
+  const auto is_inside = [](std::size_t v) { // of block(4, 2, 2), from 0 to 4, 0 to 2 and 0 to 2
+    const std::size_t z = v % 3, y = v / 3 % 3, x = v / 9;
+    return z == 1 && y == 1 && x > 0 && x < 4;
+  };
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    task.statuses[v] = is_inside(v) ? 1 : 2;
+  write("in.mesh", mesh_file(shape.points));
+  write_task(task);
+  for(const std::string cells : {"spokes", "spokes_and_rims", "elements"})
+  {
+    CHECK(run(call + "--tolerance 0 --iterations 200 --cells " + cells).exit_code == 0);
+    const auto json = report();
+    CHECK(json["free_vertices"] == 3);
+    CHECK_AT_MOST(json["energy"].back().get<double>(), 1e-14 * json["energy"][0].get<double>());
+    CHECK(json["inverted_simplices"] == 0);
+    CHECK_AT_MOST(json["edge_length_error"].get<double>(), 1e-8);
+    const auto result = read_points("out.mesh");
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+      CHECK_AT_MOST((result[v] - task.motion * shape.points[v]).norm(), 1e-8);
+  }
+}
+
+// One end of the block is pushed through the other: the volumes tell which tetrahedra are inside
+// out.
+void test_inside_out()
+{
+  test_case() = "inside out";
+  Task task = make_task();
+  task.motion = rigid_motion(0, {1, 0, 0}, {-4, 0, 0});
+  write("in.mesh", mesh_file(shape.points));
+  write_task(task);
+  const Run done = run("in.mesh --selection in.sel --transform in.def -o out.mesh --report r.json "
+                       "--iterations 3");
+  CHECK(done.exit_code == 0);
+  const auto result = read_points("out.mesh");
+  const auto volume = [](const auto& t, const auto& points) {
+    Eigen::Matrix3d edges;
+    for(int k = 0; k < 3; ++k)
+      edges.col(k) = points[t[k + 1]] - points[t[0]];
+    return edges.determinant();
+  };
+  std::size_t inverted = 0;
+  for(const auto& t : shape.tetrahedra)
+    inverted += volume(t, shape.points) * volume(t, result) < 0;
+  CHECK(inverted > 0);
+  CHECK(report()["inverted_simplices"] == inverted);
+  CHECK(done.out.find(std::to_string(inverted) + " of " + std::to_string(shape.tetrahedra.size()) +
+                      " tetrahedra are inside out") != std::string::npos);
+
+  test_case() = "picture";
+  if(std::system("povray --version > /dev/null 2>&1") == 0)
+  {
+    CHECK(run(call + "--image picture.png").exit_code == 0);
+    CHECK(content(folder / "picture.png").substr(1, 3) == "PNG");
+  }
+  else
+    std::cout << "NOTICE: povray is not installed; no picture was tested" << std::endl;
+}
+
+// `good` with the first `from` replaced by `to`
+std::string replaced(const std::string& good, const std::string& from, const std::string& to)
+{
+  const std::size_t place = good.find(from);
+  CHECK(place != std::string::npos);
+  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
+}
+
+void test_refusals()
+{
+  write("precious.off", "precious");
+  write("precious.mesh", "precious");
+  write("four.sel", "0\n1\n1\n2\n");
+  write("in.def", "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const std::string rest = " --selection four.sel --transform in.def -o precious.mesh";
+  const auto refuse = [&](const std::string& text, const std::string& phrase) {
+    write("bad.mesh", text);
+    check_refused("bad.mesh" + rest, 1, "bad.mesh" + phrase);
+    CHECK(content(folder / "precious.mesh") == "precious");
+  };
+  const std::string good = "MeshVersionFormatted 1\nDimension 3\nVertices\n4\n0 0 0 1\n1 0 0 1\n"
+                           "0 1 0 1\n0 0 1 1\nTetrahedra\n1\n1 2 3 4 1\nEnd\n";
+  const auto refuse_with = [&](const std::string& from, const std::string& to,
+                               const std::string& phrase) {
+    refuse(replaced(good, from, to), phrase);
+  };
+
+  refuse("", ": is empty");
+  refuse("OFF\n4 4 0\n", ", line 1: a .mesh file starts with 'MeshVersionFormatted', but this with "
+                         "'OFF'");
+  refuse("\n# nothing\n", ", line 3: a .mesh file starts with 'MeshVersionFormatted', but this "
+                          "with the end of the file");
+  refuse(std::string("\1\0\0\0\3\0\0\0\24\0\0\0\3\0\0\0", 16), ": is binary; of Medit's formats");
+  refuse_with("MeshVersionFormatted", "MeshVersionUnformatted", ", line 1: a .mesh file starts");
+  refuse_with("Dimension 3", "", ": has no Dimension");
+  refuse_with("Dimension 3", "Dimension 2", ", line 2: the Dimension of a mesh of tetrahedra is 3, "
+                                            "but this is '2'");
+  refuse_with("Dimension 3", "Dimension", ", line 3: the Dimension of a mesh of tetrahedra is 3");
+  refuse_with("Vertices", "Points", ": has no Vertices");
+  refuse_with("Tetrahedra\n1\n1 2 3 4 1\n", "", ": has no tetrahedra; surfaces are read from");
+  refuse_with("Tetrahedra\n1\n1 2 3 4 1\n", "Tetrahedra 0\n", ": has no tetrahedra; surfaces");
+  refuse_with("End", "Vertices\n0\nEnd", ", line 12: the file has a second section 'Vertices'");
+  refuse_with("End", "Tetrahedra\n0\nEnd", ", line 12: the file has a second section 'Tetrahedra'");
+  refuse_with("End", "Dimension 3\nEnd", ", line 12: the file has a second section 'Dimension'");
+  for(const std::string element : {"TetrahedraP2", "TrianglesP2", "EdgesP2", "HexahedraQ2",
+                                   "TetrahedraP3", "QuadrilateralsQ2", "Hexahedra", "Prisms",
+                                   "Pyramids"})
+    refuse_with("End", element + "\n1\n1 2 3 4 1 2 3 4 1 2 0\nEnd",
+                ", line 12: only tetrahedra with four vertices can be deformed, but there are '" +
+                  element + "'");
+
+  const std::string sentence = "expected how many Vertices there are, but found '";
+  for(const std::string count : {"-4", "four", "4.5", "2147483648", "9999999999999999999999", "4x"})
+    refuse_with("4\n0 0", count + "\n0 0", ", line 4: " + sentence + count);
+  refuse_with("1\n1 2 3", "-1\n1 2 3", ", line 10: expected how many Tetrahedra there are, but");
+  refuse_with("4\n0 0", "5\n0 0", ", line 9: expected a finite number, a coordinate in row 5 of "
+                                  "the 5 Vertices, but found 'Tetrahedra'");
+  refuse_with("4\n0 0", "2147483647\n0 0", ", line 9: expected a finite number, a coordinate in "
+                                           "row 5 of the 2147483647 Vertices");
+  refuse_with("4\n0 0", "3\n0 0", ", line 8: expected the next section after 3 Vertices, but found "
+                                  "'0'");
+  refuse_with("1\n1 2 3", "2\n1 2 3", ", line 12: expected a vertex from 1 to 4, a corner in row 2 "
+                                      "of the 2 Tetrahedra, but found 'End'");
+  refuse_with("1\n1 2 3", "2000000000\n1 2 3", ", line 12: expected a vertex from 1 to 4");
+  refuse_with("4 1\nEnd", "4 1\n2 1 3 4 1\nEnd", ", line 12: expected the next section after 1 "
+                                                 "Tetrahedra, but found '2'");
+  for(std::size_t size = 1; size < good.find("4 1\nEnd"); size += 7) // the end is lost
+    refuse(good.substr(0, size), "");
+  for(const std::string number : {"nan", "NaN", "inf", "-inf", "1e999", "x", "1,5", "1.5.2", "--1"})
+    refuse_with("0 1 0 1", "0 " + number + " 0 1", ", line 7: expected a finite number, a "
+                "coordinate in row 3 of the 4 Vertices, but found '" + number + "'");
+  refuse_with("0 1 0 1", "0 1 0 one", ", line 7: expected an integer, the reference in row 3 of "
+                                      "the 4 Vertices, but found 'one'");
+  for(const std::string corner : {"0", "5", "-1", "4294967297", "2.5", "x"})
+    refuse_with("1 2 3 4 1", "1 " + corner + " 3 4 1", ", line 11: expected a vertex from 1 to 4, "
+                "a corner in row 1 of the 1 Tetrahedra, but found '" + corner + "'");
+  refuse_with("1 2 3 4 1", "1 2 3 2 1", ", line 11: row 1 of the 1 Tetrahedra has twice the vertex "
+                                        "'2'");
+  refuse_with("1 2 3 4 1", "1 2 3 4 1.5", ", line 11: expected an integer, the reference in row 1");
+
+  write("good.mesh", good);
+  const std::string good_call = "good.mesh --selection four.sel --transform in.def ";
+  check_refused("missing.mesh" + rest, 1, "missing.mesh: there is no such file");
+  check_refused(good_call + "-o out.off", 1,
+                "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
+                "file");
+  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl or .mesh");
+  write("five.sel", "0\n1\n1\n2\n1\n");
+  check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,
+                "has 5 statuses, but the mesh has 4 vertices");
+  const Run done = run(good_call + "-o new.mesh");
+  CHECK(done.exit_code == 0); // or all of the above would be in vain
+}
+
+void test_all()
+{
+  test_choices();
+  test_text();
+  test_rigid_motion();
+  test_inside_out();
+  test_refusals();
+}
+
+} // namespace volumes
+
 int main(int argc, char** argv)
 {
-  return test_command(argc, argv, [] {
-    write("in.off", off(shape));
-    write("in.sel", selection());
-    write("in.def", quarter_turn);
-    test_help();
-    test_success();
-    test_polygons();
-    test_refusals();
-  });
+  return test_command(argc, argv, {surfaces::test_all, volumes::test_all});
 }

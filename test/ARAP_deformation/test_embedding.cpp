@@ -410,7 +410,7 @@ void test_deformation()
   embedding.put_points(mesh.points());
   double error = 0;
   for(auto v : mesh.vertices())
-    error = (std::max)(error, (vector(mesh.point(v)) - vector(rest.point(v))).norm());
+    error = larger(error, (vector(mesh.point(v)) - vector(rest.point(v))).norm());
   CHECK(error > 0.1);
   CHECK_AT_MOST(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()), 0.4);
 

@@ -9,20 +9,40 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The session: region of interest, control vertices, targets, reset and rest shape.
+// The session: region of interest, control vertices, targets, reset and rest shape; the function
+// arap_deform(); visitors and reports; bad data, failures and misuse; and that the cost follows the
+// region.
 
 #include "include/check.h"
+#include "include/misuse.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/arap_deform.h>
+
+#include <boost/property_map/property_map.hpp>
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+// The session: region of interest, control vertices, targets, reset and rest shape.
+namespace session {
 
 using Deformation = CGAL::ARAP_deformation<Mesh>;
 using Vertex = Mesh::Vertex_index;
@@ -369,7 +389,7 @@ void test_change_of_sets()
   CHECK(same_points(other, rest));
 }
 
-int main()
+void test_all()
 {
   test_sets();
   test_targets();
@@ -381,5 +401,829 @@ int main()
   test_change_of_sets();
   test_defaults();
   test_warm_start();
+}
+
+} // namespace session
+
+// The function arap_deform() and its named parameters: the same as the class.
+namespace function {
+
+using Vertex = Mesh::Vertex_index;
+using CGAL::ARAP::Status;
+namespace params = CGAL::parameters;
+
+// Keeps a count: it must be called itself, and not a copy.
+struct Counter
+{
+  int count = 0;
+
+  template <typename Iterate>
+  CGAL::ARAP::Visitor_action operator()(const Iterate& iterate)
+  {
+    ++count;
+    return iterate.iteration() == 4 ? CGAL::ARAP::Visitor_action::stop
+                                    : CGAL::ARAP::Visitor_action::proceed;
+  }
+};
+
+void test_all()
+{
+  const Shape shape = grid("sheet", 10, 5, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.2 * u * u);
+  });
+  Scenario s = scenario(shape);
+  for(int& status : s.selection) // a function call constrains all that does not move
+    if(status == 0)
+      status = 2;
+  const Mesh rest = make_mesh<Mesh>(shape);
+  std::map<Vertex, bool> is_constrained;
+  std::map<Vertex, Point> targets;
+  for(Vertex v : rest.vertices())
+  {
+    is_constrained[v] = s.selection[v] == 2;
+    if(is_constrained[v])
+      targets[v] = point(s.targets[v]);
+  }
+  const auto constrained_map = boost::make_assoc_property_map(is_constrained);
+  const auto target_map = boost::make_assoc_property_map(targets);
+  CGAL::ARAP::Options options;
+  options.cells = CGAL::ARAP::Cell_scheme::spokes();
+  options.tolerance = 0;
+  options.iterations = 12;
+
+  const auto by_class = [&](auto traits, unsigned int iterations) {
+    Mesh mesh = rest;
+    CGAL::ARAP_deformation<Mesh, decltype(traits)> d(mesh, traits);
+    prepare(d, s, all_vertices(mesh));
+    // in the order of the function: the positions depend on it by rounding
+    CHECK(d.set_options(options));
+    CHECK(d.deform(iterations, 0));
+    return mesh;
+  };
+  const CGAL::ARAP_deformation_traits_3<> traits;
+
+  Mesh mesh = rest;
+  auto report = CGAL::arap_deform(mesh, constrained_map, target_map, options);
+  CHECK(report.iterations == 12);
+  CHECK(same_points(mesh, by_class(traits, 12)));
+
+  test_case() = "number_of_iterations";
+  mesh = rest;
+  report = CGAL::arap_deform(mesh, constrained_map, target_map, options,
+                             params::number_of_iterations(4u));
+  CHECK(report.iterations == 4);
+  CHECK(same_points(mesh, by_class(traits, 4)));
+
+  test_case() = "weight_calculator and sparse_linear_solver";
+  mesh = rest;
+  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options,
+                          params::weight_calculator(CGAL::ARAP::Uniform_weight())
+                            .sparse_linear_solver(CGAL::ARAP::Multifrontal_cholesky_solver())));
+  const CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight> uniform;
+  CHECK(same_points(mesh, by_class(uniform, 12)));
+
+  test_case() = "visitor";
+  mesh = rest;
+  Counter counter;
+  report = CGAL::arap_deform(mesh, constrained_map, target_map, options,
+                             params::visitor(std::ref(counter)));
+  CHECK(report.status == Status::stopped);
+  CHECK(counter.count == 5);
+  CHECK(same_points(mesh, by_class(traits, 4)));
+
+  test_case() = "vertex_point_map and vertex_index_map";
+  mesh = rest;
+  std::map<Vertex, Point> points;
+  std::map<Vertex, int> indices;
+  for(Vertex v : mesh.vertices())
+  {
+    points[v] = mesh.point(v);
+    indices[v] = int(mesh.number_of_vertices() - 1 - v);
+  }
+  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options,
+                          params::vertex_point_map(boost::make_assoc_property_map(points))
+                            .vertex_index_map(boost::make_assoc_property_map(indices))));
+  CHECK(same_points(mesh, rest));
+  for(Vertex v : mesh.vertices())
+    mesh.point(v) = points[v];
+  CHECK(same_points(mesh, by_class(traits, 12)));
+
+  test_case() = "default options";
+  mesh = rest;
+  report = CGAL::arap_deform(mesh, constrained_map, target_map);
+  CHECK(report);
+  CHECK(report.energy.back() < report.energy.front());
+
+  test_case() = "failures";
+  mesh = rest;
+  options.tolerance = -1;
+  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options).status ==
+        Status::invalid_option);
+  for(auto& [v, constrained] : is_constrained)
+    constrained = false;
+  CHECK(CGAL::arap_deform(mesh, constrained_map, target_map).status == Status::no_fixed_vertex);
+  CHECK(same_points(mesh, rest));
+}
+
+} // namespace function
+
+// Visitors and reports: what a run tells while it goes on and when it is over, stop, cancel, and
+// exceptions.
+namespace visitor_and_report {
+
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+using Vertex = Mesh::Vertex_index;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Visitor_action;
+
+const Shape shape = grid("sheet", 12, 6, [](double u, double v) {
+  return Eigen::Vector3d(2 * u, v, 0.1 * u * u);
+});
+
+void test_statuses()
+{
+  const Status all[] = {
+    Status::not_run, Status::success, Status::converged, Status::iteration_limit, Status::stopped,
+    Status::cancelled, Status::invalid_option, Status::in_a_run, Status::not_a_control_vertex,
+    Status::invalid_weight, Status::not_a_simplex, Status::no_simplex, Status::no_tetrahedron,
+    Status::non_finite_point, Status::non_finite_weight, Status::no_fixed_vertex,
+    Status::singular_matrix, Status::solver_failed, Status::non_finite_energy};
+  std::set<std::string> names, sentences;
+  for(Status status : all)
+  {
+    names.insert(to_string(status));
+    sentences.insert(CGAL::ARAP::internal::outcome(status).message);
+  }
+  CHECK(names.size() == std::size(all) && !names.count("unknown"));
+  CHECK(sentences.size() == std::size(all));
+  const Report report;
+  CHECK(report.status == Status::not_run && !report && !report.message.empty());
+}
+
+void test_iterates()
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  Deformation d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  std::vector<double> seen;
+  Mesh copy = mesh;
+  const Report report = d.deform(9, 0, [&](const Deformation::Iterate& iterate) {
+    CHECK(iterate.iteration() == seen.size());
+    seen.push_back(iterate.energy());
+    CHECK(same_points(mesh, rest)); // written when the run is over
+    iterate.put_points(copy.points());
+    return Visitor_action::proceed;
+  });
+  CHECK(seen == report.energy);
+  CHECK(same_points(mesh, copy));
+  CHECK(report.iterations == 9);
+  CHECK(report.free_vertices > 0 && report.simplices > 0 && report.energy_scale > 0);
+  CHECK(report.seconds.total > 0);
+  CHECK(report.seconds.local_steps + report.seconds.global_steps + report.seconds.preprocess <=
+        report.seconds.total);
+}
+
+void test_stop()
+{
+  const auto at = [](unsigned int k, Visitor_action action) {
+    return [k, action](const auto& iterate) {
+      return iterate.iteration() == k ? action : Visitor_action::proceed;
+    };
+  };
+  Mesh five = make_mesh<Mesh>(shape);
+  Deformation d(five);
+  prepare(d, scenario(shape), all_vertices(five));
+  CHECK(d.deform(5, 0));
+
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation e(mesh);
+  prepare(e, scenario(shape), all_vertices(mesh));
+  const Report stopped = e.deform(100, 0, at(5, Visitor_action::stop));
+  CHECK(stopped.status == Status::stopped);
+  CHECK(stopped && stopped.iterations == 5);
+  CHECK(same_points(mesh, five));
+
+  const Mesh before = mesh;
+  const double energy = e.energy();
+  const auto rotation = e.rotation(Vertex(40));
+  for(Vertex v : e.control_vertices())
+    e.translate(v, Kernel::Vector_3(0, 0, 1));
+  const auto check_unchanged = [&] {
+    CHECK(same_points(mesh, before));
+    CHECK(e.energy() == energy);
+    CHECK(e.rotation(Vertex(40)) == rotation);
+  };
+  const Report cancelled = e.deform(100, 0, at(5, Visitor_action::cancel));
+  CHECK(cancelled.status == Status::cancelled);
+  CHECK(!cancelled);
+  check_unchanged();
+
+  bool is_caught = false;
+  try
+  {
+    e.deform(100, 0, [](const auto& iterate) {
+      if(iterate.iteration() == 3)
+        throw std::runtime_error("the user's own");
+      return Visitor_action::proceed;
+    });
+  }
+  catch(const std::runtime_error&)
+  {
+    is_caught = true;
+  }
+  CHECK(is_caught);
+  check_unchanged();
+
+  // and it still does what it would have done
+  for(Vertex v : d.control_vertices())
+    d.translate(v, Kernel::Vector_3(0, 0, 1));
+  CHECK(d.deform(7, 0) && e.deform(7, 0));
+  CHECK(same_points(mesh, five));
+}
+
+void test_checks()
+{
+  // what is not a number is never lost
+  const double nan = std::nan("");
+  CHECK(larger(1, 2) == 2 && larger(2, 1) == 2);
+  CHECK(std::isnan(larger(1, nan)) && std::isnan(larger(nan, 1)));
+  CHECK(std::isnan(largest_distance({Point(0, nan, 0), Point(3, 0, 0)},
+                                    {Point(0, 0, 0), Point(1, 0, 0)})));
+
+  Report report;
+  report.energy_scale = 1;
+  report.energy = {3, 2, 1, 1};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  report.energy = {3, 2, 2 + 1e-17, 2.1, 1};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 3);
+  report.energy = {1, std::nan("")};
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 1);
+  CHECK(CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 0, 0, 0, 1}));
+  CHECK(!CGAL::ARAP::is_rotation({0, 1, 0, 1, 0, 0, 0, 0, 1}));    // a reflection
+  CHECK(!CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 1e-9, 0, 0, 1})); // sheared a little
+
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  CHECK(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) == 0);
+  for(Vertex v : mesh.vertices())
+    mesh.point(v) = CGAL::ORIGIN + 1.25 * (mesh.point(v) - CGAL::ORIGIN);
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) -
+                 0.25) < 1e-14);
+
+  // the same over the simplices of a domain: each edge counts once, and those of triangles are all
+  mesh.point(Vertex(3)) = Point(1, 2, 3);
+  const std::vector<Point> rest_points(rest.points().begin(), rest.points().end());
+  const double of_graph =
+    CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points());
+  const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(domain, rest_points) - of_graph) < 1e-14);
+  const std::vector<Point> square = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0),
+                                     Point(0, 1, 0)};
+  std::vector<Point> stretched = square;
+  stretched[2] = stretched[3] = Point(0, 3, 0);
+  const std::vector<std::array<int, 4>> corners = {{0, 1, 2, 3}};
+  using Corners = std::vector<std::array<int, 4>>;
+  const CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, Corners> face(stretched, corners);
+  const CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Corners> flat(stretched, corners);
+  const double left = 2, top = -1, right = std::sqrt(10.0) - 1; // errors of the sides, all 1 before
+  const double rising = 3 - std::sqrt(2.0), falling = std::sqrt(10.0) - std::sqrt(2.0);
+  const double sides = left * left + top * top + right * right;
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(face, square) -
+                 std::sqrt(sides / 4)) < 1e-14);
+  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(flat, square) -
+                 std::sqrt((sides + rising * rising + falling * falling) / 8)) < 1e-14);
+}
+
+// For a geometric series of decreases the extrapolated gap is that of some iterations before: never
+// too small, and not much too large. A run that seems to end and does not is waited for.
+void test_gap()
+{
+  using CGAL::ARAP::internal::Gap_estimate;
+  for(const double ratio : {0.3, 0.8, 0.99})
+  {
+    Gap_estimate estimate;
+    CHECK(std::isinf(estimate(3)));
+    for(int k = 1; k < 300 && std::pow(ratio, k) > 1e-12; ++k)
+    {
+      estimate.add(std::pow(ratio, k - 1) - std::pow(ratio, k));
+      const double gap = std::pow(ratio, k), estimated = estimate(2 + gap);
+      if(k < 10)
+        CHECK(std::isinf(estimated));
+      else if(k >= 15)
+      {
+        CHECK_AT_MOST(gap / 2, estimated * (1 + 1e-6));
+        const double earlier_gap = gap / std::pow(ratio, 9 + 0.25 * k);
+        if(earlier_gap < 1)
+          CHECK_AT_MOST(estimated, earlier_gap);
+      }
+    }
+  }
+
+  Gap_estimate estimate(1e-19);
+  CHECK(estimate(1e-20) == 0); // nothing but rounding is left
+  for(int k = 0; k < 50; ++k)
+    estimate.add(1);
+  CHECK(std::isinf(estimate(1000))); // no end in sight
+  estimate.add(0);
+  CHECK(estimate(1000) == 0);
+
+  Gap_estimate rising; // weights that are negative, or rounding
+  for(int k = 0; k < 20; ++k)
+    rising.add(-1);
+  CHECK(std::isinf(rising(1000)));
+
+  Gap_estimate pausing;
+  for(int k = 0; k < 20; ++k)
+    pausing.add(std::pow(0.5, k));
+  CHECK(pausing(100) < 1e-4);
+  for(int k = 0; k < 3; ++k)
+    pausing.add(1);
+  for(int k = 0; k < 4; ++k)
+    pausing.add(1e-9);
+  CHECK(pausing(100) > 1e-2);
+}
+
+void test_all()
+{
+  test_statuses();
+  test_iterates();
+  test_stop();
+  test_checks();
+  test_gap();
+}
+
+} // namespace visitor_and_report
+
+// Bad data and numerical failure: a status with a sentence that names the culprit, and mesh and
+// object as they were.
+namespace failures {
+
+using CGAL::ARAP::Outcome;
+using CGAL::ARAP::Status;
+using Vertex = Mesh::Vertex_index;
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const double infinity = std::numeric_limits<double>::infinity();
+
+Shape sheet()
+{
+  return grid("sheet", 8, 4, [](double u, double v) { return Eigen::Vector3d(2 * u, v, u * v); });
+}
+
+// as same_points(), where points may not be numbers
+bool same_or_bad_points(const Mesh& a, const Mesh& b)
+{
+  for(Vertex v : a.vertices())
+    for(int k = 0; k < 3; ++k)
+      if(a.point(v)[k] != b.point(v)[k] &&
+         !(std::isnan(a.point(v)[k]) && std::isnan(b.point(v)[k])))
+        return false;
+  return true;
+}
+
+void check_refused(const Outcome& outcome, Status status, const std::string& culprit)
+{
+  CHECK(outcome.status == status);
+  CHECK(!outcome);
+  if(!CHECK(outcome.message.find(culprit) != std::string::npos))
+    std::cerr << "    the message was: " << outcome.message << std::endl;
+}
+
+// After a failed call the mesh is as it was, and the object works once the cause is removed.
+template <typename Deformation, typename Repair>
+void check_failure(Mesh& mesh, Deformation& d, Status status, const std::string& culprit,
+                   const Repair& repair)
+{
+  const Mesh before = mesh;
+  check_refused(d.deform(), status, culprit);
+  CHECK(same_or_bad_points(mesh, before));
+  repair();
+  const auto report = d.deform(5, 0);
+  if(!CHECK(report))
+    std::cerr << "    the message was: " << report.message << std::endl;
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+}
+
+void test_points()
+{
+  for(double bad : {not_a_number, infinity, -infinity})
+  {
+    test_case() = "a point that is not finite";
+    const Shape shape = sheet();
+    const Scenario s = scenario(shape);
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Mesh rest = mesh;
+    mesh.point(Vertex(20)) = Point(0, bad, 0);
+    {
+      CGAL::ARAP_deformation<Mesh> d(mesh);
+      prepare(d, s, all_vertices(mesh));
+      check_failure(mesh, d, Status::non_finite_point, "vertex 20 ", [&] {
+        mesh.point(Vertex(20)) = rest.point(Vertex(20));
+        d.overwrite_initial_geometry();
+      });
+    }
+    test_case() = "a target that is not finite";
+    mesh = rest;
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    prepare(d, s, all_vertices(mesh));
+    const Vertex handle = d.control_vertices()[1];
+    const Point target = d.target_position(handle);
+    CHECK(d.set_target_position(handle, Point(0, 0, bad)));
+    check_failure(mesh, d, Status::non_finite_point,
+                  "the target of vertex " + std::to_string(std::size_t(handle)) + " ",
+                  [&] { d.set_target_position(handle, target); });
+  }
+}
+
+void test_overflow()
+{
+  test_case() = "overflow";
+  const Shape shape = sheet();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  const Vertex handle = d.control_vertices()[0];
+  d.set_target_position(handle, Point(1e200, 0, 0));
+  check_failure(mesh, d, Status::non_finite_energy, "overflow",
+                [&] { d.set_target_position(handle, Point(9, 0, 0)); });
+}
+
+// not a number for the triangles at one corner of the sheet
+struct Undefined_weight : CGAL::ARAP::Uniform_weight
+{
+  std::array<double, 3>
+  simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const
+  {
+    const double w = triangle[0][0] + triangle[1][0] + triangle[2][0] > 5.6 ? not_a_number : 1;
+    return {w, 1, 1};
+  }
+};
+
+void test_faces()
+{
+  test_case() = "a degenerate triangle";
+  Shape flat = sheet();
+  flat.points[13] = (flat.points[12] + flat.points[14]) / 2; // already collinear in the sheet
+  flat.points[18] = flat.points[13];
+  Mesh degenerate = make_mesh<Mesh>(flat);
+  CGAL::ARAP_deformation<Mesh> e(degenerate);
+  prepare(e, scenario(flat), all_vertices(degenerate));
+  const auto report = e.deform();
+  CHECK(report);
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+
+  test_case() = "a weight that is not finite";
+  Mesh mesh = make_mesh<Mesh>(sheet());
+  const Mesh before = mesh;
+  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Undefined_weight>;
+  CGAL::ARAP_deformation<Mesh, Traits> u(mesh);
+  prepare(u, scenario(sheet()), all_vertices(mesh));
+  const auto refused = u.deform();
+  CHECK(refused.status == Status::non_finite_weight);
+  CHECK(refused.message.find("the face with the vertices ") == 0);
+  CHECK(refused.message.find("has edges whose weights are not finite") != std::string::npos);
+  CHECK(same_points(mesh, before));
+}
+
+void test_nothing_fixed()
+{
+  test_case() = "no fixed vertex";
+  const Shape shape = sheet();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  d.insert_roi_vertices(mesh.vertices().begin(), mesh.vertices().end());
+  check_failure(mesh, d, Status::no_fixed_vertex, "vertex 0 is free",
+                [&] { d.insert_control_vertex(Vertex(7)); });
+
+  test_case() = "one of two components is not fixed";
+  const Shape two = two_components(shape);
+  Mesh pair = make_mesh<Mesh>(two);
+  CGAL::ARAP_deformation<Mesh> e(pair);
+  e.insert_roi_vertices(pair.vertices().begin(), pair.vertices().end());
+  e.insert_control_vertex(Vertex(7));
+  CHECK(e.set_target_position(Vertex(7), Point(0, 0, 3)));
+  const Mesh rest = pair;
+  for(int call = 0; call < 2; ++call) // the second one has nothing to do
+    CHECK(e.preprocess().message.find("unconstrained component") != std::string::npos);
+  for(int run = 0; run < 2; ++run) // both have nothing to preprocess
+  {
+    const auto report = e.deform();
+    CHECK(report);
+    CHECK(report.unconstrained_components == std::vector<std::size_t>(1, shape.points.size()));
+    CHECK(report.message.find("component of vertex " + std::to_string(shape.points.size())) !=
+          std::string::npos);
+    CHECK(report.free_vertices == shape.points.size() - 1);
+  }
+  for(std::size_t v = 0; v < two.points.size(); ++v)
+    CHECK((pair.point(Vertex(v)) == rest.point(Vertex(v))) == (v >= shape.points.size()));
+  e.insert_control_vertex(Vertex(shape.points.size() + 3));
+  const auto all_fixed = e.deform();
+  CHECK(all_fixed && all_fixed.unconstrained_components.empty());
+  CHECK(all_fixed.free_vertices == two.points.size() - 2);
+
+  test_case() = "isolated vertices";
+  const Vertex isolated = mesh.add_vertex(Point(5, 5, 5));
+  CGAL::ARAP_deformation<Mesh> f(mesh);
+  f.insert_roi_vertices(mesh.vertices().begin(), mesh.vertices().end());
+  f.insert_control_vertex(Vertex(7));
+  CHECK(f.deform()); // stay where they are
+  CHECK(mesh.point(isolated) == Point(5, 5, 5));
+  f.insert_control_vertex(isolated); // goes to its target, whether that is a hard one or a soft one
+  CHECK(f.set_target_position(isolated, Point(6, 5, 4)));
+  CHECK(f.set_target_weight(isolated, 0.5));
+  CHECK(f.deform());
+  CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(mesh.point(isolated), Point(6, 5, 4))), 1e-12);
+}
+
+void test_nothing_free()
+{
+  test_case() = "nothing is free";
+  const Shape shape = sheet();
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  CHECK(d.deform()); // not even a region
+  CHECK(same_or_bad_points(mesh, rest));
+  d.insert_control_vertices(mesh.vertices().begin(), mesh.vertices().end());
+  d.translate(mesh.vertices().begin(), mesh.vertices().end(), Kernel::Vector_3(1, 0, 0));
+  CGAL::ARAP::Options options;
+  for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
+  {
+    options.initial_guess = guess;
+    d.set_options(options);
+    const auto report = d.deform();
+    CHECK(report.status == Status::converged);
+    CHECK(report.energy == std::vector<double>{0});
+    for(Vertex v : mesh.vertices())
+      CHECK(mesh.point(v) == rest.point(v) + Kernel::Vector_3(1, 0, 0));
+  }
+}
+
+// weights under which the matrix is not positive definite, or not finite
+struct Bad_weight : CGAL::ARAP::Uniform_weight
+{
+  double value;
+  explicit Bad_weight(double v = -1) : value(v) {}
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t i, std::size_t j, double) const
+  {
+    return std::isnan(value) && (i + j) % 3 != 0 ? 1 : value; // they are sorted with numbers
+  }
+};
+
+void test_matrices()
+{
+  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Bad_weight>;
+  const Shape shape = sheet();
+  const Scenario s = scenario(shape);
+  const Mesh rest = make_mesh<Mesh>(shape);
+  const auto try_weight = [&](double value, Status status, const std::string& culprit) {
+    Mesh mesh = rest;
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits({}, Bad_weight(value)));
+    prepare(d, s, all_vertices(mesh));
+    check_refused(d.deform(), status, culprit);
+    check_refused(d.preprocess(), status, culprit);
+    CHECK(same_or_bad_points(mesh, rest));
+  };
+  test_case() = "singular and non-finite matrices";
+  try_weight(-1, Status::singular_matrix, "vertex ");
+  try_weight(not_a_number, Status::singular_matrix, "vertex ");
+  try_weight(infinity, Status::singular_matrix, "vertex ");
+}
+
+// a solver that fails where it is told to
+struct Failing_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  static int solves_left;
+  static bool can_factorize;
+
+  bool factorize(const CGAL::ARAP::Sparse_matrix& a)
+  {
+    return can_factorize && CGAL::ARAP::Multifrontal_cholesky_solver::factorize(a);
+  }
+
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
+  {
+    return solves_left-- > 0 && CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
+  }
+};
+int Failing_solver::solves_left = 0;
+bool Failing_solver::can_factorize = true;
+
+void test_solver()
+{
+  using Traits = CGAL::ARAP_deformation_traits_3<Failing_solver>;
+  const Shape shape = sheet();
+  for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
+  {
+    test_case() = "a solver that fails";
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+    CGAL::ARAP::Options options;
+    options.initial_guess = guess;
+    d.set_options(options);
+    prepare(d, scenario(shape), all_vertices(mesh));
+    Failing_solver::can_factorize = false;
+    check_failure(mesh, d, Status::singular_matrix, "factorized",
+                  [] { Failing_solver::can_factorize = true; Failing_solver::solves_left = 99; });
+    for(int left : {0, 1, 2, 3})
+    {
+      Failing_solver::solves_left = left;
+      check_failure(mesh, d, Status::solver_failed, "the solver failed",
+                    [] { Failing_solver::solves_left = 99; });
+    }
+  }
+}
+
+// A solver whose solutions are too large, so that the energy rises, is found out before anything is
+// written.
+struct Overshooting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  static double factor;
+
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
+  {
+    const bool is_solved = CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
+    for(std::size_t v = 0; v < n; ++v)
+      for(double& coordinate : x[v])
+        coordinate *= factor;
+    return is_solved;
+  }
+};
+double Overshooting_solver::factor = 1;
+
+void test_rising_energy()
+{
+  using Traits = CGAL::ARAP_deformation_traits_3<Overshooting_solver>;
+  for(auto minimizer : {CGAL::ARAP::Minimizer::local_global, CGAL::ARAP::Minimizer::quasi_newton})
+  {
+    test_case() = "a solver that makes the energy rise";
+    Mesh mesh = make_mesh<Mesh>(sheet());
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+    CGAL::ARAP::Options options;
+    options.minimizer = minimizer;
+    d.set_options(options);
+    prepare(d, scenario(sheet()), all_vertices(mesh));
+    Overshooting_solver::factor = 10;
+    check_failure(mesh, d, Status::solver_failed, "the solver failed",
+                  [] { Overshooting_solver::factor = 1; });
+  }
+}
+
+void test_all()
+{
+  test_points();
+  test_overflow();
+  test_faces();
+  test_nothing_fixed();
+  test_nothing_free();
+  test_matrices();
+  test_solver();
+  test_rising_energy();
+}
+
+} // namespace failures
+
+// Misuse of the interface in Release, where preconditions are not checked: refused calls that say
+// so.
+namespace misuse {
+
+void test_all()
+{
+  test_misuse([](const auto& call) {
+    const CGAL::ARAP::Outcome outcome = call();
+    CHECK(outcome.status == CGAL::ARAP::Status::not_a_control_vertex);
+    CHECK(outcome.message.find("vertex 5 is not a control vertex") != std::string::npos);
+  });
+
+  // what has no status answers with something harmless
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  const Mesh::Vertex_index v(3), w(1);
+  CHECK(d.target_position(v) == mesh.point(v));
+  CHECK(d.target_weight(v) == 0);
+  d.insert_control_vertex(w);
+  d.insert_roi_vertex(v);
+  CHECK(d.target_position(v) == mesh.point(v));
+  CHECK(d.target_weight(v) == 0);
+  d.set_target_position(w, Point(3, 1, 2));
+  const auto identity = CGAL::ARAP::internal::identity_matrix();
+
+  // a visitor that changes the object is refused
+  bool was_called = false;
+  CHECK(d.deform([&](const auto&) {
+    was_called = true;
+    CHECK(!d.erase_roi_vertex(v) && !d.insert_control_vertex(v));
+    d.clear_roi_vertices();
+    d.reset();
+    d.overwrite_initial_geometry();
+    CHECK(d.set_target_position(w, Point(0, 0, 0)).status == CGAL::ARAP::Status::in_a_run);
+    CHECK(d.set_target_weight(w, 1).status == CGAL::ARAP::Status::in_a_run);
+    CHECK(d.set_options(CGAL::ARAP::Options()).status == CGAL::ARAP::Status::in_a_run);
+    CHECK(d.deform().status == CGAL::ARAP::Status::in_a_run);
+    return CGAL::ARAP::Visitor_action::proceed;
+  }));
+  CHECK(was_called && mesh.point(w) == Point(3, 1, 2));
+  CHECK(d.rotation(v) != identity);
+  CHECK(d.simplex_rotation(Mesh::Face_index(0)) == identity);
+}
+
+} // namespace misuse
+
+// The cost follows the region of interest: a deformation of a few vertices touches the points of
+// these and their neighbours, whatever the size of the mesh.
+namespace region_cost {
+
+struct Touched
+{
+  std::set<std::size_t> read, written, indexed;
+};
+
+// the points of a mesh, with a record of whose were read and written
+struct Recording_point_map
+{
+  using key_type = Mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+  using category = boost::read_write_property_map_tag;
+
+  Mesh* mesh;
+  Touched* touched;
+
+  friend Point get(const Recording_point_map& map, key_type v)
+  {
+    map.touched->read.insert(v);
+    return map.mesh->point(v);
+  }
+
+  friend void put(const Recording_point_map& map, key_type v, const Point& p)
+  {
+    map.touched->written.insert(v);
+    map.mesh->point(v) = p;
+  }
+};
+
+struct Recording_index_map
+{
+  using key_type = Mesh::Vertex_index;
+  using value_type = std::size_t;
+  using reference = std::size_t;
+  using category = boost::readable_property_map_tag;
+
+  Touched* touched;
+
+  friend std::size_t get(const Recording_index_map& map, key_type v)
+  {
+    map.touched->indexed.insert(v);
+    return v;
+  }
+};
+
+Touched deform_patch(int side)
+{
+  Mesh mesh = make_mesh<Mesh>(grid("sheet", side, side, [side](double u, double v) {
+    return Eigen::Vector3d(side * u, side * v, 0);
+  }));
+  Touched touched;
+  using Domain = CGAL::ARAP::Face_graph_domain<Mesh, Recording_point_map, Recording_index_map>;
+  CGAL::ARAP_deformation<Mesh, CGAL::Default, Domain> deformation(
+    Domain(mesh, Recording_point_map{&mesh, &touched}, Recording_index_map{&touched}));
+  const auto vertex = [side](int i, int j) { return Mesh::Vertex_index(i * (side + 1) + j); };
+  for(int i = 10; i < 20; ++i)
+    for(int j = 10; j < 20; ++j)
+      deformation.insert_roi_vertex(vertex(i, j));
+  deformation.insert_control_vertex(vertex(15, 15));
+  deformation.translate(vertex(15, 15), Eigen::Vector3d(0, 0, 2));
+  const auto report = deformation.deform(10, 0);
+  CHECK(report);
+  CHECK(report.free_vertices == 99);
+  deformation.reset();
+  return touched;
+}
+
+void test_all()
+{
+  const Touched small = deform_patch(40), large = deform_patch(400);
+  CHECK(small.written.size() == 100);
+  CHECK(large.written.size() == 100);
+  CHECK(large.read.size() == small.read.size());
+  CHECK(large.indexed.size() == small.indexed.size());
+  CHECK(large.read.size() <= 14 * 14);
+  CHECK(large.indexed.size() <= 14 * 14);
+}
+
+} // namespace region_cost
+
+int main()
+{
+  session::test_all();
+  function::test_all();
+  visitor_and_report::test_all();
+  failures::test_all();
+#ifdef CGAL_NDEBUG
+  misuse::test_all();
+#endif
+  region_cost::test_all();
   return checks_result();
 }

@@ -73,8 +73,8 @@ double relative_error(const Rows& x, const Rows& expected)
   for(std::size_t k = 0; k < x.size(); ++k)
     for(int c = 0; c < 3; ++c)
     {
-      difference = (std::max)(difference, std::abs(x[k][c] - expected[k][c]));
-      largest = (std::max)(largest, std::abs(expected[k][c]));
+      difference = larger(difference, std::abs(x[k][c] - expected[k][c]));
+      largest = larger(largest, std::abs(expected[k][c]));
       if(!std::isfinite(x[k][c]))
         return std::numeric_limits<double>::infinity();
     }
@@ -243,7 +243,7 @@ double largest_difference(const Run& a, const Run& b)
 {
   double largest = 0;
   for(std::size_t v = 0; v < a.points.size(); ++v)
-    largest = (std::max)(largest, (a.points[v] - b.points[v]).norm());
+    largest = larger(largest, (a.points[v] - b.points[v]).norm());
   return largest;
 }
 

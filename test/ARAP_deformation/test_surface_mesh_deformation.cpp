@@ -9,26 +9,27 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// CGAL::ARAP::Surface_mesh_deformation against CGAL::Surface_mesh_deformation, side by side on
-// copies of one mesh: random sequences of all their functions, and after each deform() the same
-// points.
-//
-// Kept out, as CGAL's class has no defined result there: covariances of rank one, whose closest
-// rotation is not unique; systems with a part that nothing holds, which LU may factorize; and an
-// empty region of interest, where a precondition of its matrix fails.
+// CGAL::ARAP::Surface_mesh_deformation against CGAL::Surface_mesh_deformation.
+// usage: test_surface_mesh_deformation [FIRST_SEED]
 
+// script/test --all compiles this file with CGAL's header before ours as well
+#ifdef CGAL_ARAP_TEST_CGAL_FIRST
 #include <CGAL/Surface_mesh_deformation.h>
-
-#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
+#endif
 #include <CGAL/ARAP_deformation/Surface_mesh_deformation.h>
+#include <CGAL/Surface_mesh_deformation.h>
 
 #include "include/check.h"
 #include "include/shapes.h"
 
-#include <CGAL/Polyhedron_3.h>
-#include <CGAL/Polyhedron_items_with_id_3.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
+
 #include <CGAL/assertions_behaviour.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Polyhedron_items_with_id_3.h>
 
 #include <boost/property_map/function_property_map.hpp>
 
@@ -45,6 +46,15 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+// CGAL::ARAP::Surface_mesh_deformation against CGAL::Surface_mesh_deformation, side by side on
+// copies of one mesh: random sequences of all their functions, and after each deform() the same
+// points.
+//
+// Kept out, as CGAL's class has no defined result there: covariances of rank one, whose closest
+// rotation is not unique; systems with a part that nothing holds, which LU may factorize; and an
+// empty region of interest, where a precondition of its matrix fails.
+namespace side_by_side {
 
 using CGAL::Default;
 using Polyhedron = CGAL::Polyhedron_3<Kernel>;
@@ -270,7 +280,7 @@ public:
   void compare()
   {
     for(std::size_t k = 0; k < m_size; ++k)
-      m_largest_difference = (std::max)(m_largest_difference,
+      m_largest_difference = larger(m_largest_difference,
                                         (m_ours.point(k) - m_cgal.point(k)).norm() / m_diameter);
     ++m_number_of_comparisons;
     CHECK_AT_MOST(m_largest_difference, bound);
@@ -409,7 +419,7 @@ void run_sequences(const std::string& name, unsigned int first_seed, int number_
       start(pair, shape);
       for(int k = 0; k < 60; ++k)
         step(pair);
-      largest.difference = (std::max)(largest.difference, pair.largest_difference());
+      largest.difference = larger(largest.difference, pair.largest_difference());
       largest.comparisons += pair.number_of_comparisons();
     }
   std::cout << name << ": " << largest.comparisons << " comparisons, largest difference "
@@ -702,14 +712,82 @@ void test_failures()
   CHECK(!on_quad.preprocess() && on_quad.outcome().status == Status::not_a_simplex);
 }
 
-int main(int argc, char** argv)
+void test_all(unsigned int first_seed)
 {
   // a zero energy that is rounded to less is nothing to warn of
   CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {});
-  test_sequences(argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 1);
+  test_sequences(first_seed);
   test_iterates();
   test_models();
   test_indices();
   test_failures();
+}
+
+} // namespace side_by_side
+
+// The drop-in class with its header first and CGAL's second; points of `float` and of an exact
+// kernel.
+namespace kernels {
+
+using Float_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>;
+using Exact_mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
+
+// the coordinates of all points after a run
+template <typename Deformation>
+std::vector<Eigen::Vector3d> run(const Shape& shape)
+{
+  typename Deformation::Triangle_mesh mesh =
+    make_mesh<typename Deformation::Triangle_mesh>(shape);
+  Deformation deformation(mesh);
+  prepare(deformation, scenario(shape), all_vertices(mesh));
+  deformation.deform(5, 0);
+  std::vector<Eigen::Vector3d> points;
+  for(auto v : vertices(mesh))
+  {
+    const auto& p = mesh.point(v);
+    points.emplace_back(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
+  }
+  return points;
+}
+
+double largest_distance(const std::vector<Eigen::Vector3d>& a,
+                        const std::vector<Eigen::Vector3d>& b)
+{
+  double largest = 0;
+  for(std::size_t k = 0; k < a.size(); ++k)
+    largest = larger(largest, (a[k] - b[k]).norm());
+  return largest;
+}
+
+void test_all()
+{
+  using Ours = CGAL::ARAP::Surface_mesh_deformation<Mesh>;
+  using Cgals = CGAL::Surface_mesh_deformation<Mesh>;
+  static_assert(std::is_same_v<Ours::Point, Cgals::Point>);
+  static_assert(std::is_same_v<Ours::Weight_calculator, Cgals::Weight_calculator>);
+  static_assert(std::is_same_v<Ours::Vertex_index_map, Cgals::Vertex_index_map>);
+  static_assert(std::is_same_v<Ours::Hedge_index_map, Cgals::Hedge_index_map>);
+  static_assert(std::is_same_v<Ours::Roi_vertex_range, Cgals::Roi_vertex_range>);
+  for(const Shape& shape : {shapes()[2], shapes()[7]})
+  {
+    test_case() = shape.name;
+    const auto ours = run<Ours>(shape);
+    CHECK(largest_distance(ours, shape.points) > 0.01 * shape.diameter());
+    CHECK_AT_MOST(largest_distance(ours, run<Cgals>(shape)), 1e-8 * shape.diameter());
+    CHECK_AT_MOST(largest_distance(
+                    ours, run<CGAL::ARAP::Surface_mesh_deformation<Float_mesh>>(shape)),
+                  1e-5 * shape.diameter());
+    CHECK_AT_MOST(largest_distance(
+                    ours, run<CGAL::ARAP::Surface_mesh_deformation<Exact_mesh>>(shape)),
+                  1e-12 * shape.diameter());
+  }
+}
+
+} // namespace kernels
+
+int main(int argc, char** argv)
+{
+  side_by_side::test_all(argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 1);
+  kernels::test_all();
   return checks_result();
 }

@@ -244,7 +244,7 @@ double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells, double
   {
     ours.run_after_identity(iterations, is_identity);
     cgal.run(iterations);
-    largest = (std::max)(largest, largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal);
+    largest = larger(largest, largest_distance(ours.mesh(), cgal.mesh()) / scenario.diagonal);
   }
   verify_at_most(largest, bound, "the largest difference between our iterates and CGAL's, "
                                 "relative to the bounding box,");

@@ -41,6 +41,9 @@ inline void verify_at_most(double value, double largest, const std::string& what
   throw Failure(message.str());
 }
 
+// The larger of two errors. What is not a number is the largest of all: std::max() would lose it.
+inline double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
+
 class Stopwatch
 {
   using Clock = std::chrono::steady_clock;

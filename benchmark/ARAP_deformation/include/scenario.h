@@ -191,7 +191,7 @@ inline double largest_distance(const Mesh& a, const Mesh& b)
 {
   double largest = 0;
   for(vertex_descriptor v : vertices(a))
-    largest = (std::max)(largest, CGAL::squared_distance(a.point(v), b.point(v)));
+    largest = larger(largest, CGAL::squared_distance(a.point(v), b.point(v)));
   return std::sqrt(largest);
 }
 

@@ -16,6 +16,7 @@
 // failure, and returns checks_result() from main().
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -44,6 +45,9 @@ inline bool check_at_most(double value, double bound, const char* text, const ch
     std::cerr << "    " << value << " is not at most " << bound << std::endl;
   return false;
 }
+
+// The larger of two errors. What is not a number is the largest of all: std::max() would lose it.
+inline double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
 #define CHECK(condition) check(static_cast<bool>(condition), #condition, __FILE__, __LINE__)
 #define CHECK_AT_MOST(value, bound) \

@@ -15,6 +15,7 @@
 // Runs the command arap_deform as a user does, in a folder of its own.
 
 #include "check.h"
+#include "length.h"
 #include "sanitizer.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -24,11 +25,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -109,23 +112,25 @@ inline void check_refused(const std::string& arguments, int exit_code, const std
   CHECK(content(folder / "precious.off") == "precious");
 }
 
-// Calls test() in a new folder with the command whose path is the argument of the program; without
-// it nothing is tested. Returns what main() returns.
-template <typename Test>
-int test_command(int argc, char** argv, const Test& test)
+// Calls each test in a new folder with the command whose path is the argument of the program. Returns
+// what main() returns; where there is no command the test has failed.
+inline int test_command(int argc, char** argv, const std::vector<std::function<void()>>& tests)
 {
-  if(argc < 2)
+  if(argc < 2 || !fs::is_regular_file(argv[1]))
   {
-    std::cout << "NOTICE: no path of the command arap_deform is given; nothing was tested."
+    std::cerr << "usage: " << argv[0] << " PATH_OF_ARAP_DEFORM [...]; nothing was tested"
               << std::endl;
-    return EXIT_SUCCESS;
+    return EXIT_FAILURE;
   }
-  command = fs::absolute(argv[1]).string();
-  const std::string unique = std::to_string(std::random_device()());
-  folder = fs::temp_directory_path() / ("arap_deform_test_" + unique);
-  fs::create_directory(folder);
-  test();
-  fs::remove_all(folder);
+  for(const auto& test : tests)
+  {
+    command = fs::absolute(argv[1]).string();
+    const std::string unique = std::to_string(std::random_device()());
+    folder = fs::temp_directory_path() / ("arap_deform_test_" + unique);
+    fs::create_directory(folder);
+    test();
+    fs::remove_all(folder);
+  }
   return checks_result();
 }
 

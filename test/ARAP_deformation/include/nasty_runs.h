@@ -16,9 +16,11 @@
 // and an energy that never rises, but for rounding, or is refused with a sentence and changes
 // nothing.
 
+#include "length.h"
 #include "nasty_shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <algorithm>
@@ -102,7 +104,7 @@ inline double largest_rise(const Report& report)
 {
   double largest = 0;
   for(std::size_t k = 1; k < report.energy.size(); ++k)
-    largest = (std::max)(largest, report.energy[k] / report.energy[k - 1] - 1);
+    largest = larger(largest, report.energy[k] / report.energy[k - 1] - 1);
   return largest;
 }
 
@@ -179,8 +181,11 @@ inline std::string name_of(const Options& options)
 template <std::size_t N, typename Function>
 void for_each_case(const Nasty_shape<N>& shape, const std::string& structure, const Function& f)
 {
+  static Every_nth is_run(7);
   for(const Handles& handles : handles_for(shape.points, N == 4))
     for_all_options([&](const Options& options) {
+      if(!is_run())
+        return;
       test_case() = structure + ", " + shape.name + ", handles: " + handles.name + ", " +
                     name_of(options);
       f(handles, options);
@@ -204,6 +209,26 @@ void test_in_place_of(const std::string& structure, const Domain& domain,
       const auto c = Domain::coordinates(domain.point(v));
       return Point(c[0], c[1], c[2]);
     }, handles, options);
+  });
+}
+
+// Calls f(shape) for all that can be stored in a data structure for halfedges.
+template <typename Function>
+void for_each_manifold(const Function& f)
+{
+  for(const Nasty_surface& shape : manifold(nasty_surfaces()))
+    f(shape);
+  for(const Nasty_polygons& shape : manifold(nasty_polygons()))
+    f(shape);
+}
+
+template <typename Graph>
+void test_shelf_as_graph(const std::string& structure)
+{
+  for_each_manifold([&](const auto& shape) {
+    Graph mesh = make_mesh<Graph>(shape.points, shape.simplices);
+    test_in_place_of(structure, CGAL::ARAP::Face_graph_domain<Graph>(mesh), all_vertices(mesh),
+                     shape);
   });
 }
 

@@ -25,6 +25,13 @@
 using Rows = std::vector<CGAL::ARAP::Coordinates>;
 using Row_major = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+// the largest magnitude of its entries, or what is not a number if one of them is
+template <typename Matrix>
+double largest_entry(const Matrix& m)
+{
+  return m.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>();
+}
+
 // others with each call, from -size to size
 inline Rows random_rows(std::size_t n, double size = 1)
 {

@@ -14,6 +14,8 @@
 
 // Small shapes made in code, and a handle scenario that fits them all.
 
+#include "check.h"
+
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -190,7 +192,7 @@ inline double largest_distance(const std::vector<Point>& a, const std::vector<Po
 {
   double largest = a.size() == b.size() ? 0 : 1e300;
   for(std::size_t k = 0; k < a.size() && k < b.size(); ++k)
-    largest = (std::max)(largest, (vector(a[k]) - vector(b[k])).norm());
+    largest = larger(largest, (vector(a[k]) - vector(b[k])).norm());
   return largest;
 }
 

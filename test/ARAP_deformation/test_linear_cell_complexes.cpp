@@ -10,9 +10,9 @@
 // Author(s)     : The ARAP_deformation authors
 
 // Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps,
-// and complexes of tetrahedra over both.
+// complexes of tetrahedra over both, and shapes that are not clean.
 
-#include "include/domains.h"
+#include "include/nasty_runs.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>
@@ -152,6 +152,22 @@ void check_refused(const std::string& name, const Make& make)
   CHECK(report.message.find("vertex ") == 0);
 }
 
+// The vertices of a good complex are moved to where they should not be.
+void test_shelf_of_volumes()
+{
+  const std::vector<Nasty_volume> shelf = nasty_points_of_a_volume();
+  const Nasty_volume& good = shelf.front();
+  Volumes complex;
+  for(const auto& t : good.simplices)
+    complex.make_tetrahedron(point(good.points[t[0]]), point(good.points[t[1]]),
+                             point(good.points[t[2]]), point(good.points[t[3]]));
+  sew(complex);
+  const Linear_cell_complex_domain_3<Volumes> domain(complex);
+  const auto vertices = vertices_at(domain, good.points);
+  for(const Nasty_volume& shape : shelf)
+    test_in_place_of("linear cell complex of volumes", domain, vertices, shape);
+}
+
 int main()
 {
   const Point a(0, 0, 0), b(1, 0, 0), c(1, 1, 0.5), d(0, 1, 0);
@@ -195,5 +211,8 @@ int main()
   test_case() = "a generalized map of dimension 3";
   compare_with_reference<3, Generalized_volumes>(shape.points, shape.tetrahedra, scenario(shape),
                                                  shape.diameter());
+  test_shelf_as_graph<Graph>("linear cell complex");
+  test_shelf_of_volumes();
+  print_ends();
   return checks_result();
 }

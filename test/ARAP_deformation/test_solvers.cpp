@@ -9,32 +9,127 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
-// Each solver that ships conforms to the concept, and broken ones are caught.
+// The solvers: conformance, and one deformation with each of them and with each rotation fitting.
 
 #include "include/check.h"
 #include "include/conformance.h"
+#include "include/shapes.h"
 
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
+#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-#include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
+#include <CGAL/ARAP_deformation_traits_3.h>
 
+#include <CGAL/Default.h>
+#include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
+#include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>
 #include <CGAL/Eigen_solver_traits.h>
 
 #include <Eigen/Dense>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <memory>
+#include <random>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+// The solver: three columns at once, against a dense solution; refusal of what is not positive
+// definite; one analysis for several matrices of one pattern.
+namespace default_solver {
+
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Sparse_matrix;
+
+std::mt19937 random_engine(5);
+std::uniform_real_distribution<double> entry(-1, 1);
+
+// the Laplacian of a grid graph with random weights, plus `shift` times the identity
+Sparse_matrix grid_laplacian(int side, double shift)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto connect = [&](int i, int j) {
+    const double w = 1.5 + entry(random_engine);
+    entries.emplace_back(i, i, w);
+    entries.emplace_back(j, j, w);
+    entries.emplace_back((std::max)(i, j), (std::min)(i, j), -w);
+  };
+  for(int i = 0; i < side; ++i)
+    for(int j = 0; j < side; ++j)
+    {
+      if(i + 1 < side) connect(i * side + j, (i + 1) * side + j);
+      if(j + 1 < side) connect(i * side + j, i * side + j + 1);
+    }
+  for(int i = 0; i < side * side; ++i)
+    entries.emplace_back(i, i, shift);
+  Sparse_matrix a(side * side, side * side);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+void check_solution(CGAL::ARAP::Multifrontal_cholesky_solver& solver, const Sparse_matrix& a)
+{
+  const auto n = std::size_t(a.rows());
+  Eigen::MatrixXd b =
+    Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [] { return entry(random_engine); });
+  std::vector<Coordinates> x(n);
+  for(std::size_t k = 0; k < n; ++k)
+    x[k] = {b(k, 0), b(k, 1), b(k, 2)};
+  CHECK(solver.solve(n, x.data()));
+  const Eigen::MatrixXd expected =
+    Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>().ldlt().solve(b);
+  double error = 0;
+  for(std::size_t k = 0; k < n; ++k)
+    for(int c = 0; c < 3; ++c)
+      error = larger(error, std::abs(x[k][c] - expected(k, c)));
+  CHECK_AT_MOST(error, 1e-10 * expected.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+}
+
+void test_all()
+{
+  CGAL::ARAP::Multifrontal_cholesky_solver solver;
+  for(int side : {1, 2, 5, 17})
+  {
+    const Sparse_matrix a = grid_laplacian(side, 0.01), same_pattern = grid_laplacian(side, 0.5);
+    CHECK(solver.analyze(a));
+    CHECK(solver.factorize(a));
+    check_solution(solver, a);
+    check_solution(solver, a);
+    CHECK(solver.factorize(same_pattern));
+    check_solution(solver, same_pattern);
+
+    // has no factor, and leaves this one alone
+    const CGAL::ARAP::Multifrontal_cholesky_solver copy(solver);
+    CGAL::ARAP::Multifrontal_cholesky_solver moved(std::move(solver));
+    check_solution(moved, same_pattern);
+    solver = CGAL::ARAP::Multifrontal_cholesky_solver(copy);
+
+    CHECK(moved.analyze(a));
+    CHECK(!moved.factorize(grid_laplacian(side, -1)));
+    CHECK(moved.factorize(a)); // a failure is not the end
+    check_solution(moved, a);
+  }
+}
+
+} // namespace default_solver
+
+// Each solver that ships conforms to the concept, and broken ones are caught.
+namespace conformance {
 
 using namespace CGAL::ARAP;
 
@@ -289,7 +384,7 @@ struct Throws : Whole_solver
   bool factorize(const Sparse_matrix&) { throw std::runtime_error("no licence"); }
 };
 
-int main()
+void test_all()
 {
   CHECK_CONFORMS(check_sparse_solver(Multifrontal_cholesky_solver()));
   CHECK_CONFORMS(check_sparse_solver(Eigen_cholesky_solver()));
@@ -351,5 +446,132 @@ int main()
   }
   CHECK(refuses(Eigen_conjugate_gradient_solver(), not_a_number));
   CHECK(refuses(Sparse_linear_algebra_adaptor<LU>(), not_a_number));
+}
+
+} // namespace conformance
+
+// One deformation, solved by all solvers and with all rotation fittings: how far the shapes are
+// from that of the default, relative to the bounding box.
+namespace swaps {
+
+using namespace CGAL::ARAP;
+
+using Matrix = CGAL::Eigen_sparse_matrix<double>::EigenType;
+using CGAL_LU = CGAL::Eigen_solver_traits<Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>>;
+using CGAL_LDLT = CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Matrix>>;
+using CGAL_svd = CGAL::Deformation_Eigen_closest_rotation_traits_3;
+using CGAL_polar = CGAL::Deformation_Eigen_polar_closest_rotation_traits_3;
+
+class Swaps
+{
+public:
+  explicit Swaps(unsigned int iterations) : m_iterations(iterations) {}
+
+  template <typename Traits>
+  void operator()(const char* name, const Traits& traits, double bound)
+  {
+    double largest = 0;
+    for(const Cell_scheme& cells :
+        {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+      for(double target_weight : {std::numeric_limits<double>::infinity(), 0.5})
+      {
+        const std::size_t k = m_run++;
+        if(k == m_default.size())
+          m_default.push_back(deformed(traits, cells, target_weight));
+        const std::vector<Eigen::Vector3d> points = deformed(traits, cells, target_weight);
+        for(std::size_t v = 0; v < points.size(); ++v)
+          largest = larger(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
+      }
+    m_run = 0;
+    std::printf("%-60s %.1e\n", name, largest);
+    test_case() = name;
+    CHECK_AT_MOST(largest, bound);
+  }
+
+private:
+  template <typename Traits>
+  std::vector<Eigen::Vector3d> deformed(const Traits& traits, const Cell_scheme& cells,
+                                        double target_weight) const
+  {
+    Mesh mesh = make_mesh<Mesh>(m_shape);
+    CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
+    Options options;
+    options.cells = cells;
+    deformation.set_options(options);
+    prepare(deformation, scenario(m_shape), all_vertices(mesh));
+    for(auto v : deformation.control_vertices())
+      CHECK(deformation.set_target_weight(v, target_weight));
+    CHECK(deformation.deform(m_iterations, 0));
+    std::vector<Eigen::Vector3d> points;
+    for(auto v : mesh.vertices())
+      points.push_back(vector(mesh.point(v)));
+    return points;
+  }
+
+  Shape m_shape = grid("bumpy sheet", 48, 36, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, 1.5 * v, 0.1 * std::sin(19 * u) * std::cos(13 * v));
+  });
+  unsigned int m_iterations;
+  std::size_t m_run = 0;
+  std::vector<std::vector<Eigen::Vector3d>> m_default; // for each case
+};
+
+template <typename Solver>
+CGAL::ARAP_deformation_traits_3<Solver> with_solver(const Solver& solver = Solver())
+{
+  return CGAL::ARAP_deformation_traits_3<Solver>(solver);
+}
+
+template <typename Rotation>
+CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Rotation> with_rotation()
+{
+  return CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Rotation>();
+}
+
+void test_all()
+{
+  Swaps swaps(20);
+  swaps("Multifrontal_cholesky_solver, Newton_closest_rotation (default)",
+        CGAL::ARAP_deformation_traits_3<>(), 0);
+
+  const double direct = 1e-8;
+  swaps("Eigen_cholesky_solver", with_solver<Eigen_cholesky_solver>(), direct);
+  swaps("Eigen_sparse_solver<Eigen::SimplicialLLT>",
+        with_solver<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>(), direct);
+  swaps("Eigen_LDLT_solver", with_solver<Eigen_LDLT_solver>(), direct);
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  swaps("Cholmod_solver", with_solver<Cholmod_solver>(), direct);
+#endif
+  swaps("CGAL::Eigen_solver_traits<Eigen::SparseLU>",
+        with_solver<Sparse_linear_algebra_adaptor<CGAL_LU>>(), direct);
+  swaps("CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT>",
+        with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>(), direct);
+
+  // the errors of these are corrections that come an iteration later
+  swaps("Single_precision_cholesky_solver", with_solver<Single_precision_cholesky_solver>(), 1e-6);
+  swaps("Eigen_conjugate_gradient_solver", with_solver<Eigen_conjugate_gradient_solver>(), 1e-8);
+  for(double tolerance : {1e-8, 1e-4})
+  {
+    const Eigen_conjugate_gradient_solver solver(
+      [tolerance](auto& gradients) { gradients.setTolerance(tolerance); });
+    swaps(tolerance == 1e-8 ? "Eigen_conjugate_gradient_solver, tolerance 1e-8"
+                            : "Eigen_conjugate_gradient_solver, tolerance 1e-4",
+          with_solver(solver), 10 * tolerance);
+  }
+
+  swaps("SVD_closest_rotation", with_rotation<SVD_closest_rotation>(), direct);
+  swaps("CGAL::Deformation_Eigen_closest_rotation_traits_3",
+        with_rotation<Closest_rotation_traits_adaptor<CGAL_svd>>(), direct);
+  swaps("CGAL::Deformation_Eigen_polar_closest_rotation_traits_3",
+        with_rotation<Closest_rotation_traits_adaptor<CGAL_polar>>(), direct);
+}
+
+} // namespace swaps
+
+int main()
+{
+  default_solver::test_all();
+  conformance::test_all();
+  swaps::test_all();
   return checks_result();
 }

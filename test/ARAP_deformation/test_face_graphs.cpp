@@ -9,20 +9,33 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Surface_mesh: kernels, a class derived from it, removed elements, a const mesh with an output
-// map, a part of it as a Face_filtered_graph. Polyhedron_3, and point maps of one's own, are in
-// test_mesh_types.cpp.
+// Surfaces in data structures for halfedges: kernels, a class derived from Surface_mesh, removed
+// elements, a const mesh with an output map, a part of a mesh, maps of a user's, other orders of
+// vertices and faces, polygons, and shapes that are not clean.
 
-#include "include/domains.h"
+#include "include/nasty_runs.h"
 
+#include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/arap_deform.h>
+
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/Face_filtered_graph.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Polyhedron_items_with_id_3.h>
 
+#include <boost/property_map/property_map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
 
 // what newer versions of CGAL ship as CGAL/Testsuite/DerivedSurfaceMesh.h
 struct Derived_mesh : Mesh
@@ -40,6 +53,8 @@ template <typename Mesh_>
 void test_mesh_type(const std::string& name, double tolerance = 1e-10)
 {
   test_case() = name;
+  static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Mesh_>::Deformation_domain,
+                               Face_graph_domain<Mesh_>>);
   for(const Shape& shape : shapes())
   {
     const Scenario s = scenario(shape);
@@ -210,8 +225,107 @@ void test_filtered_graph()
   }
 }
 
+// the points in a map of the user's, outside of the mesh
+Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme cells)
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  std::map<Mesh::Vertex_index, Point> points;
+  for(auto v : mesh.vertices())
+  {
+    points[v] = mesh.point(v);
+    mesh.point(v) = CGAL::ORIGIN;
+  }
+  const auto domain = CGAL::ARAP::make_face_graph_domain(
+    mesh, CGAL::parameters::vertex_point_map(boost::make_assoc_property_map(points)));
+  const Result result = deform(domain, all_vertices(mesh), s, cells);
+  for(auto v : mesh.vertices())
+    CHECK(mesh.point(v) == CGAL::ORIGIN);
+  return result;
+}
+
+// vertices, faces and the corners of each face in another order
+Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
+{
+  std::mt19937 random(11);
+  std::vector<std::size_t> place(shape.points.size());
+  std::iota(place.begin(), place.end(), std::size_t(0));
+  std::shuffle(place.begin(), place.end(), random);
+  Shape shuffled = shape;
+  Scenario moved = s;
+  for(std::size_t v = 0; v < place.size(); ++v)
+  {
+    shuffled.points[place[v]] = shape.points[v];
+    moved.selection[place[v]] = s.selection[v];
+    moved.targets[place[v]] = s.targets[v];
+  }
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
+  for(auto& t : shuffled.triangles)
+  {
+    std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    for(auto& v : t)
+      v = place[v];
+  }
+  Mesh mesh = make_mesh<Mesh>(shuffled);
+  const Result result = deform(Face_graph_domain<Mesh>(mesh), all_vertices(mesh), moved, cells);
+  Result restored = result;
+  for(std::size_t v = 0; v < place.size(); ++v)
+    restored.points[v] = result.points[place[v]];
+  return restored;
+}
+
+void test_own_map_and_order()
+{
+  for(const Shape& shape : shapes())
+    for(Cell_scheme cells : all_cell_schemes)
+    {
+      test_case() = "own map and order, " + shape.name;
+      const Scenario s = scenario(shape);
+      const Result expected = reference<2>(shape.points, shape.triangles, s, cells);
+      compare(expected, deform_with_own_map(shape, s, cells), shape.diameter());
+      compare(expected, deform_shuffled(shape, s, cells), shape.diameter());
+    }
+}
+
+template <typename Mesh_>
+void test_polygons()
+{
+  test_case() = "polygons";
+  Polygons polygons;
+  const Shape shape = tube(polygons);
+  const Scenario s = scenario(shape);
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    Mesh_ mesh = make_mesh<Mesh_>(shape.points, polygons);
+    const Face_graph_domain<Mesh_> domain(mesh);
+    check_conforms(domain);
+    compare(reference<2>(shape.points, polygons, s, cells),
+            deform(domain, all_vertices(mesh), s, cells), shape.diameter());
+  }
+}
+
+// shapes that are not clean, where the points are written to another place
+template <std::size_t N>
+void test_with_output_map(const Nasty_shape<N>& shape)
+{
+  const Mesh mesh = make_mesh<Mesh>(shape.points, shape.simplices);
+  for_each_case(shape, "output map", [&](const Handles& handles, const Options& options) {
+    std::map<Mesh::Vertex_index, Point> output;
+    const auto output_map = boost::make_assoc_property_map(output);
+    using Domain = CGAL::ARAP::Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default,
+                                                 decltype(output_map)>;
+    CGAL::ARAP_deformation<Domain> deformation(
+      Domain(mesh, mesh.points(), get(boost::vertex_index, mesh), output_map));
+    const bool is_done = run(deformation, all_vertices(mesh), [&](auto v) {
+      const auto written = output.find(v);
+      return written == output.end() ? mesh.point(v) : written->second;
+    }, handles, options);
+    CHECK(output.size() == (is_done ? num_vertices(mesh) : 0));
+  });
+}
+
 int main()
 {
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   test_mesh_type<Mesh>("Simple_cartesian<double>");
   test_mesh_type<Derived_mesh>("a derived class");
   test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
@@ -220,9 +334,19 @@ int main()
     "EPICK");
   test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>>(
     "EPECK");
+  test_mesh_type<Polyhedron>("Polyhedron_3");
+  test_mesh_type<CGAL::Polyhedron_3<Kernel, CGAL::Polyhedron_items_with_id_3>>(
+    "Polyhedron_3 with ids");
   test_removed_elements();
   test_const_mesh();
   test_bare_points();
   test_filtered_graph();
+  test_own_map_and_order();
+  test_polygons<Mesh>();
+  test_polygons<Polyhedron>();
+  test_shelf_as_graph<Mesh>("Surface_mesh");
+  test_shelf_as_graph<Polyhedron>("Polyhedron_3");
+  for_each_manifold([](const auto& shape) { test_with_output_map(shape); });
+  print_ends();
   return checks_result();
 }

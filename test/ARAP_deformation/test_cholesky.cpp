@@ -151,13 +151,13 @@ Eigen::MatrixXd dense(const Sparse_matrix& a)
 double error(const Eigen::MatrixXd& a, const Rows& b, const Rows& x)
 {
   const Eigen::MatrixXd expected = a.partialPivLu().solve(as_matrix(b));
-  return (as_matrix(x) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+  return largest_entry(as_matrix(x) - expected) / largest_entry(expected);
 }
 
 double relative_residual(const Sparse_matrix& a, const Rows& b, const Rows& x)
 {
   const Eigen::MatrixXd product = a.selfadjointView<Eigen::Lower>() * as_matrix(x);
-  return (product - as_matrix(b)).cwiseAbs().maxCoeff() / as_matrix(b).cwiseAbs().maxCoeff();
+  return largest_entry(product - as_matrix(b)) / largest_entry(as_matrix(b));
 }
 
 Sparse_matrix sparse(const Eigen::MatrixXd& m)

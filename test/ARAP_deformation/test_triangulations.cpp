@@ -10,9 +10,10 @@
 // Author(s)     : The ARAP_deformation authors
 
 // The domain of 3D triangulations: all finite cells or some of them, weights that are kept, caches
-// that are renewed, and the triangulation of tetrahedral remeshing.
+// that are renewed, the triangulation of tetrahedral remeshing, and vertices that are moved to where
+// they should not be.
 
-#include "include/domains.h"
+#include "include/nasty_runs.h"
 
 #include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -205,6 +206,18 @@ void test_remeshing()
   compare_with_reference(domain);
 }
 
+void test_shelf()
+{
+  const std::vector<Nasty_volume> shelf = nasty_points_of_a_volume();
+  CGAL::Delaunay_triangulation_3<Epick> t;
+  std::vector<decltype(t)::Vertex_handle> vertices;
+  for(const auto& p : shelf.front().points)
+    vertices.push_back(t.insert(Epick::Point_3(p.x(), p.y(), p.z())));
+  for(const Nasty_volume& shape : shelf)
+    test_in_place_of("triangulation", CGAL::ARAP::make_triangulation_domain(t), vertices, shape);
+  print_ends();
+}
+
 int main()
 {
   test_plain();
@@ -212,5 +225,6 @@ int main()
   test_circumcenters();
   test_weights();
   test_remeshing();
+  test_shelf();
   return checks_result();
 }

@@ -1,0 +1,537 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The command arap_deform with files, arguments, pipes and signals that are made to break it.
+// usage: test_command_files PATH_OF_ARAP_DEFORM [NUMBER_OF_RUNS [FIRST_SEED]]
+
+#include "include/check.h"
+#include "include/command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+// The command arap_deform with files that lie about their counts, or are damaged otherwise: CGAL's
+// readers of them crash, or allocate without bound. script/fuzz finds such files. The path of the
+// command is the argument; without it nothing is tested.
+namespace damaged {
+
+const std::string rest = " --selection in.sel --transform in.def --threads 1 -o new.off";
+
+void refuse(const std::string& extension, const std::string& text, const std::string& phrase)
+{
+  write("bad." + extension, text);
+  check_refused("bad." + extension + rest, 1, "bad." + extension + ": " + phrase);
+}
+
+void accept(const std::string& file, const std::string& text)
+{
+  test_case() = file;
+  write(file, text);
+  const Run done = run(file + rest);
+  if(!CHECK(done.exit_code == 0))
+    std::cerr << "    " << done.err;
+  fs::remove(folder / "new.off");
+}
+
+void test_off()
+{
+  const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const std::string good = "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 3\n";
+  accept("good.off", good);
+  accept("isolated.off", "OFF\n4 1 0\n" + square + "3 0 2 3\n");
+  refuse("off", "OFF\n2147483647 2 0\n" + square, "vertex 4 is missing");
+  refuse("off", "OFF\n4 2147483647 0\n" + square + "3 0 1 2\n", "face 1 is missing");
+  for(const std::string corners : {"4000000000", "1e18", "1e300", "-1", "-1e300", "4", "x"})
+    refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n" + corners + " 0 2 3\n",
+           "face 1 has fewer vertices than it announces");
+  for(const std::string corner : {"-1", "4", "1e300", "-1e300"})
+    refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 " + corner + "\n",
+           "face 1 has a vertex that does not exist");
+  refuse("off", std::string("OFF BINARY\n\0\0\0\4\177\377\377\377\0\0\0\0", 23), "is binary");
+  refuse("off", "4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 0\n3 0 1 2\n", "vertex 2 is at infinity");
+  refuse("off", "STOFF\n3 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 0 1\n3 0 1 2\n",
+         "has texture coordinates");
+
+  test_case() = "normals of vertices, which the deformation makes wrong";
+  write("normals.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n");
+  CHECK(run("normals.off --selection three.sel --transform in.def -o new.off").exit_code == 0);
+  CHECK(content(folder / "new.off").substr(0, 3) == "OFF");
+  fs::remove(folder / "new.off");
+
+  // colours, which CGAL reads without a look at how many numbers there are
+  const auto coloured = [](const std::string& vertex, const std::string& face) {
+    return "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 " + vertex +
+           "\n3 0 1 2 3\n3 0 2 3 " + face + '\n';
+  };
+  accept("coloured.off", coloured("0.5 0.25 1 0.5", "255 0 17"));
+  for(const std::string none : {"", "1 2"})
+  {
+    refuse("off", coloured(none, "3"), "vertex 3 has a colour that is neither one number nor");
+    refuse("off", coloured("1 2 3", none), "face 1 has a colour that is neither one number nor");
+  }
+  for(const std::string colour : {"-1", "1e300", "-1 2 3", "1 2 256"})
+    refuse("off", coloured("1 2 3", colour), "face 1 has a colour that is not from 0 to 255");
+  refuse("off", coloured("1 2 2.5", "3"), "vertex 3 has a colour that is neither of integers");
+}
+
+void test_obj()
+{
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
+  accept("isolated.obj", "v 7 7 7\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\n");
+  accept("good.obj", square + "f -4 -2 -1\n");
+  for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
+    refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or is no oriented");
+  refuse("obj", square + "f 1 3 5\n", "face 1 has a vertex that does not exist");
+  refuse("obj", "f 1 2 -3\n" + square, "face 0 has a vertex that does not exist");
+  for(const std::string corner : {"6", "-5", "-2147483648", "2147483647", "2147483648"})
+    refuse("obj", square + "f 1 3 " + corner + "\n", "");
+}
+
+std::string ply(const std::string& format, const std::string& coordinate, const std::string& number,
+                const std::string& list, const std::string& more = "")
+{
+  return "ply\nformat " + format + " 1.0\nelement vertex " + number + "\nproperty " + coordinate +
+         " x\nproperty " + coordinate + " y\nproperty " + coordinate + " z\n" + more +
+         "element face 2\nproperty list " + list + " vertex_indices\nend_header\n";
+}
+
+void test_ply()
+{
+  const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", faces = "3 0 1 2\n3 0 2 3\n";
+  for(const std::string list : {"uchar int", "int int", "uint32 uint32", "char uint", "short int"})
+    accept("good.ply", ply("ascii", "float", "4", list) + square + faces);
+  const auto refuse_ply = [&](const std::string& text, const std::string& phrase) {
+    refuse("ply", text, phrase);
+  };
+
+  // counts
+  for(const std::string count : {"4294967295", "18446744073709551615", "-1"})
+    refuse_ply(ply("ascii", "float", count, "uchar int") + square + faces,
+               "announces more elements than fit into its ");
+  for(const std::string size : {"uint", "int"})
+  {
+    refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n2000000000 0 2 3\n",
+               "announces more entries of vertex_indices than fit into its ");
+    refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n99999999999 0 2 3\n",
+               "ends before all its elements, or holds something that is not a number");
+    for(const std::string format : {"binary_little_endian", "binary_big_endian"})
+      refuse_ply(ply(format, "float", "1", size + " int") + std::string(12, '\0') +
+                   std::string(12, '\177'),
+                 "announces more entries of vertex_indices than fit into its ");
+  }
+  refuse_ply(ply("ascii", "float", "4", "char int") + square + "3 0 1 2\n-1 0 2 3\n",
+             "cannot be read");
+  refuse_ply("ply\nformat ascii 1.0\nelement vertex 9999999999999\nend_header\n",
+             "announces more elements");
+
+  // corners
+  for(const std::string corner : {"4", "-1", "2147483647"})
+    refuse_ply(ply("ascii", "float", "4", "uchar int") + square + "3 0 1 2\n3 0 2 " + corner + "\n",
+               "face 1 has a vertex that does not exist");
+
+  // types
+  refuse_ply("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "has a property before any");
+  refuse_ply(ply("ascii", "int", "4", "uchar int") + square + faces, "the property x is not float");
+  refuse_ply(ply("ascii", "list uchar float", "4", "uchar int") + square + faces,
+             "the property x is not float or double");
+  refuse_ply(ply("ascii", "quad", "4", "uchar int") + square + faces, "has a property of an");
+  refuse_ply(ply("ascii", "float", "4", "uchar short") + square + faces,
+             "the property vertex_indices is not a list of int or uint");
+  refuse_ply(ply("ascii", "float", "4", "float int") + square + faces, "has a list with a");
+  const std::string coloured = "0 0 0 1 1\n1 0 0 1 1\n1 1 0 1 1\n0 1 0 1 1\n";
+  refuse_ply(ply("ascii", "float", "4", "uchar int", "property uchar red\nproperty float blue\n") +
+               coloured + faces, "the property blue is not uchar");
+  const std::string halfedges = "element halfedge 1\nproperty int source\nproperty int target\n";
+  refuse_ply(ply("ascii", "float", "4", "uchar int", halfedges) + square + "0 1\n" + faces,
+             "the property source is not uint");
+  refuse_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n", "has no end of its");
+}
+
+void test_stl()
+{
+  refuse("stl", std::string(80, 'x') + std::string(4, '\377') + std::string(50, '\0'),
+         "cannot be read");
+  refuse("stl", std::string(80, 'x'), "");
+}
+
+void test_text_files()
+{
+  write("odd.def", "1 0 0 0\n0 1 0 \33[2J" + std::string(1000, 'x') + "\n");
+  check_refused("good.off --selection in.sel --transform odd.def -o new.off", 1,
+                "odd.def, line 2: '?[2Jxxx");
+  test_case() = "a large transform";
+  write("large.def", "1e60 0 0 0\n0 1e60 0 0\n0 0 1e60 0\n0 0 0 1\n");
+  CHECK(run("good.off --selection in.sel --transform large.def -o new.off").exit_code == 0);
+  fs::remove(folder / "new.off");
+  // arguments that Boost.Program_options takes for its own placeholders
+  for(const std::string option : {"--iterations %value%", "--%canonical_option% 3"})
+    check_refused("good.off " + option + rest, 2, "an option is missing, not known or given twice");
+  check_refused("'' --selection in.sel --transform in.def -o new.off", 2, "a file is empty");
+}
+
+void test_all()
+{
+  limit_command();
+  write("precious.off", "precious");
+  write("in.sel", "0\n0\n1\n2\n");
+  write("three.sel", "0\n0\n2\n");
+  write("in.def", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  test_off();
+  test_obj();
+  test_ply();
+  test_stl();
+  test_text_files();
+}
+
+} // namespace damaged
+
+// The command arap_deform with pipes, devices, links, what the shell has opened, and signals: it
+// does not hang, and whatever fails, all files are as they were. The path of the command is the
+// argument; without it nothing is tested.
+namespace outputs {
+
+const std::string mesh = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+const std::string call = "arap in.off --selection in.sel -o in.off ";
+
+// Runs a line of the shell in which arap stands for the command, and returns the exit code of that.
+// `limit` says how it is ended if it takes too long.
+Run run_arap(const std::string& line, const std::string& limit = "-s KILL 20")
+{
+  test_case() = line;
+  write("in.off", mesh);
+  Run result = run_line("arap() { timeout " + limit + " \"" + command +
+                        "\" \"$@\" --transform in.def --threads 1; echo $? > status; }; " + line);
+  const std::string status = content(folder / "status");
+  result.exit_code = status.empty() ? -1 : std::stoi(status);
+  fs::remove(folder / "status");
+  return result;
+}
+
+bool is_deformed() { return content(folder / "in.off") != mesh; }
+
+void check_done(const Run& done)
+{
+  if(!CHECK(done.exit_code == 0 && is_deformed()))
+    std::cerr << "    exit code " << done.exit_code << ", the message was: " << done.err;
+}
+
+void check_failed(const std::string& line, int exit_code, const std::string& phrase,
+                  const std::string& limit = "-s KILL 20")
+{
+  const auto before = files();
+  const Run failed = run_arap(line, limit);
+  if(!CHECK(failed.exit_code == exit_code && failed.err.find(phrase) != std::string::npos))
+    std::cerr << "    exit code " << failed.exit_code << ", the message was: " << failed.err;
+  CHECK(!is_deformed());
+  CHECK(files() == before);
+}
+
+bool is_report(const std::string& text)
+{
+  return text.substr(0, 2) == "{\n" && text.substr(text.size() - 2) == "}\n";
+}
+
+void test_pipes()
+{
+  Run done = run_arap(call + "--quiet --report /dev/stdout | cat");
+  check_done(done);
+  CHECK(is_report(done.out));
+  done = run_arap("cat in.sel | arap in.off --selection /dev/stdin -o in.off --quiet "
+                  "--report /dev/stdout | cat");
+  check_done(done);
+  CHECK(is_report(done.out));
+  check_done(run_arap("timeout 20 cat fifo > got & " + call + "--report fifo; wait"));
+  CHECK(is_report(content(folder / "got")));
+  fs::remove(folder / "got");
+  check_failed("{ sleep 0.1; " + call + "--quiet --report /dev/stdout; } | true", 1,
+               "/dev/stdout: could not be written to the end");
+  check_failed("{ sleep 0.1; " + call + "; } | true", 1, "the standard output could not be");
+  check_failed(call + "> /dev/full", 1, "the standard output could not be written");
+  check_failed(call + "--report /dev/full", 1, "/dev/full: could not be written to the end");
+  check_failed("arap fifo.off --selection in.sel -o in.off", 1, "fifo.off: is not a regular file");
+}
+
+// What the shell has opened goes on from where it is.
+void test_descriptors()
+{
+  const auto check_log = [](const std::string& line, const std::string& start) {
+    write("log", "old\n");
+    const Run done = run_arap(line);
+    check_done(done);
+    const std::string log = content(folder / "log");
+    CHECK(log.substr(0, start.size()) == start);
+    CHECK((log + done.out).find("}\nin.off: 4 vertices") != std::string::npos);
+    CHECK((log + done.out).find("written: in.off") != std::string::npos);
+  };
+  check_log(call + "--report /dev/stdout >> log", "old\n{\n");
+  check_log(call + "--report /dev/stdout > log", "{\n");
+  check_log(call + "--report /dev/stderr 2>> log", "old\n{\n");
+  check_log(call + "--report /dev/fd/3 3>> log", "old\n{\n");
+  check_log(call + "--report /proc/self/fd/3 3> log", "{\n");
+  check_log(call + "--report link_to_stdout >> log", "old\n{\n");
+  CHECK(fs::is_symlink(folder / "link_to_stdout"));
+  fs::remove(folder / "log");
+
+  check_failed(call + "--report /dev/fd/9", 1, "/dev/fd/9: cannot be written");
+  check_failed(call + "--report /dev/fd/3 3< in.def", 2, "is given for two things");
+  check_failed(call + "--report /dev/stdout >> in.sel", 2, "is given for two things");
+  check_failed("arap in.off --selection in.sel -o new.off --report \"$PWD/new.off\"", 2,
+               "is given for two things");
+}
+
+void test_names()
+{
+  const auto check_new = [](const std::string& name, const std::string& written) {
+    CHECK(run_arap("arap in.off --selection in.sel -o " + name).exit_code == 0);
+    CHECK(content(folder / written).substr(0, 3) == "OFF");
+    fs::remove(folder / written);
+  };
+  fs::create_symlink("new.off", folder / "dangling.off");
+  check_new("dangling.off", "new.off");
+  CHECK(fs::is_symlink(folder / "dangling.off"));
+  const std::string longest = std::string(251, 'x') + ".off";
+  check_new(longest, longest);
+  fs::create_symlink("circle.off", folder / "circle.off");
+  check_failed("arap in.off --selection in.sel -o circle.off", 1, "circle.off: cannot be written");
+}
+
+// timeout returns 124 for what its signal has ended, and 137 for what it had to kill.
+void test_signals()
+{
+  for(const std::string signal : {"TERM", "HUP"})
+  {
+    const std::string limit = "-s " + signal + " -k 5 0.2";
+    check_failed(call + "--report fifo", 124, "", limit);
+    check_failed("arap in.off --selection fifo -o in.off", 124, "", limit);
+    check_failed(call + "--iterations 100000000 --tolerance 0", 124, "", limit);
+  }
+  // a pipe that nobody reads, and which is full before the end of the report
+  check_failed("timeout 1 sh -c 'sleep 1 < fifo' & " + call +
+               "--iterations 20000 --tolerance 0 --report fifo", 124, "", "-s TERM -k 5 0.4");
+}
+
+void test_all()
+{
+  write("in.sel", "0\n0\n1\n2\n");
+  write("in.def", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  fs::create_symlink("/dev/stdout", folder / "link_to_stdout");
+  CHECK(run_line("mkfifo fifo fifo.off").exit_code == 0);
+  test_pipes();
+  test_descriptors();
+  test_names();
+  test_signals();
+}
+
+} // namespace outputs
+
+// The command arap_deform with arguments and small files that are valid but for random changes: it
+// ends soon, and if it could not do what was asked, says so in a sentence and leaves no file. Its
+// path is the first argument; without it nothing is tested. Then come the number of runs, a seed.
+namespace mutations {
+
+using Files = std::map<std::string, std::string>;
+
+class Changes
+{
+public:
+  explicit Changes(unsigned int seed) : m_engine(seed) {}
+
+  // from 0 to n - 1; not of std::uniform_int_distribution, which differs between libraries
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : m_engine() % n; }
+
+  // Changes a text once.
+  void change(std::string& text)
+  {
+    static const std::vector<std::string> words = {
+      "-1", "0", "3", "4294967295", "2147483648", "99999999999999999999", "1e308", "1e-400", "nan",
+      "-", "--", "=", "x", "# ", "OFF", "End", "vertex", "element face 7", "uint", " "};
+    const std::size_t begin = below(text.size()), n = below((std::min)(text.size() - begin,
+                                                                       std::size_t(20)));
+    switch(below(7))
+    {
+    case 0: text.resize(begin); break;
+    case 1: text.erase(begin, n); break;
+    case 2: text.insert(below(text.size()), text.substr(begin, n)); break;
+    case 3: text.replace(begin, n, words[below(words.size())]); break;
+    case 4: text.insert(begin, words[below(words.size())]); break;
+    case 5: replace_number(text, begin, words[below(words.size())]); break;
+    default:
+      if(!text.empty())
+        text[begin] = static_cast<char>(below(256));
+    }
+  }
+
+private:
+  static void replace_number(std::string& text, std::size_t begin, const std::string& word)
+  {
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    const auto first = std::find_if(text.begin() + begin, text.end(), is_digit);
+    text.replace(first, std::find_if_not(first, text.end(), is_digit), word);
+  }
+
+  std::mt19937 m_engine;
+};
+
+// a file of each format, of an octahedron or of three tetrahedra
+Files make_files()
+{
+  const std::string off = "OFF\n6 8 0\n0 0 1\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n0 0 -1\n"
+    "3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n3 5 2 1\n3 5 3 2\n3 5 4 3\n3 5 1 4\n";
+  Files files = {
+    {"in.off", off},
+    {"coloured.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 9 8 7\n"
+                     "3 0 1 2 3\n3 0 2 3 4\n"},
+    {"in.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                "0 0 1 0\n1 1 1 0\n2 1 1 0\nTetrahedra 3\n1 2 3 4 0\n2 3 4 5 1\n2 4 5 6 2\nEnd\n"},
+    {"in.sel", "0\n0\n1\n1\n1\n2 # the last\n"},
+    {"in.def", "1 0 0 0.1\n0 1 0 0.2\n0 0 1 0\n0 0 0 1\n"},
+    {"text.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty double y\n"
+                 "property float z\nproperty uchar red\nelement face 4\n"
+                 "property list uint int vertex_indices\nend_header\n0 0 1 1\n1 0 0 1\n0 1 0 1\n"
+                 "-1 0 0 1\n0 -1 0 1\n0 0 -1 1\n3 0 1 2\n3 0 2 3\n3 0 3 4\n3 5 2 1\n"},
+    {"text.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                 "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"}};
+  for(const auto& [name, text] : files)
+    write(name, text);
+  for(const std::string name : {"in.obj", "in.ply", "in.stl"})
+  {
+    test_case() = name;
+    CHECK(run("in.off --selection in.sel --transform in.def --iterations 1 -o " + name).exit_code ==
+          0);
+    files[name] = content(folder / name);
+  }
+  return files;
+}
+
+std::string in_quotes(const std::string& argument)
+{
+  std::string text;
+  for(char c : argument)
+    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return '\'' + text + '\'';
+}
+
+// An argument of a shell, and in no other folder.
+bool is_harmless(const std::string& argument)
+{
+  return std::all_of(argument.begin(), argument.end(),
+                     [](unsigned char c) { return std::isprint(c) != 0 && c != '/'; });
+}
+
+std::string make_arguments(Changes& changes, const std::string& mesh, bool is_changed)
+{
+  const std::string kind = mesh.substr(mesh.find('.'));
+  std::vector<std::vector<std::string>> options = {
+    {mesh}, {"--selection", "in.sel"}, {"--transform", "in.def"}, {"-o", "out" + kind},
+    {"--report=r.json"}, {"--iterations", "5"}, {"--cells", "spokes"}, {"--weights", "uniform"},
+    {"--minimizer", "quasi_newton"}, {"--initial_guess", "laplacian"}, {"--threads=1"},
+    {"--quiet"}};
+  options.resize(4 + changes.below(options.size() - 3));
+  for(std::size_t i = options.size(); i > 1; --i)
+    std::swap(options[i - 1], options[changes.below(i)]);
+  std::vector<std::string> arguments;
+  for(const auto& option : options)
+    arguments.insert(arguments.end(), option.begin(), option.end());
+  for(std::size_t i = is_changed ? 1 + changes.below(3) : 0; i > 0 && !arguments.empty(); --i)
+  {
+    const std::size_t place = changes.below(arguments.size());
+    std::string argument = arguments[place];
+    switch(changes.below(4))
+    {
+    case 0: arguments.erase(arguments.begin() + place); break;
+    case 1: arguments.insert(arguments.begin() + changes.below(arguments.size()), argument); break;
+    default:
+      changes.change(argument);
+      if(is_harmless(argument))
+        arguments[place] = argument;
+    }
+  }
+  std::string text;
+  for(const std::string& argument : arguments)
+    text += in_quotes(argument) + ' ';
+  return text;
+}
+
+Files contents()
+{
+  Files result;
+  for(const std::string& name : files())
+    result[name] = content(folder / name);
+  return result;
+}
+
+// What the command must do whatever it is given.
+bool is_well_behaved(const Run& done, const Files& before)
+{
+  const auto lines = std::count(done.err.begin(), done.err.end(), '\n');
+  const bool is_readable = std::all_of(done.err.begin(), done.err.end(), [](unsigned char c) {
+    return std::isprint(c) != 0 || c == '\n';
+  });
+  if(done.exit_code == 0)
+    return done.err.empty();
+  return (done.exit_code == 1 || done.exit_code == 2) && done.out.empty() && is_readable &&
+         lines == done.exit_code && done.err.rfind("arap_deform: ", 0) == 0 && contents() == before;
+}
+
+void test_all(int runs, unsigned int seed)
+{
+  limit_command();
+  const Files good = make_files();
+  const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
+                                           "text.ply", "in.stl", "text.stl", "in.mesh"};
+  std::map<int, int> exit_codes;
+  for(int i = 0; i < runs; ++i)
+  {
+    Changes changes(seed + i);
+    Files input = good;
+    const std::string mesh = meshes[changes.below(meshes.size())];
+    const std::size_t changed = changes.below(4); // what: the arguments, the mesh, or others
+    if(changed > 0)
+      for(std::size_t k = 1 + changes.below(3); k > 0; --k)
+        changes.change(input[changed < 3 ? mesh : changes.below(2) ? "in.sel" : "in.def"]);
+    for(const auto& entry : fs::directory_iterator(folder))
+      fs::remove_all(entry);
+    for(const auto& [name, text] : input)
+      write(name, text);
+    const std::string arguments = make_arguments(changes, mesh, changed == 0);
+    test_case() = "seed " + std::to_string(seed + i) + ": " + arguments;
+    const Run done = run(arguments);
+    ++exit_codes[done.exit_code];
+    if(!CHECK(is_well_behaved(done, input)))
+      std::cerr << "    exit code " << done.exit_code << ", the message was: " << done.err;
+  }
+  for(const auto& [code, number] : exit_codes)
+    std::cout << number << " runs with the exit code " << code << '\n';
+  CHECK(runs < 100 || exit_codes.size() == 3); // each happens, or the changes are too dull
+}
+
+} // namespace mutations
+
+int main(int argc, char** argv)
+{
+  std::vector<std::function<void()>> tests = {damaged::test_all};
+#ifdef __linux__
+  tests.push_back(outputs::test_all);
+#else
+  std::cout << "NOTICE: pipes, devices and signals are tested on Linux only." << std::endl;
+#endif
+  const int runs = argc > 2 ? std::stoi(argv[2]) : short_or_long(150, 300);
+  const unsigned int seed = argc > 3 ? static_cast<unsigned int>(std::stoul(argv[3])) : 1;
+  tests.push_back([&] { mutations::test_all(runs, seed); });
+  return test_command(argc, argv, tests);
+}

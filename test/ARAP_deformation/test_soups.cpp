@@ -1,0 +1,721 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Ranges of points and simplices: the domain, what its conformance test catches, and shapes that are
+// not clean or random.
+// usage: test_soups [NUMBER_OF_RANDOM_SHAPES [FIRST_SEED]]
+
+#include "include/domains.h"
+#include "include/nasty_runs.h"
+#include "include/nasty_shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// The domain of ranges: triangles against a mesh, edges with three faces, faces of either
+// orientation, output to another range, points of several types, and simplices that are none.
+namespace soup {
+
+using CGAL::ARAP::Polygon_soup_domain;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Tetrahedron_soup_domain;
+
+void test_surfaces()
+{
+  for(const Shape& shape : shapes())
+    for(Cell_scheme cells : all_cell_schemes)
+    {
+      test_case() = shape.name;
+      const Scenario s = scenario(shape);
+      const Result soup = reference<2>(shape.points, shape.triangles, s, cells);
+      Mesh mesh = make_mesh<Mesh>(shape);
+      compare(soup, deform(CGAL::ARAP::Face_graph_domain<Mesh>(mesh), all_vertices(mesh), s, cells),
+              shape.diameter());
+
+      // the orientation of a face means nothing
+      auto turned = shape.triangles;
+      for(std::size_t t = 0; t < turned.size(); t += 3)
+        std::swap(turned[t][0], turned[t][1]);
+      compare(soup, reference<2>(shape.points, turned, s, cells), shape.diameter());
+    }
+}
+
+template <typename Point_>
+void test_point_type(double tolerance)
+{
+  const Shape shape = shapes()[9];
+  const Scenario s = scenario(shape);
+  std::vector<Point_> points;
+  for(const auto& p : shape.points)
+    points.push_back(CGAL::ARAP::internal::construct_point<Point_>(p.x(), p.y(), p.z()));
+  const Polygon_soup_domain<std::vector<Point_>, decltype(shape.triangles)> domain(points,
+                                                                                   shape.triangles);
+  check_conforms(domain);
+  compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()),
+          deform(domain, numbers(points.size()), s, Cell_scheme::spokes()), shape.diameter(),
+          tolerance);
+}
+
+// three sheets that meet in one edge line
+void test_non_manifold()
+{
+  test_case() = "edges with three faces";
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<int, 3>> triangles;
+  const int n = 12;
+  for(int k = 0; k <= n; ++k)
+    for(const auto& [x, y] : {std::pair<double, double>(0, 0), {1, 0}, {-0.5, 0.9}, {-0.5, -0.9}})
+      points.emplace_back(x, y, 0.5 * k);
+  for(int k = 0; k < n; ++k)
+    for(int sheet = 1; sheet <= 3; ++sheet)
+    {
+      triangles.push_back({4 * k, 4 * k + sheet, 4 * k + 4});
+      triangles.push_back({4 * k + 4, 4 * k + sheet, 4 * k + 4 + sheet});
+    }
+  Scenario s{std::vector<int>(points.size(), 1), points};
+  const Eigen::Isometry3d turn = rigid_motion(1.5, {0, 0, 1}, {0.5, 0, 0});
+  for(int k = 0; k < 4; ++k)
+  {
+    s.selection[k] = 0;
+    s.selection[points.size() - 1 - k] = 2;
+    s.targets[points.size() - 1 - k] = turn * points[points.size() - 1 - k];
+  }
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    const Result result = reference<2>(points, triangles, s, cells);
+    CHECK(result.energy.back() < 0.9 * result.energy.front());
+    CHECK(result.energy.back() > 0);
+
+    // a rigid motion of all fixed vertices is the motion of all
+    Scenario rigid = s;
+    for(std::size_t v = 0; v < points.size(); ++v)
+    {
+      rigid.selection[v] = rigid.selection[v] == 1 ? 1 : 2;
+      rigid.targets[v] = turn * points[v];
+    }
+    std::vector<Point> moved = points_of(points);
+    const Polygon_soup_domain<std::vector<Point>, decltype(triangles)> domain(moved, triangles);
+    check_conforms(domain);
+    CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
+    CGAL::ARAP::Options options;
+    options.cells = cells;
+    options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
+    deformation.set_options(options);
+    prepare(deformation, rigid, numbers(points.size()));
+    CHECK(deformation.deform(2000, 1e-12));
+    if(cells != Cell_scheme::elements()) // a membrane may fold
+      for(std::size_t v = 0; v < points.size(); ++v)
+        CHECK_AT_MOST((vector(moved[v]) - turn * points[v]).norm(), 0.02); // turned by 1.5
+  }
+}
+
+void test_output_range()
+{
+  test_case() = "another range for the output";
+  const Block shape = block(4, 2, 2);
+  const Scenario s = scenario(shape);
+  const std::vector<Point> points = points_of(shape.points);
+  std::vector<Point> output(points.size(), Point(7, 7, 7));
+  std::vector<Point> input = points;
+  const Tetrahedron_soup_domain<std::vector<Point>, decltype(shape.tetrahedra)> domain(
+    input, shape.tetrahedra, output);
+  check_conforms(domain);
+  output.assign(points.size(), Point(7, 7, 7));
+  const auto read = [&output](std::size_t v) { return output[v]; };
+  Result result = deform(domain, numbers(points.size()), s, Cell_scheme::spokes_and_rims(), read);
+  CHECK(input == points);
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    CHECK((output[v] == Point(7, 7, 7)) == (s.selection[v] == 0)); // outside the region of interest
+    if(s.selection[v] == 0)
+      result.points[v] = shape.points[v];
+  }
+  compare(reference<3>(shape.points, shape.tetrahedra, s, Cell_scheme::spokes_and_rims()), result,
+          shape.diameter());
+
+  // a second run goes on from the first, and after reset() all is as at first
+  CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> d(domain);
+  std::vector<Point> in_place = points;
+  const Tetrahedron_soup_domain<std::vector<Point>, decltype(shape.tetrahedra)> plain(
+    in_place, shape.tetrahedra);
+  CGAL::ARAP_deformation<std::decay_t<decltype(plain)>> e(plain);
+  const auto free = std::size_t(std::find(s.selection.begin(), s.selection.end(), 1) -
+                                s.selection.begin());
+  const auto run = [&](auto& deformation) {
+    prepare(deformation, s, numbers(points.size()));
+    deformation.deform(3, 0);
+    deformation.insert_control_vertex(free); // fixed where it is: preprocesses again
+    deformation.deform(3, 0);
+    deformation.overwrite_initial_geometry();
+    deformation.translate(free, Kernel::Vector_3(0.1, 0, 0));
+    deformation.deform(3, 0);
+  };
+  run(d);
+  run(e);
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(s.selection[v] != 0)
+      CHECK(output[v] == in_place[v]);
+  CHECK(input == points);
+}
+
+template <int Dimension, typename Simplices>
+void check_refused(const Simplices& simplices)
+{
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  const std::vector<Point> before = points;
+  const CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices> domain(points,
+                                                                                        simplices);
+  CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
+  for(std::size_t v : {0, 1, 2, 3, 4})
+    deformation.insert_roi_vertex(v);
+  deformation.insert_control_vertex(4);
+  deformation.translate(4, Kernel::Vector_3(1, 0, 0));
+  const CGAL::ARAP::Report report = deformation.deform();
+  CHECK(report.status == Status::not_a_simplex);
+  CHECK(report.message.find("vertex ") == 0);
+  CHECK(points == before);
+  CHECK(!CGAL::ARAP::check_domain(domain).empty());
+}
+
+void test_all()
+{
+  test_surfaces();
+  test_non_manifold();
+  test_output_range();
+
+  test_case() = "points of several types";
+  test_point_type<Bare_point>(1e-12);
+  test_point_type<std::array<double, 3>>(1e-12);
+  test_point_type<std::array<float, 3>>(1e-5);
+  test_point_type<CGAL::Simple_cartesian<double>::Point_3>(1e-12);
+  test_point_type<CGAL::Simple_cartesian<float>::Point_3>(1e-5);
+  test_point_type<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>(1e-12);
+
+  using Triangles = std::vector<std::array<int, 3>>;
+  using Signed_polygons = std::vector<std::vector<int>>;
+  using Tetrahedra = std::vector<std::array<int, 4>>;
+  test_case() = "a corner that does not exist";
+  check_refused<2>(Triangles{{0, 1, 2}, {0, 1, 5}});
+  check_refused<2>(Triangles{{0, 1, 2}, {0, -1, 4}});
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1, 2, 9}});
+  check_refused<3>(Tetrahedra{{0, 1, 2, 3}, {0, 1, 2, 1000000}});
+  test_case() = "a corner twice";
+  check_refused<2>(Triangles{{0, 1, 2}, {0, 1, 1}});
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1, 2, 3, 1, 4}});
+  check_refused<3>(Tetrahedra{{0, 1, 2, 3}, {0, 1, 2, 0}});
+  test_case() = "too few corners";
+  check_refused<2>(Signed_polygons{{0, 1, 2}, {0, 1}});
+  check_refused<3>(Signed_polygons{{0, 1, 2, 3}, {0, 1, 4}});
+}
+
+} // namespace soup
+
+// The conformance test of domains tells what is wrong with domains that are, each in one way. That
+// all domains that ship conform is in the test of each.
+namespace conformance {
+
+using Triangles = std::vector<std::array<std::size_t, 3>>;
+using Soup = CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, Triangles>;
+
+struct Same_index : Soup
+{
+  using Soup::Soup;
+  std::size_t index(std::size_t v) const { return v == 3 ? 2 : v; }
+};
+
+struct Never_isolated : Soup
+{
+  using Soup::Soup;
+  bool is_isolated(std::size_t) const { return false; }
+};
+
+struct Not_in_place : Soup
+{
+  using Soup::Soup;
+  bool is_in_place() const { return false; }
+};
+
+struct Own_points : Soup // each copy has its own
+{
+  Own_points(std::vector<Point>& p, const Triangles& t) : Soup(p, t), m_own(p) {}
+  Point point(std::size_t v) const { return m_own[v]; }
+  void set_point(std::size_t v, const Point& p) const { m_own[v] = p; }
+  mutable std::vector<Point> m_own;
+};
+
+struct Forgets_a_simplex : Soup // at one of its corners
+{
+  using Soup::Soup;
+  template <typename Function>
+  void for_each_incident_simplex(std::size_t v, const Function& f) const
+  {
+    Soup::for_each_incident_simplex(v, [&](std::size_t s, const auto& corners) {
+      if(s != 5 || v != *corners.begin())
+        f(s, corners);
+    });
+  }
+};
+
+struct Other_corners : Soup
+{
+  using Soup::Soup;
+  auto simplex_vertices(std::size_t s) const { return Soup::simplex_vertices(s == 4 ? 3 : s); }
+};
+
+struct Fewer_vertices : Soup
+{
+  using Soup::Soup;
+  auto vertices() const { return boost::counting_range(std::size_t(0), std::size_t(5)); }
+};
+
+struct Mirrored_points : Soup
+{
+  using Soup::Soup;
+  static Point make_point(const CGAL::ARAP::Coordinates& c) { return Point(-c[0], c[1], c[2]); }
+};
+
+struct Keeps_points : Soup
+{
+  using Soup::Soup;
+  void set_point(std::size_t, const Point&) const {}
+};
+
+struct Throwing : Soup
+{
+  using Soup::Soup;
+  bool is_isolated(std::size_t) const { throw std::runtime_error("no such table"); }
+};
+
+template <typename Domain>
+void check_caught(const std::string& sentence)
+{
+  test_case() = sentence;
+  Shape shape = octahedron();
+  shape.points.emplace_back(9, 9, 9); // isolated
+  std::vector<Point> points = points_of(shape.points);
+  const std::vector<std::string> found =
+    CGAL::ARAP::check_domain(Domain(points, shape.triangles));
+  bool is_caught = false;
+  for(const std::string& violation : found)
+    is_caught |= violation.find(sentence) != std::string::npos;
+  if(!CHECK(is_caught))
+    for(const std::string& violation : found)
+      std::cerr << "    " << violation << std::endl;
+}
+
+void test_all()
+{
+  Shape shape = octahedron();
+  std::vector<Point> points = points_of(shape.points);
+  const std::vector<Point> before = points;
+  check_conforms(Soup(points, shape.triangles));
+  CHECK(points == before);
+
+  check_caught<Same_index>("index() is the same for two vertices of vertices(), for vertex 2");
+  check_caught<Never_isolated>(
+    "is_isolated() and for_each_incident_simplex() disagree, for vertex 6");
+  check_caught<Not_in_place>("point() is not what set_point() and is_in_place() make it");
+  check_caught<Own_points>("a copy of the domain does not stand for the same mesh");
+  check_caught<Forgets_a_simplex>("a simplex is not given exactly once at each of its corners");
+  check_caught<Other_corners>("simplex_vertices() and for_each_incident_simplex() give different");
+  check_caught<Fewer_vertices>("a corner of a simplex is not in vertices()");
+  check_caught<Mirrored_points>("coordinates() and make_point() are not inverse to each other");
+  check_caught<Keeps_points>("point() is not what set_point() and is_in_place() make it");
+  check_caught<Throwing>("the domain threw an exception: no such table");
+}
+
+} // namespace conformance
+
+// Shapes that are not clean, of a shelf and random ones, as ranges.
+namespace nasty {
+
+template <int Dimension, std::size_t N>
+void test_as_ranges(const Nasty_shape<N>& shape)
+{
+  using Simplices = std::vector<std::array<std::size_t, N>>;
+  using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
+  const std::string structure = Dimension == 3 ? "tetrahedra" : N == 3 ? "triangles" : "polygons";
+  for_each_case(shape, structure, [&](const Handles& handles, const Options& options) {
+    std::vector<Point> points = points_of(shape.points);
+    CGAL::ARAP_deformation<Domain> deformation(Domain(points, shape.simplices));
+    run(deformation, numbers(points.size()), [&](std::size_t v) { return points[v]; }, handles,
+        options);
+  });
+}
+
+void test_all(int number_of_shapes, int first_seed)
+{
+  for(const Nasty_surface& shape : nasty_surfaces())
+    test_as_ranges<2>(shape);
+  for(const Nasty_polygons& shape : nasty_polygons())
+    test_as_ranges<2>(shape);
+  for(const Nasty_volume& shape : nasty_volumes())
+    test_as_ranges<3>(shape);
+
+  for(int seed = first_seed; seed < first_seed + number_of_shapes; ++seed)
+  {
+    std::mt19937 random(static_cast<unsigned int>(seed));
+    Nasty_surface surface = random_shape(sheet_of(5, 4), random);
+    surface.name = "random, seed " + std::to_string(seed);
+    test_as_ranges<2>(surface);
+    Nasty_volume volume = random_shape(block_of(2, 2, 1), random);
+    volume.name = "random, seed " + std::to_string(seed);
+    test_as_ranges<3>(volume);
+  }
+  print_ends();
+}
+
+} // namespace nasty
+
+// Random shapes of triangles and tetrahedra, with random regions, handles, weights of targets and
+// options: what holds for all of them. The seed of each is printed with what fails.
+namespace random_shapes {
+
+using CGAL::ARAP::Initial_guess;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Options;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Visitor_action;
+
+class Random
+{
+public:
+  explicit Random(unsigned int seed) : m_engine(seed) {}
+
+  double number(double low, double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(m_engine);
+  }
+
+  std::size_t index(std::size_t n)
+  {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(m_engine);
+  }
+
+  Eigen::Vector3d vector()
+  {
+    const double x = number(-1, 1), y = number(-1, 1); // in the order of these lines everywhere
+    return {x, y, number(-1, 1)};
+  }
+
+  Eigen::Isometry3d rigid_motion()
+  {
+    const double angle = number(-3, 3);
+    const Eigen::Vector3d axis = vector() + Eigen::Vector3d(2, 0, 0);
+    return ::rigid_motion(angle, axis, 3 * vector());
+  }
+
+  template <typename Range>
+  void shuffle(Range& range) { std::shuffle(range.begin(), range.end(), m_engine); }
+
+private:
+  std::mt19937 m_engine;
+};
+
+// a vertex is in no region, free, or a control vertex with a target
+struct Role
+{
+  bool is_roi = true, is_control = false;
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  double weight = std::numeric_limits<double>::infinity();
+};
+
+template <std::size_t N>
+struct Problem
+{
+  Nasty_shape<N> shape;
+  std::vector<Role> roles; // of the vertices
+  Options options;
+  double diameter;
+};
+
+// Triangles of a sheet or tetrahedra of a block, with some of them missing, and jittered by up to a
+// fifth of their size. Those who look for worse shapes find them in test_nasty_shapes.
+template <std::size_t N>
+Problem<N> random_problem(Random& random)
+{
+  Problem<N> problem;
+  if constexpr(N == 3)
+    problem.shape = sheet_of(4 + int(random.index(6)), 3 + int(random.index(5)));
+  else
+    problem.shape = block_of(2 + int(random.index(3)), 1 + int(random.index(3)), 2);
+  auto& points = problem.shape.points;
+  auto& simplices = problem.shape.simplices;
+  const double size = (points[simplices[0][1]] - points[simplices[0][0]]).norm();
+  for(auto& p : points)
+    p += 0.2 * size * random.vector();
+  random.shuffle(simplices);
+  simplices.resize(simplices.size() - random.index(simplices.size() / 4));
+
+  problem.diameter = diameter_of(points);
+  for(const auto& p : points)
+  {
+    Role role;
+    switch(random.index(6))
+    {
+    case 0: role.is_roi = false; break;
+    case 1:
+      role.is_control = true;
+      if(random.index(2) == 0)
+        role.weight = std::pow(10, random.number(-2, 3));
+    }
+    role.target = p + 0.1 * problem.diameter * random.vector();
+    problem.roles.push_back(role);
+  }
+  for(std::size_t corner : {0, 1}) // there is something to hold on to
+    problem.roles[simplices[0][corner]] = {true, true, points[simplices[0][corner]]};
+  problem.options.cells = all_cell_schemes[random.index(3)];
+  problem.options.minimizer = random.index(2) ? Minimizer::local_global : Minimizer::quasi_newton;
+  problem.options.initial_guess = random.index(2) ? Initial_guess::previous
+                                                  : Initial_guess::laplacian;
+  problem.options.iterations = 10;
+  problem.options.tolerance = 0;
+  return problem;
+}
+
+template <std::size_t N>
+class Random_test
+{
+  using Simplices = std::vector<std::array<std::size_t, N>>;
+  using Domain = CGAL::ARAP::Simplex_soup_domain<int(N) - 1, std::vector<Point>, Simplices>;
+  using Deformation = CGAL::ARAP_deformation<Domain>;
+
+  // a problem with its points, and what deforms them
+  struct Session
+  {
+    const Problem<N> problem;
+    std::vector<Point> points;
+    Deformation deformation;
+
+    explicit Session(const Problem<N>& p)
+      : problem(p), points(points_of(p.shape.points)),
+        deformation(Domain(points, problem.shape.simplices))
+    {
+      CHECK(deformation.set_options(problem.options));
+      for(std::size_t v = 0; v < points.size(); ++v)
+      {
+        const Role& role = problem.roles[v];
+        if(role.is_roi)
+          deformation.insert_roi_vertex(v);
+        if(!role.is_control)
+          continue;
+        deformation.insert_control_vertex(v);
+        CHECK(deformation.set_target_position(v, point(role.target)));
+        CHECK(deformation.set_target_weight(v, role.weight));
+      }
+    }
+
+    Session(const Session&) = delete;
+  };
+
+public:
+  explicit Random_test(unsigned int seed) : m_random(seed), m_problem(random_problem<N>(m_random))
+  {}
+
+  void operator()()
+  {
+    Session session(m_problem);
+    check_cancelled(session);
+    const Report report = session.deformation.deform();
+    if(!CHECK(report))
+    {
+      std::cerr << "    " << report.message << std::endl;
+      return;
+    }
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK(report.energy.back() >= -1e-14 * report.energy_scale);
+    CHECK(report.energy.back() == session.deformation.energy());
+    check_fixed(session);
+    check_rotations(session);
+    check_again(session, report);
+    check_moved(session, report);
+    check_reordered(session, report);
+    check_rigid_targets();
+  }
+
+private:
+  // What a visitor cancels has not been.
+  void check_cancelled(Session& session)
+  {
+    const std::vector<Point> before = session.points;
+    const std::size_t last = m_random.index(5);
+    const Report report = session.deformation.deform([&](const auto& iterate) {
+      return iterate.iteration() == last ? Visitor_action::cancel : Visitor_action::proceed;
+    });
+    CHECK(report.status == Status::cancelled);
+    CHECK(session.points == before);
+  }
+
+  // Control vertices are at hard targets, and what is in no region or no simplex is where it was.
+  void check_fixed(const Session& session)
+  {
+    std::vector<char> is_used(session.points.size(), false);
+    for(const auto& simplex : m_problem.shape.simplices)
+      for(std::size_t corner : simplex)
+        is_used[corner] = true;
+    for(std::size_t v = 0; v < session.points.size(); ++v)
+    {
+      const Role& role = m_problem.roles[v];
+      if(role.is_control && !std::isfinite(role.weight))
+        CHECK(session.points[v] == point(role.target));
+      else if(!role.is_roi || (!is_used[v] && !role.is_control))
+        CHECK(session.points[v] == point(m_problem.shape.points[v]));
+    }
+  }
+
+  void check_rotations(const Session& session)
+  {
+    const bool has_vertex_cells = m_problem.options.cells.has_vertex_cells();
+    const std::size_t n = has_vertex_cells ? session.points.size()
+                                           : m_problem.shape.simplices.size();
+    for(std::size_t k = 0; k < n; ++k)
+      CHECK(CGAL::ARAP::is_rotation(has_vertex_cells ? session.deformation.rotation(k)
+                                                     : session.deformation.simplex_rotation(k)));
+  }
+
+  // The same has the same bits.
+  void check_again(const Session& session, const Report& report)
+  {
+    Session again(m_problem);
+    CHECK(again.deformation.deform().energy == report.energy);
+    CHECK(again.points == session.points);
+  }
+
+  // A rigid motion of the rest shape and the targets moves the result.
+  void check_moved(const Session& session, const Report& report)
+  {
+    const Eigen::Isometry3d motion = m_random.rigid_motion();
+    Problem<N> problem = m_problem;
+    for(auto& p : problem.shape.points)
+      p = motion * p;
+    for(Role& role : problem.roles)
+      role.target = motion * role.target;
+    Session moved(problem);
+    check_energies(moved.deformation.deform(), report);
+    for(std::size_t v = 0; v < session.points.size(); ++v)
+      CHECK_AT_MOST((vector(moved.points[v]) - motion * vector(session.points[v])).norm(),
+                    accuracy() * m_problem.diameter);
+  }
+
+  // Vertices, simplices and corners in another order give the same.
+  void check_reordered(const Session& session, const Report& report)
+  {
+    std::vector<std::size_t> places = numbers(session.points.size());
+    m_random.shuffle(places);
+    Problem<N> problem = m_problem;
+    for(std::size_t v = 0; v < places.size(); ++v)
+    {
+      problem.shape.points[places[v]] = m_problem.shape.points[v];
+      problem.roles[places[v]] = m_problem.roles[v];
+    }
+    for(auto& simplex : problem.shape.simplices)
+    {
+      for(std::size_t& corner : simplex)
+        corner = places[corner];
+      m_random.shuffle(simplex);
+    }
+    m_random.shuffle(problem.shape.simplices);
+    Session reordered(problem);
+    check_energies(reordered.deformation.deform(), report);
+    for(std::size_t v = 0; v < places.size(); ++v)
+      CHECK_AT_MOST((vector(reordered.points[places[v]]) - vector(session.points[v])).norm(),
+                    accuracy() * m_problem.diameter);
+  }
+
+  // A guess that is a rigid motion of the rest shape, and targets that agree with it: there it
+  // stays, at energy zero.
+  void check_rigid_targets()
+  {
+    const Eigen::Isometry3d motion = m_random.rigid_motion();
+    Problem<N> problem = m_problem;
+    problem.options.initial_guess = Initial_guess::previous;
+    for(std::size_t v = 0; v < problem.roles.size(); ++v)
+      problem.roles[v] = {true, true, motion * problem.shape.points[v]};
+    Session session(problem);
+    CHECK(session.deformation.deform());
+    for(std::size_t v = 0; v < problem.roles.size(); ++v)
+      if(!m_problem.roles[v].is_control)
+        session.deformation.erase_control_vertex(v);
+      else
+        CHECK(session.deformation.set_target_weight(v, m_problem.roles[v].weight));
+    const Report report = session.deformation.deform();
+    CHECK(report);
+    for(double energy : report.energy)
+      CHECK_AT_MOST(energy, 1e-14 * report.energy_scale);
+    for(std::size_t v = 0; v < session.points.size(); ++v)
+      CHECK_AT_MOST((vector(session.points[v]) - motion * problem.shape.points[v]).norm(),
+                    1e-9 * m_problem.diameter);
+  }
+
+  // The memory of the quasi-Newton method is in single precision.
+  double accuracy() const
+  {
+    return m_problem.options.minimizer == Minimizer::local_global ? 1e-8 : 1e-3;
+  }
+
+  void check_energies(const Report& report, const Report& expected)
+  {
+    if(!CHECK(report.energy.size() == expected.energy.size()))
+      return;
+    for(std::size_t k = 0; k < report.energy.size(); ++k)
+      CHECK_AT_MOST(std::abs(report.energy[k] - expected.energy[k]),
+                    accuracy() * expected.energy[0] + 1e-14 * expected.energy_scale);
+  }
+
+  Random m_random;
+  const Problem<N> m_problem;
+};
+
+void test_all(int number_of_shapes, int first_seed)
+{
+  for(int seed = first_seed; seed < first_seed + number_of_shapes; ++seed)
+  {
+    test_case() = "surface, seed " + std::to_string(seed);
+    Random_test<3>(static_cast<unsigned int>(seed))();
+    test_case() = "volume, seed " + std::to_string(seed);
+    Random_test<4>(static_cast<unsigned int>(seed))();
+  }
+  std::cout << "surfaces and volumes with seeds " << first_seed << " to "
+            << first_seed + number_of_shapes - 1 << std::endl;
+}
+
+} // namespace random_shapes
+
+int main(int argc, char* argv[])
+{
+  soup::test_all();
+  conformance::test_all();
+  const int number_of_shapes = argc > 1 ? std::atoi(argv[1]) : short_or_long(25, 200);
+  const int first_seed = argc > 2 ? std::atoi(argv[2]) : 1;
+  nasty::test_all(number_of_shapes, first_seed);
+  random_shapes::test_all(number_of_shapes, first_seed);
+  return checks_result();
+}
