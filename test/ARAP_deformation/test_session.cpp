@@ -318,9 +318,9 @@ struct Recording_rotation : CGAL::ARAP::SVD_closest_rotation
   void operator()(std::size_t n, const CGAL::ARAP::Matrix_3x3* covariances,
                   CGAL::ARAP::Matrix_3x3* rotations) const
   {
-    given.assign(rotations, rotations + n);
+    given.insert(given.end(), rotations, rotations + n);
     CGAL::ARAP::SVD_closest_rotation::operator()(n, covariances, rotations);
-    returned.assign(rotations, rotations + n);
+    returned.insert(returned.end(), rotations, rotations + n);
   }
 };
 std::vector<CGAL::ARAP::Matrix_3x3> Recording_rotation::given, Recording_rotation::returned;
@@ -357,6 +357,8 @@ void test_warm_start()
       CHECK(Recording_rotation::given == last);
       last = Recording_rotation::returned;
       CHECK(run > 0 || iterate.iteration() > 0 || last != Recording_rotation::given);
+      Recording_rotation::given.clear();
+      Recording_rotation::returned.clear();
       return CGAL::ARAP::Visitor_action::proceed;
     }));
 }

@@ -696,7 +696,10 @@ void test_failures()
     CHECK(!weighted.preprocess());
     CHECK(weighted.outcome().status ==
           (value < 0 ? Status::singular_matrix : Status::non_finite_weight));
-    CHECK(names(weighted.outcome(), 20));
+    // the face of the halfedge, or one of its ends
+    CHECK(names(weighted.outcome(), 20) ||
+          names(weighted.outcome(), static_cast<std::size_t>(copy.source(h))) ||
+          weighted.outcome().message.find("the face with the vertices") == 0);
     weighted.set_target_position(Mesh::Vertex_index(50), Point(3, 3, 3));
     CHECK(!weighted.deform());
     CHECK(same_points(copy, make_mesh<Mesh>(sphere)));

@@ -20,7 +20,7 @@
 #include <CGAL/ARAP_deformation/conformance/check_deformation_traits.h>
 #include <CGAL/ARAP_deformation/conformance/check_edge_weight.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -177,10 +177,12 @@ std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
   for(const auto& p : points)
   {
     region.corners.push_back(region.number_of_vertices());
+    region.indices.push_back(region.rest.size());
     region.rest.push_back({p.x(), p.y(), p.z()});
   }
   region.first_corner.push_back(region.number_of_vertices());
-  return CGAL::ARAP::internal::weighted_simplices(Cotangent_weight(), region).weights;
+  const CGAL::ARAP::internal::Edge_weight_model_of<Cotangent_weight> model{Cotangent_weight()};
+  return CGAL::ARAP::internal::weighted_simplices(model, region).weights;
 }
 
 std::size_t pair_number(std::size_t n, std::size_t a, std::size_t b)
