@@ -1,12 +1,13 @@
 # Which header may include which: the folders of internal/ stand on each other like floors. A header
 # there includes headers of its own floor and of lower ones, also by way of public headers, whose floor
-# is the highest of what they include. No header includes itself by way of others.
+# is the highest of what they include. No header includes itself by way of others, but for X_impl.h,
+# which X.h includes where nothing is compiled once.
 # usage: cmake [-DINCLUDE_DIR=FOLDER] -P check_layers.cmake
 cmake_minimum_required(VERSION 3.12...3.31)
 if(NOT DEFINED INCLUDE_DIR)
   set(INCLUDE_DIR ${CMAKE_CURRENT_LIST_DIR}/../../include)
 endif()
-set(floors parallel simd cholesky region rotation solver energy constraints minimizer domain session
+set(floors parallel simd cholesky region rotation constraints solver energy minimizer domain session
            drop_in) # from the ground up
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE_DIR} ${INCLUDE_DIR}/CGAL/*.h)
 if(NOT headers)
@@ -33,11 +34,12 @@ function(visit header)
   endif()
   set(highest ${own})
   set(way ${header})
+  get_filename_component(name ${header} NAME_WE)
   file(STRINGS ${INCLUDE_DIR}/${header} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]CGAL/")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE ".*[<\"](CGAL/[^>\"]+).*" "\\1" included "${line}")
-    if(NOT included IN_LIST headers)
-      continue() # CGAL's own
+    if(NOT included IN_LIST headers OR included MATCHES "/${name}_impl\\.h$")
+      continue() # CGAL's own, or the implementation of this header
     endif()
     visit(${included} ${path} ${header})
     get_property(floor GLOBAL PROPERTY floor_${included})

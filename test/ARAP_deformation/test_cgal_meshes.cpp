@@ -70,9 +70,7 @@ Report check_runs(const Points& rest, const Polygons& polygons)
   for(Cell_scheme cells : all_cell_schemes)
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
     {
-      Options options;
-      options.cells = cells;
-      options.minimizer = minimizer;
+      const Options options = options_for(cells, minimizer);
       Points points = rest;
       const Report report = deform_ranges(points, polygons, s, options);
       if(!report)

@@ -12,6 +12,7 @@
 // shapes, the same to the last bit for any number of threads, and with a border.
 
 #include "include/check.h"
+#include "include/length.h"
 #include "include/rows.h"
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
@@ -330,7 +331,7 @@ void test_threads(const std::string& name, Solver solver)
   CHECK(solver.analyze(a));
   const Rows first = solutions(solver, a, border, b, 1);
   for(unsigned int threads : {1u, 2u, 8u, 0u})
-    for(int k = 0; k < 5; ++k)
+    for(int k = 0; k < short_or_long(1, 5); ++k)
       CHECK(solutions(solver, a, border, b, threads) == first);
 
   const std::size_t n = static_cast<std::size_t>(a.rows());

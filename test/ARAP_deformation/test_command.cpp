@@ -9,8 +9,9 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The command arap_deform on surfaces and tetrahedra, run as a user runs it: results, report, formats,
-// and what it says and leaves behind when it is given nonsense. Its path is the argument.
+// The command arap_deform on surfaces and tetrahedra, run as a user runs it: results, report,
+// formats, and what it says and leaves behind when it is given nonsense.
+// usage: test_command PATH_OF_ARAP_DEFORM
 
 #include "include/check.h"
 #include "include/command.h"
@@ -554,9 +555,7 @@ CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_sch
                                                      std::vector<std::array<std::size_t, 4>>>;
   CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>> d(
     Domain(points, shape.tetrahedra));
-  CGAL::ARAP::Options options;
-  options.cells = cells;
-  d.set_options(options);
+  d.set_options(options_for(cells));
   const Eigen::Matrix4d m = task.motion.matrix();
   for(std::size_t v = 0; v < number_of_vertices; ++v)
   {

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// What is compiled here is header-only, with preconditions checked, and as for a compiler without the
-// vector extensions of g++ and clang.
+// What is compiled here is header-only, with preconditions checked, and as by a compiler that does
+// not have the vector extensions of g++ and clang.
 
 #undef CGAL_ARAP_DEFORMATION_COMPILED
 #define CGAL_DEBUG 1

@@ -13,6 +13,7 @@
 
 #include "include/check.h"
 #include "include/conformance.h"
+#include "include/length.h"
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
@@ -99,7 +100,7 @@ void test_all()
     return Eigen::Matrix3d(Eigen::Matrix3d::NullaryExpr([&] { return normal(random); }));
   };
   const auto rotation = [&] { return decompose(matrix()).closest; };
-  for(int k = 0; k < 20000; ++k)
+  for(int k = 0; k < short_or_long(4000, 20000); ++k)
   {
     test_case() = "random";
     check_optimal(matrix());
@@ -299,7 +300,7 @@ std::size_t number_of_newton_results(const Samples& samples, const Matrices& sta
 
 void check_all_starts()
 {
-  const Samples samples(80003);
+  const Samples samples(is_long_run() ? 80003 : 8003);
   for(double angle : {0., 1e-12, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.3, 1., 2., 3., 3.14159265})
   {
     test_case() = "started " + std::to_string(angle) + " away";
@@ -391,11 +392,11 @@ void check_independence()
 // Rotations that are handed from call to call stay rotations, and the closest ones.
 void check_drift()
 {
-  test_case() = "ten thousand calls";
+  test_case() = "many calls";
   const Samples samples(16);
   const Eigen::AngleAxisd turn(0.003, random_vector().normalized());
   Matrices still = samples.starts(0.1), moving = still, covariances = samples.covariances;
-  for(int call = 0; call < 10000; ++call)
+  for(int call = 0; call < short_or_long(1000, 10000); ++call)
   {
     still = fit(Newton_closest_rotation(), samples.covariances, still);
     for(Matrix_3x3& c : covariances)

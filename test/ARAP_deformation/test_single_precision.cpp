@@ -220,7 +220,7 @@ void test_threads()
 struct Run
 {
   Report report;
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Point> points;
 };
 
 template <typename Solver>
@@ -233,18 +233,9 @@ Run run(const Shape& shape, const Options& options, unsigned int iterations, dou
   Run result;
   result.report = deformation.deform(iterations, tolerance);
   CHECK(succeeded(result.report.status));
-  for(auto v : mesh.vertices())
-    result.points.push_back(vector(mesh.point(v)));
+  result.points = points_of(mesh);
   CHECK(CGAL::ARAP::first_rise_of_energy(result.report) == 0);
   return result;
-}
-
-double largest_difference(const Run& a, const Run& b)
-{
-  double largest = 0;
-  for(std::size_t v = 0; v < a.points.size(); ++v)
-    largest = larger(largest, (a.points[v] - b.points[v]).norm());
-  return largest;
 }
 
 // Each iterate to the accuracy of a solution, and the minimum exactly.
@@ -261,7 +252,8 @@ void test_minima()
       options.minimizer = Minimizer::local_global;
       const Run few = run<Single_precision_cholesky_solver>(shape, options, 10, 0);
       const Run few_expected = run<Multifrontal_cholesky_solver>(shape, options, 10, 0);
-      const double difference = largest_difference(few, few_expected) / shape.diameter();
+      const double difference =
+        largest_distance(few.points, few_expected.points) / shape.diameter();
       CHECK_AT_MOST(difference, 1e-5);
       number_of_differences += difference > 1e-11;
 

@@ -11,9 +11,7 @@
 
 // The solvers: conformance, and one deformation with each of them and with each rotation fitting.
 
-#include "include/check.h"
-#include "include/conformance.h"
-#include "include/shapes.h"
+#include "include/domains.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
@@ -471,16 +469,14 @@ public:
   void operator()(const char* name, const Traits& traits, double bound)
   {
     double largest = 0;
-    for(const Cell_scheme& cells :
-        {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+    for(const Cell_scheme& cells : all_cell_schemes)
       for(double target_weight : {std::numeric_limits<double>::infinity(), 0.5})
       {
         const std::size_t k = m_run++;
         if(k == m_default.size())
           m_default.push_back(deformed(traits, cells, target_weight));
-        const std::vector<Eigen::Vector3d> points = deformed(traits, cells, target_weight);
-        for(std::size_t v = 0; v < points.size(); ++v)
-          largest = larger(largest, (points[v] - m_default[k][v]).norm() / m_shape.diameter());
+        const std::vector<Point> points = deformed(traits, cells, target_weight);
+        largest = larger(largest, largest_distance(points, m_default[k]) / m_shape.diameter());
       }
     m_run = 0;
     std::printf("%-60s %.1e\n", name, largest);
@@ -490,22 +486,17 @@ public:
 
 private:
   template <typename Traits>
-  std::vector<Eigen::Vector3d> deformed(const Traits& traits, const Cell_scheme& cells,
-                                        double target_weight) const
+  std::vector<Point> deformed(const Traits& traits, const Cell_scheme& cells,
+                              double target_weight) const
   {
     Mesh mesh = make_mesh<Mesh>(m_shape);
     CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
-    Options options;
-    options.cells = cells;
-    deformation.set_options(options);
+    deformation.set_options(options_for(cells));
     prepare(deformation, scenario(m_shape), all_vertices(mesh));
     for(auto v : deformation.control_vertices())
       CHECK(deformation.set_target_weight(v, target_weight));
     CHECK(deformation.deform(m_iterations, 0));
-    std::vector<Eigen::Vector3d> points;
-    for(auto v : mesh.vertices())
-      points.push_back(vector(mesh.point(v)));
-    return points;
+    return points_of(mesh);
   }
 
   Shape m_shape = grid("bumpy sheet", 48, 36, [](double u, double v) {
@@ -513,7 +504,7 @@ private:
   });
   unsigned int m_iterations;
   std::size_t m_run = 0;
-  std::vector<std::vector<Eigen::Vector3d>> m_default; // for each case
+  std::vector<std::vector<Point>> m_default; // for each case
 };
 
 template <typename Solver>

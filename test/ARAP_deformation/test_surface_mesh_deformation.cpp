@@ -493,13 +493,7 @@ std::vector<Point> run(const Shape& shape, const Prepare& prepare_deformation)
   prepare_deformation(deformation);
   prepare(deformation, scenario(shape, 0.6), all_vertices(mesh));
   CHECK(deformation.deform(4, 0));
-  return {mesh.points().begin(), mesh.points().end()};
-}
-
-std::vector<Point> points_of(const Shape& shape)
-{
-  const Mesh mesh = make_mesh<Mesh>(shape);
-  return {mesh.points().begin(), mesh.points().end()};
+  return points_of(mesh);
 }
 
 // solvers and rotations of this package and of CGAL's give the same
@@ -518,7 +512,7 @@ void test_models()
     test_case() = "models, " + shape.name;
     const double d = bound * shape.diameter();
     const auto result = run<Our_class<Mesh, ORIGINAL_ARAP>>(shape, nothing);
-    CHECK(largest_distance(result, points_of(shape)) > 0.01 * shape.diameter());
+    CHECK(largest_distance(result, shape.points) > 0.01 * shape.diameter());
     CHECK_AT_MOST(largest_distance(result, run<Our_class<Mesh, ORIGINAL_ARAP, Default, LU, Polar>>(
                                              shape, nothing)), d);
     CHECK_AT_MOST(largest_distance(result, run<Our_class<Mesh, ORIGINAL_ARAP, Default, Default,
@@ -552,7 +546,7 @@ void test_indices()
       mesh, get(boost::vertex_index, mesh), number);
     prepare(shuffled, s, all_vertices(mesh));
     CHECK(shuffled.deform(4, 0));
-    CHECK(expected == std::vector<Point>(mesh.points().begin(), mesh.points().end()));
+    CHECK(expected == points_of(mesh));
 
     Mesh holes;
     const auto nowhere = [&holes] { return holes.add_vertex(Point(0, 0, 0)); };
@@ -751,15 +745,6 @@ std::vector<Eigen::Vector3d> run(const Shape& shape)
     points.emplace_back(CGAL::to_double(p[0]), CGAL::to_double(p[1]), CGAL::to_double(p[2]));
   }
   return points;
-}
-
-double largest_distance(const std::vector<Eigen::Vector3d>& a,
-                        const std::vector<Eigen::Vector3d>& b)
-{
-  double largest = 0;
-  for(std::size_t k = 0; k < a.size(); ++k)
-    largest = larger(largest, (a[k] - b[k]).norm());
-  return largest;
 }
 
 void test_all()

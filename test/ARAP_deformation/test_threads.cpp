@@ -362,7 +362,7 @@ private:
   }
 
   Mesh& m_mesh;
-  const std::vector<Point> m_rest = {m_mesh.points().begin(), m_mesh.points().end()};
+  const std::vector<Point> m_rest = points_of(m_mesh);
   Deformation m_deformation;
   std::mt19937 m_random;
   int m_number_of_drags = 0;
@@ -374,7 +374,7 @@ std::vector<Point> points_after(unsigned int seed, int number_of_drags)
   Dragging dragging(mesh, seed);
   for(int k = 0; k < number_of_drags; ++k)
     dragging.drag();
-  return {mesh.points().begin(), mesh.points().end()};
+  return points_of(mesh);
 }
 
 void test_soak(int number_of_drags)
@@ -407,8 +407,7 @@ void test_soak(int number_of_drags)
     CHECK(d->set_options(Options()));
     CHECK(d->deform(10, 0));
   }
-  for(Vertex v : mesh.vertices())
-    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(mesh.point(v), other.point(v))), 1e-10);
+  CHECK_AT_MOST(largest_distance(points_of(mesh), points_of(other)), 1e-10);
 }
 
 // Two sessions know nothing of each other: in two threads they do to the last bit what each does

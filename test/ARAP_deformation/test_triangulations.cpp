@@ -10,7 +10,7 @@
 // Author(s)     : The ARAP_deformation authors
 
 // The domain of 3D triangulations: all finite cells or some of them, weights that are kept, caches
-// that are renewed, the triangulation of tetrahedral remeshing, and vertices that are moved to where
+// that are renewed, the triangulation of tetrahedral remeshing, and vertices that are moved where
 // they should not be.
 
 #include "include/nasty_runs.h"

@@ -112,8 +112,8 @@ inline void check_refused(const std::string& arguments, int exit_code, const std
   CHECK(content(folder / "precious.off") == "precious");
 }
 
-// Calls each test in a new folder with the command whose path is the argument of the program. Returns
-// what main() returns; where there is no command the test has failed.
+// Calls each test in a new folder with the command whose path is the argument of the program.
+// Returns what main() returns; where there is no command the test has failed.
 inline int test_command(int argc, char** argv, const std::vector<std::function<void()>>& tests)
 {
   if(argc < 2 || !fs::is_regular_file(argv[1]))

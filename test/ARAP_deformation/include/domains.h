@@ -16,6 +16,7 @@
 // same energies and positions as the domain of ranges.
 
 #include "check.h"
+#include "conformance.h"
 #include "shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
@@ -37,6 +38,18 @@ using CGAL::ARAP::Cell_scheme;
 inline const std::array<Cell_scheme, 3> all_cell_schemes = {
   Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()};
 
+inline CGAL::ARAP::Options options_for(
+  const Cell_scheme& cells,
+  CGAL::ARAP::Minimizer minimizer = CGAL::ARAP::Minimizer::automatic,
+  CGAL::ARAP::Initial_guess guess = CGAL::ARAP::Initial_guess::previous)
+{
+  CGAL::ARAP::Options options;
+  options.cells = cells;
+  options.minimizer = minimizer;
+  options.initial_guess = guess;
+  return options;
+}
+
 // Calls f(options) with all cells, minimizers and initial guesses.
 template <typename Function>
 void for_all_options(const Function& f)
@@ -46,13 +59,7 @@ void for_all_options(const Function& f)
   for(const Cell_scheme& cells : all_cell_schemes)
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
       for(Initial_guess guess : {Initial_guess::previous, Initial_guess::laplacian})
-      {
-        CGAL::ARAP::Options options;
-        options.cells = cells;
-        options.minimizer = minimizer;
-        options.initial_guess = guess;
-        f(options);
-      }
+        f(options_for(cells, minimizer, guess));
 }
 
 // what a domain asks of a point, and nothing else
@@ -75,10 +82,7 @@ struct Result
 template <typename Domain>
 void check_conforms(const Domain& domain)
 {
-  const std::vector<std::string> violations = CGAL::ARAP::check_domain(domain);
-  for(const std::string& sentence : violations)
-    std::cerr << sentence << std::endl;
-  CHECK(violations.empty());
+  CHECK_CONFORMS(CGAL::ARAP::check_domain(domain));
 }
 
 // Ten iterations; vertex k of the shape is vertices[k] of the domain. `read` gives the result,
@@ -88,9 +92,7 @@ Result deform(const Domain& domain, const Vertices& vertices, const Scenario& s,
               const Read& read)
 {
   CGAL::ARAP_deformation<Domain> deformation(domain);
-  CGAL::ARAP::Options options;
-  options.cells = cells;
-  CHECK(deformation.set_options(options));
+  CHECK(deformation.set_options(options_for(cells)));
   prepare(deformation, s, vertices);
   const CGAL::ARAP::Report report = deformation.deform(10, 0);
   if(!CHECK(report))
@@ -109,15 +111,6 @@ template <typename Domain, typename Vertices>
 Result deform(const Domain& domain, const Vertices& vertices, const Scenario& s, Cell_scheme cells)
 {
   return deform(domain, vertices, s, cells, [&domain](const auto& v) { return domain.point(v); });
-}
-
-// the points of a shape
-inline std::vector<Point> points_of(const std::vector<Eigen::Vector3d>& vectors)
-{
-  std::vector<Point> points;
-  for(const auto& p : vectors)
-    points.push_back(point(p));
-  return points;
 }
 
 inline bool is_finite_point(const Point& p)

@@ -144,10 +144,7 @@ struct Steps
   static Step_ set_options(Cell_scheme cells, CGAL::ARAP::Minimizer minimizer,
                            CGAL::ARAP::Initial_guess guess)
   {
-    CGAL::ARAP::Options options;
-    options.cells = cells;
-    options.minimizer = minimizer;
-    options.initial_guess = guess;
+    CGAL::ARAP::Options options = options_for(cells, minimizer, guess);
     options.iterations = 3;
     options.tolerance = 0;
     return {"set options", [options](Session& s) {

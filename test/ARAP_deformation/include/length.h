@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_LENGTH_H
 #define CGAL_ARAP_DEFORMATION_TEST_LENGTH_H
 
-// How much a test runs. script/test ends within minutes: of loops over very many cases it runs some.
-// script/test --all sets the environment variable ARAP_DEFORMATION_TEST_ALL, and all are run.
+// How much a test runs. script/test ends within minutes: of loops over very many cases it runs
+// some. script/test --all sets the environment variable ARAP_DEFORMATION_TEST_ALL: all are run.
 
 #include <cstddef>
 #include <cstdlib>
@@ -29,8 +29,8 @@ inline int short_or_long(int in_short_run, int in_long_run)
   return is_long_run() ? in_long_run : in_short_run;
 }
 
-// Which cases are run: every n-th, or all in a long run. Where the cases come from nested loops, n is a
-// prime that divides none of their lengths, so that each choice meets each other one.
+// Which cases are run: every n-th, or all in a long run. Where the cases come from nested loops, n
+// is a prime that divides none of their lengths, so that each choice meets each other one.
 class Every_nth
 {
 public:

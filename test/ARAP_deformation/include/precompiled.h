@@ -12,8 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_PRECOMPILED_H
 #define CGAL_ARAP_DEFORMATION_TEST_PRECOMPILED_H
 
-// What most tests include, compiled once for all of them. Each test includes what it uses itself: it
-// compiles without this header, too.
+// What most tests include, compiled once for all of them. Each test includes what it uses itself,
+// and so compiles without this header.
 
 #include "domains.h"
 

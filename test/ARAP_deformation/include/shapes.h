@@ -185,10 +185,25 @@ TriangleMesh make_mesh(const Shape& shape)
 }
 
 inline Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
+inline const Eigen::Vector3d& vector(const Eigen::Vector3d& p) { return p; }
 inline Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+inline std::vector<Point> points_of(const Mesh& mesh)
+{
+  return {mesh.points().begin(), mesh.points().end()};
+}
+
+inline std::vector<Point> points_of(const std::vector<Eigen::Vector3d>& vectors)
+{
+  std::vector<Point> points;
+  for(const auto& p : vectors)
+    points.push_back(point(p));
+  return points;
+}
+
 // the largest distance of two points at the same place; vast if their numbers differ
-inline double largest_distance(const std::vector<Point>& a, const std::vector<Point>& b)
+template <typename P, typename Q>
+double largest_distance(const std::vector<P>& a, const std::vector<Q>& b)
 {
   double largest = a.size() == b.size() ? 0 : 1e300;
   for(std::size_t k = 0; k < a.size() && k < b.size(); ++k)
