@@ -13,3 +13,5 @@
 #ifndef CGAL_ARAP_DEFORMATION_COMPILED
 #define CGAL_ARAP_DEFORMATION_COMPILED
 #endif
+
+#include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>

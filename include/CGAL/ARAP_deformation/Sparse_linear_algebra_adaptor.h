@@ -71,7 +71,7 @@ public:
   /// makes an object of `SparseLinearAlgebra`; all else is left to `factorize()`.
   bool analyze(const Sparse_matrix&)
   {
-    m_state = std::make_unique<State>();
+    m_state.emplace();
     if(m_prepare)
       m_prepare(m_state->solver);
     return true;
