@@ -12,13 +12,13 @@
 // Naive Laplacian editing as the initial guess: the dense least-squares solution, not a step of
 // the iteration, and a start from which the energy falls as well.
 
+#include "include/Single_precision_solver.h"
 #include "include/check.h"
 #include "include/dense_reference.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <algorithm>
@@ -86,6 +86,6 @@ void test()
 int main()
 {
   test<CGAL::ARAP::Multifrontal_cholesky_solver>();
-  test<CGAL::ARAP::Single_precision_cholesky_solver>();
+  test<Single_precision_solver>();
   return checks_result();
 }

@@ -15,7 +15,6 @@
 #include "include/check.h"
 #include "include/conformance.h"
 
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
@@ -292,7 +291,6 @@ struct Throws : Whole_solver
 int main()
 {
   CHECK_CONFORMS(check_sparse_solver(Multifrontal_cholesky_solver()));
-  CHECK_CONFORMS(check_sparse_solver(Eigen_cholesky_solver()));
   CHECK_CONFORMS(check_sparse_solver(Whole_solver()));
   using LLT = Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>;
   CHECK_CONFORMS(check_sparse_solver(Eigen_sparse_solver<LLT>()));

@@ -13,15 +13,14 @@
 // One deformation, solved by all solvers and with all rotation fittings: how far the shapes are
 // from that of the default, relative to the bounding box.
 
+#include "include/Single_precision_solver.h"
 #include "include/check.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -123,7 +122,6 @@ int main()
         CGAL::ARAP_deformation_traits_3<>(), 0);
 
   const double direct = 1e-8;
-  swaps("Eigen_cholesky_solver", with_solver<Eigen_cholesky_solver>(), direct);
   swaps("Eigen_sparse_solver<Eigen::SimplicialLLT>",
         with_solver<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>(), direct);
   swaps("Eigen_LDLT_solver", with_solver<Eigen_LDLT_solver>(), direct);
@@ -136,7 +134,8 @@ int main()
         with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>(), direct);
 
   // the errors of these are corrections that come an iteration later
-  swaps("Single_precision_cholesky_solver", with_solver<Single_precision_cholesky_solver>(), 1e-6);
+  swaps("Multifrontal_cholesky_solver, single precision", with_solver<Single_precision_solver>(),
+        1e-6);
   swaps("Eigen_conjugate_gradient_solver", with_solver<Eigen_conjugate_gradient_solver>(), 1e-8);
   for(double tolerance : {1e-8, 1e-4})
   {

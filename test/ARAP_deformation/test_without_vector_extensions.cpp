@@ -13,6 +13,7 @@
 
 #define CGAL_ARAP_NO_VECTOR_EXTENSIONS
 
+#include "include/Single_precision_solver.h"
 #include "include/check.h"
 #include "include/conformance.h"
 #include "include/domains.h"
@@ -21,7 +22,6 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 
@@ -56,7 +56,7 @@ int main()
   CHECK_CONFORMS(CGAL::ARAP::check_closest_rotation(CGAL::ARAP::Newton_closest_rotation()));
   CHECK_CONFORMS(CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Multifrontal_cholesky_solver()));
   CHECK_CONFORMS(
-    CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Single_precision_cholesky_solver(), 2e-2));
+    CGAL::ARAP::check_sparse_solver(Single_precision_solver(), 2e-2));
   test_deformation();
   return checks_result();
 }
