@@ -15,3 +15,5 @@
 #endif
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
+#include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
