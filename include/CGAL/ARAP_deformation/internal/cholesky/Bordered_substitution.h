@@ -95,19 +95,24 @@ private:
   {
     const std::vector<int>& order = m_columns.order();
     const std::vector<double> square = m_columns.negative_square();
-    std::vector<std::size_t> place(order.size()); // of each column
-    for(std::size_t k = 0; k < order.size(); ++k)
-      place[order[k]] = k;
-    const auto entry = [&](int i, int j) {
-      const auto [column, row] = std::minmax(place[i], place[j]);
-      return d((std::max)(i, j), (std::min)(i, j)) + square[column * m_columns.size() + row];
-    };
-    const auto is_multiplier = [&](int i) { return d(i, i) <= 0; };
-    const auto magnitude = [&](int i) {
-      return is_multiplier(i) ? std::abs(entry(i, i)) : d(i, i);
-    };
-    return m_remainder.factorize(static_cast<int>(order.size()), entry, is_multiplier, magnitude,
-                                 smallest_pivot);
+    const std::size_t n = order.size();
+    std::vector<double> remainder(n * n), smallest_pivots(n);
+    std::vector<char> is_multiplier(n);
+    for(std::size_t l = 0; l < n; ++l)
+      for(std::size_t k = l; k < n; ++k)
+      {
+        const auto [column, row] = std::minmax(order[k], order[l]);
+        remainder[static_cast<std::size_t>(column) * n + static_cast<std::size_t>(row)] =
+          d(row, column) + square[l * m_columns.size() + k];
+      }
+    for(std::size_t k = 0; k < n; ++k)
+    {
+      const double diagonal = d(static_cast<int>(k), static_cast<int>(k));
+      is_multiplier[k] = diagonal <= 0;
+      smallest_pivots[k] =
+        smallest_pivot * (is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal);
+    }
+    return m_remainder.factorize(static_cast<int>(n), remainder, is_multiplier, smallest_pivots);
   }
 
   // z := (D - W^T W)^-1 (g - W^T y), and y := y - W z in the local vectors

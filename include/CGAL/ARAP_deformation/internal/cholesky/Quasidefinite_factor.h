@@ -36,19 +36,21 @@ namespace internal {
 class Quasidefinite_factor
 {
 public:
-  // Factorizes the n x n matrix with entries entry(i, j). is_negative(i) is true for the rows of S.
-  // Returns `false` if a pivot is not positive, or not above tolerance * magnitude(i).
-  template <typename Entry, typename Is_negative, typename Magnitude>
-  bool factorize(int n, const Entry& entry, const Is_negative& is_negative,
-                 const Magnitude& magnitude, double tolerance)
+  // Factorizes an n x n matrix, of which the lower triangle is read; is_negative[i] is true for the
+  // rows of S. Returns `false` if a pivot is not above its smallest value, which is not negative.
+  bool factorize(int n, const std::vector<double>& matrix, const std::vector<char>& is_negative,
+                 const std::vector<double>& smallest_pivots)
   {
-    std::vector<int> order(static_cast<std::size_t>(n));
-    for(int i = 0; i < n; ++i)
-      order[i] = i;
-    std::stable_partition(order.begin(), order.end(), is_negative);
-    int negative = 0;
-    while(negative < n && is_negative(order[negative]))
-      ++negative;
+    std::vector<int> order;
+    for(char sign : {1, 0})
+      for(int i = 0; i < n; ++i)
+        if(is_negative[i] == sign)
+          order.push_back(i);
+    const int negative = static_cast<int>(std::count(is_negative.begin(), is_negative.end(), 1));
+    const auto entry = [&](int i, int j) {
+      return matrix[static_cast<std::size_t>((std::min)(i, j)) * static_cast<std::size_t>(n)
+                    + static_cast<std::size_t>((std::max)(i, j))];
+    };
     m_structure = Supernodal_structure(dense_supernodes(negative, n), order);
     m_negative = negative;
 
@@ -75,7 +77,7 @@ public:
 
     const auto is_safe = [&](int i, double reciprocal) {
       const double pivot = 1 / (reciprocal * reciprocal);
-      return std::isfinite(pivot) && pivot > tolerance * magnitude(order[i]);
+      return std::isfinite(pivot) && pivot > smallest_pivots[order[i]];
     };
     for(int j = 0; j < n; ++j)
       if(!is_safe(j, j < negative ? first[j * (height + 1)]

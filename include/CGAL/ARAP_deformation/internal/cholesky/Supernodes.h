@@ -53,9 +53,9 @@ inline std::vector<int> supernode_of_columns(const std::vector<int>& columns)
   return result;
 }
 
-// Where supernodes begin, and at last the number of columns. Columns with the same rows are put
-// together, and then supernodes with their parents where that adds few zeros to the factor: the
-// fewer and wider they are, the less time goes into what is not arithmetic.
+// Where supernodes begin, and at last the number of columns. Columns with the same rows form
+// supernodes, which are then merged with their parents if that adds few zeros to the factor: fewer
+// and wider supernodes have less overhead.
 class Supernode_columns
 {
 public:
@@ -109,8 +109,8 @@ private:
   std::vector<int> m_begin;
 };
 
-// The supernodes of the factor of P A P^T. On the way `order`, which has the row of the matrix for
-// each row of the factor, becomes a postorder.
+// The supernodes of the factor of P A P^T. `order`, which has the row of the matrix for each row of
+// the factor, is replaced by an equivalent postorder.
 inline Supernodes find_supernodes(const Sparse_matrix& a, std::vector<int>& order)
 {
   std::vector<int> parent =
