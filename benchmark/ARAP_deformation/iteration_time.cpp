@@ -56,7 +56,7 @@ void compare(const Scenario& scenario, const Settings& settings, ARAP::Cell_sche
              const std::string& cells_name, bool with_libigl, Json& rows)
 {
   const double difference = verify_iterates<Weight, Tag>(scenario, cells);
-  verify_iterates<Weight, Tag, ARAP::Single_precision_cholesky_solver>(scenario, cells, 1e-5);
+  verify_iterates<Weight, Tag, Single_precision_solver>(scenario, cells, 1e-5);
   const unsigned int iterations = number_of_iterations(scenario.number_of_vertices());
   std::map<std::pair<unsigned int, std::string>, Measurements> ours; // by threads and solver
   Measurements cgal, libigl;

@@ -14,5 +14,8 @@
 #define CGAL_ARAP_DEFORMATION_COMPILED
 #endif
 
+#include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
+#include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>

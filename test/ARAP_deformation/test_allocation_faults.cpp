@@ -15,12 +15,12 @@
 // The allocations of TBB are not ours: it makes some of them once for a thread, at any time.
 #undef CGAL_LINKED_WITH_TBB
 
+#include "include/Single_precision_solver.h"
 #include "include/check.h"
 #include "include/fault_stories.h"
 
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Embedding.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/arap_deform.h>
 
 #include <boost/property_map/function_property_map.hpp>
@@ -194,8 +194,8 @@ void test_embedding()
 int main()
 {
   test_cell_schemes();
-  test_solver<CGAL::ARAP::Eigen_cholesky_solver>("Eigen_cholesky_solver");
-  test_solver<CGAL::ARAP::Single_precision_cholesky_solver>("Single_precision_cholesky_solver");
+  test_solver<CGAL::ARAP::Eigen_LDLT_solver>("Eigen_LDLT_solver");
+  test_solver<Single_precision_solver>("Single_precision_solver");
   test_many_weights();
   test_arap_deform();
   test_drop_in_class();

@@ -168,13 +168,14 @@ Sparse_matrix sparse(const Eigen::MatrixXd& m)
   return s;
 }
 
-// Columns of both kinds: unit vectors, that hold a vertex, and rows of a Laplacian, that free one.
+// Columns of all kinds: unit vectors, which fix a vertex or, with a negative entry of d, pull it, and
+// rows of a Laplacian, which free one.
 struct Border
 {
   Eigen::MatrixXd b, d;
 };
 
-Border random_border(int n, int fixed, int freed)
+Border random_border(int n, int fixed, int freed, int pulled = 0)
 {
   std::vector<int> vertices(n);
   for(int i = 0; i < n; ++i)
@@ -184,6 +185,11 @@ Border random_border(int n, int fixed, int freed)
                 Eigen::MatrixXd::Zero(fixed + freed, fixed + freed)};
   for(int k = 0; k < fixed; ++k)
     border.b(vertices[k], k) = 1;
+  for(int k = 0; k < fixed && k < pulled; ++k)
+  {
+    border.d(k, k) = -random_number(0.01, 100);
+    border.b(vertices[(k + 1) % n], k) = -0.5; // a row of two entries
+  }
   // diagonally dominant together with what the matrix has of its shift
   for(int k = fixed; k < fixed + freed; ++k)
   {
@@ -205,28 +211,33 @@ Eigen::MatrixXd bordered(const Sparse_matrix& a, const Border& border)
 }
 
 template <typename Solver>
-void test_borders(Solver& solver, const Sparse_matrix& a)
+void test_borders(Solver& solver, const Sparse_matrix& a, double tolerance = 1e-9)
 {
   const int n = static_cast<int>(a.rows());
-  for(const auto& [fixed, freed] :
-      std::vector<std::pair<int, int>>{{1, 0}, {0, 1}, {4, 0}, {3, 2}, {0, 5}, {9, 4}})
-  {
-    if(fixed > n)
-      continue;
-    const Border border = random_border(n, fixed, freed);
-    Eigen::MatrixXd lower = border.d;
-    lower.triangularView<Eigen::StrictlyUpper>().setConstant(7); // is not read
-    CHECK(solver.set_border(sparse(border.b), lower));
-    const Rows b = random_rows(static_cast<std::size_t>(n + fixed + freed));
-    Rows x = b;
-    CHECK(solver.solve(x.size(), x.data()));
-    CHECK_AT_MOST(error(bordered(a, border), b, x), 1e-9);
-  }
+  for(int pulled : {0, 2})
+    for(const auto& [fixed, freed] :
+        std::vector<std::pair<int, int>>{{1, 0}, {0, 1}, {4, 0}, {3, 2}, {0, 5}, {9, 4}})
+    {
+      if(fixed > n)
+        continue;
+      const Border border = random_border(n, fixed, freed, pulled);
+      Eigen::MatrixXd lower = border.d;
+      lower.triangularView<Eigen::StrictlyUpper>().setConstant(7); // is not read
+      CHECK(solver.set_border(sparse(border.b), lower));
+      const Rows b = random_rows(static_cast<std::size_t>(n + fixed + freed));
+      Rows x = b;
+      CHECK(solver.solve(x.size(), x.data()));
+      CHECK_AT_MOST(error(bordered(a, border), b, x), tolerance);
+    }
 
   // the same vertex fixed twice
   Eigen::MatrixXd twice = Eigen::MatrixXd::Zero(n, 2);
   twice.row(n / 2).setOnes();
   CHECK(!solver.set_border(sparse(twice), Eigen::MatrixXd::Zero(2, 2)));
+  // a border that is not that of a minimum: a further unknown makes it indefinite
+  Border indefinite = random_border(n, 0, 1);
+  indefinite.d(0, 0) = 1e-12;
+  CHECK(!solver.set_border(sparse(indefinite.b), indefinite.d));
   // a column of zeros
   CHECK(!solver.set_border(Sparse_matrix(n, 1), Eigen::MatrixXd::Zero(1, 1)));
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -357,6 +368,22 @@ void test_threads(const std::string& name, Solver solver)
   CHECK_AT_MOST(relative_residual(all, b, y), 1e-10);
 }
 
+// Borders hold to single precision where the factor has it, and for other threads too.
+void test_borders_in_single_precision()
+{
+  Multifrontal_cholesky_solver solver(Factor_precision::single_precision);
+  int number_of_singles = 0;
+  for(const Problem& problem : small_problems())
+  {
+    test_case() = "single precision, " + problem.name;
+    CHECK(solver.analyze(problem.matrix));
+    CHECK(solver.factorize(problem.matrix));
+    number_of_singles += solver.is_single_precision();
+    test_borders(solver, problem.matrix, 1e-3);
+  }
+  CHECK(number_of_singles > 20);
+}
+
 // the bits are not compared of a factor in one piece
 void test_blocks()
 {
@@ -382,6 +409,7 @@ int main()
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
 #endif
   test_blocks();
+  test_borders_in_single_precision();
   for(Fill_reducing_ordering ordering :
       {Fill_reducing_ordering::minimum_degree, Fill_reducing_ordering::nested_dissection})
   {

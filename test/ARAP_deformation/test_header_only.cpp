@@ -21,12 +21,12 @@
 #include "include/domains.h"
 #include "include/misuse.h"
 #include "include/shapes.h"
+#include "include/Single_precision_solver.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 
@@ -119,7 +119,7 @@ void test_all()
   CHECK_CONFORMS(CGAL::ARAP::check_closest_rotation(CGAL::ARAP::Newton_closest_rotation()));
   CHECK_CONFORMS(CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Multifrontal_cholesky_solver()));
   CHECK_CONFORMS(
-    CGAL::ARAP::check_sparse_solver(CGAL::ARAP::Single_precision_cholesky_solver(), 2e-2));
+    CGAL::ARAP::check_sparse_solver(Single_precision_solver(), 2e-2));
   test_deformation();
 }
 

@@ -17,10 +17,10 @@
 #include "include/domains.h"
 #include "include/length.h"
 #include "include/shapes.h"
+#include "include/Single_precision_solver.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation_traits_3.h>
@@ -175,7 +175,6 @@ void test_all()
 // the iteration, and a start from which the energy falls as well.
 namespace initial_guess {
 
-
 template <typename Solver>
 void test()
 {
@@ -227,7 +226,7 @@ void test()
 void test_all()
 {
   test<CGAL::ARAP::Multifrontal_cholesky_solver>();
-  test<CGAL::ARAP::Single_precision_cholesky_solver>();
+  test<Single_precision_solver>();
 }
 
 } // namespace initial_guess

@@ -12,6 +12,7 @@
 // The factor in single precision: what its solutions are worth, when it gives way to one in double
 // precision, and that the minimizers reach the same minimum with either.
 
+#include "include/Single_precision_solver.h"
 #include "include/check.h"
 #include "include/conformance.h"
 #include "include/rows.h"
@@ -19,7 +20,6 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -94,7 +94,7 @@ void test_accuracy()
 {
   test_case() = "accuracy";
   const Sparse_matrix a = grid_matrix(80, 70, 1);
-  auto single = factorized<Single_precision_cholesky_solver>(a);
+  auto single = factorized<Single_precision_solver>(a);
   auto twice = factorized<Multifrontal_cholesky_solver>(a);
   CHECK(single.is_single_precision());
   CHECK(single.factor_bytes() < 0.6 * twice.factor_bytes());
@@ -122,7 +122,7 @@ void test_range()
     test_case() = "a right-hand side of the size 1e" + std::to_string(exponent);
     const double size = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(20, 15, 1);
-    auto single = factorized<Single_precision_cholesky_solver>(a);
+    auto single = factorized<Single_precision_solver>(a);
     auto twice = factorized<Multifrontal_cholesky_solver>(a);
     CHECK(single.is_single_precision());
     const Rows b = random_rows(20 * 15, size);
@@ -133,14 +133,14 @@ void test_range()
     test_case() = "a matrix of the size 1e" + std::to_string(exponent);
     const double factor = std::pow(10.0, exponent);
     const Sparse_matrix a = grid_matrix(20, 15, 1, factor);
-    auto single = factorized<Single_precision_cholesky_solver>(a);
+    auto single = factorized<Single_precision_solver>(a);
     auto twice = factorized<Multifrontal_cholesky_solver>(a);
     CHECK(single.is_single_precision() == (std::abs(exponent) < 40));
     const Rows b = random_rows(20 * 15);
     CHECK_AT_MOST(relative_error(solution(single, b), solution(twice, b)), 1e-5);
   }
   test_case() = "zeros";
-  auto single = factorized<Single_precision_cholesky_solver>(grid_matrix(20, 15, 1));
+  auto single = factorized<Single_precision_solver>(grid_matrix(20, 15, 1));
   const Rows zeros(20 * 15, Coordinates{0, 0, 0});
   CHECK(solution(single, zeros) == zeros);
 }
@@ -149,7 +149,7 @@ void test_range()
 // solutions are those in double precision.
 void test_fallback()
 {
-  Single_precision_cholesky_solver solver;
+  Single_precision_solver solver;
   CHECK(solver.analyze(grid_matrix(60, 30, 1)));
   int number_of_singles = 0, number_of_doubles = 0;
   for(int exponent = 0; exponent >= -13; --exponent)
@@ -196,7 +196,7 @@ void test_fallback_of_a_part()
     add(is_bad ? small : grid_matrix(5, 5, 1, 1e14), 100 * 90);
     Sparse_matrix a(100 * 90 + 25, 100 * 90 + 25);
     a.setFromTriplets(entries.begin(), entries.end());
-    CHECK(factorized<Single_precision_cholesky_solver>(a).is_single_precision() == !is_bad);
+    CHECK(factorized<Single_precision_solver>(a).is_single_precision() == !is_bad);
   }
 }
 
@@ -208,7 +208,7 @@ void test_threads()
   Rows first;
   for(unsigned int threads : {1u, 2u, 8u, 0u})
     internal::run_with_threads(threads, [&] {
-      auto solver = factorized<Single_precision_cholesky_solver>(a);
+      auto solver = factorized<Single_precision_solver>(a);
       const Rows x = solution(solver, b);
       CHECK(solver.is_single_precision());
       if(first.empty())
@@ -250,7 +250,7 @@ void test_minima()
       Options options;
       options.cells = cells;
       options.minimizer = Minimizer::local_global;
-      const Run few = run<Single_precision_cholesky_solver>(shape, options, 10, 0);
+      const Run few = run<Single_precision_solver>(shape, options, 10, 0);
       const Run few_expected = run<Multifrontal_cholesky_solver>(shape, options, 10, 0);
       const double difference =
         largest_distance(few.points, few_expected.points) / shape.diameter();
@@ -258,7 +258,7 @@ void test_minima()
       number_of_differences += difference > 1e-11;
 
       options.minimizer = Minimizer::quasi_newton;
-      const Run all = run<Single_precision_cholesky_solver>(shape, options, 2000, 1e-10);
+      const Run all = run<Single_precision_solver>(shape, options, 2000, 1e-10);
       const Run all_expected = run<Multifrontal_cholesky_solver>(shape, options, 2000, 1e-10);
       CHECK(all.report.status == all_expected.report.status);
       if(cells == Cell_scheme::elements())
@@ -289,7 +289,7 @@ void test_badly_conditioned_shapes()
       Options options;
       options.minimizer = minimizer;
       const double tolerance = minimizer == Minimizer::quasi_newton ? 1e-8 : 0;
-      const Run single = run<Single_precision_cholesky_solver>(shape, options, 300, tolerance);
+      const Run single = run<Single_precision_solver>(shape, options, 300, tolerance);
       const Run expected = run<Multifrontal_cholesky_solver>(shape, options, 300, tolerance);
       CHECK_AT_MOST(std::abs(single.report.energy.back() - expected.report.energy.back()),
                     1e-6 * expected.report.energy.front());
@@ -302,8 +302,8 @@ int main()
   // as many threads as are asked for, and not only as many as there are cores
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
 #endif
-  CHECK_CONFORMS(check_sparse_solver(Single_precision_cholesky_solver(), 2e-2));
-  CHECK_CAUGHT(check_sparse_solver(Single_precision_cholesky_solver()), "relative residual");
+  CHECK_CONFORMS(check_sparse_solver(Single_precision_solver(), 2e-2));
+  CHECK_CAUGHT(check_sparse_solver(Single_precision_solver()), "relative residual");
   test_accuracy();
   test_range();
   test_fallback();

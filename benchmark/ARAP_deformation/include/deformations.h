@@ -19,10 +19,9 @@
 #include "scenario.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/Eigen_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Single_precision_cholesky_solver.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
@@ -77,14 +76,21 @@ private:
   Rotation m_rotation;
 };
 
+// The default solver with its factor in single precision, as a type.
+struct Single_precision_solver : ARAP::Multifrontal_cholesky_solver
+{
+  Single_precision_solver()
+    : ARAP::Multifrontal_cholesky_solver(ARAP::Factor_precision::single_precision)
+  {}
+};
+
 // Calls f(traits, name) with traits for each of our solvers.
 template <typename Weight, typename Function>
 void for_each_solver(const Function& f)
 {
   f(CGAL::ARAP_deformation_traits_3<ARAP::Multifrontal_cholesky_solver, Weight>(), "default");
-  f(CGAL::ARAP_deformation_traits_3<ARAP::Single_precision_cholesky_solver, Weight>(),
-    "single precision");
-  f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_cholesky_solver, Weight>(), "Eigen");
+  f(CGAL::ARAP_deformation_traits_3<Single_precision_solver, Weight>(), "single precision");
+  f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_LDLT_solver, Weight>(), "Eigen");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif

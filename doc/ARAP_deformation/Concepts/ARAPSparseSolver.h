@@ -24,9 +24,7 @@ A call may throw, for example `std::bad_alloc`; the deformation is then as it wa
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Multifrontal_cholesky_solver}
-\cgalHasModels{CGAL::ARAP::Single_precision_cholesky_solver}
 \cgalHasModels{CGAL::ARAP::Cholmod_solver}
-\cgalHasModels{CGAL::ARAP::Eigen_cholesky_solver}
 \cgalHasModels{CGAL::ARAP::Eigen_sparse_solver<EigenSolver>}
 \cgalHasModels{CGAL::ARAP::Sparse_linear_algebra_adaptor<SparseLinearAlgebra>}
 \cgalHasModelsEnd
@@ -64,20 +62,22 @@ public:
   /// of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
 
-  /// is not required. Where a solver has this function, another set of control vertices does not need
-  /// another factorization as long as few of them change.
+  /// is not required. If a solver has this function, a change of few control vertices does not need
+  /// another factorization.
   ///
-  /// It gives the matrix \f$A\f$ of the last call of `factorize()` a border, or takes it away if `b` has
-  /// no columns; `factorize()` takes it away too. From then on `solve()` takes and returns as many more
-  /// rows as `b` has columns, for the system
+  /// It gives the matrix \f$A\f$ of the last call of `factorize()` a border, or removes it if `b` has
+  /// no columns; `factorize()` removes it too. With a border, `x` in `solve()` has as many more
+  /// rows as `b` has columns, and the system is
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
   /// = \begin{pmatrix} f \\ g \end{pmatrix}. \f]
   /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts.
   ///
-  /// The rows of the border whose diagonal entry in `d` is zero are those of multipliers, which hold
-  /// unknowns where they are; the matrix is to be positive definite on all vectors
-  /// in which these unknowns are zero.
+  /// The rows of the border whose diagonal entry in `d` is zero or negative are multipliers: with zero
+  /// their row is a constraint \f$b^T x = g\f$, with \f$-1/w\f$ a penalty \f$w (b^T x - g)^2\f$
+  /// that is added to \f$x^T A x - 2 f^T x\f$, of which the solution is the minimum. The other rows
+  /// belong to further unknowns.
   ///
-  /// Returns whether it is and the bordered system can be solved safely. If not, there is no border.
-  bool set_border(const CGAL::ARAP::Sparse_matrix& b, const Eigen::MatrixXd& d);
+  /// Returns whether the bordered matrix has exactly as many negative eigenvalues as there are
+  /// multipliers, and can be solved safely. If not, there is no border.
+  bool set_border(const CGAL::ARAP::Sparse_matrix& b, const CGAL::ARAP::Dense_matrix& d);
 };

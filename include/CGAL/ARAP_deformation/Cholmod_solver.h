@@ -29,7 +29,6 @@
 #endif
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 namespace CGAL {
@@ -38,11 +37,11 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief CHOLMOD's supernodal Cholesky factorization.
 ///
-/// CHOLMOD computes the factor; the substitution is our own, that of
-/// `Multifrontal_cholesky_solver`, and reads the factor where CHOLMOD has put it.
+/// CHOLMOD computes the factor; the substitution is that of `Multifrontal_cholesky_solver`, and reads
+/// the factor in place.
 ///
-/// Needs CHOLMOD, of SuiteSparse, and its library. It runs on the BLAS it is built with, whose
-/// threads may make results differ in the last bits from run to run.
+/// Needs CHOLMOD, a library of SuiteSparse. CHOLMOD calls the BLAS it is built with, whose threads
+/// may make results differ in the last bits from run to run.
 ///
 /// A copy has the same ordering and nothing analyzed; a move keeps the factor.
 ///
@@ -53,15 +52,14 @@ public:
   /// constructs a solver that has nothing analyzed.
   Cholmod_solver() = default;
 
-  /// constructs a solver that has nothing analyzed, and orders as told.
+  /// constructs a solver with an ordering that has nothing analyzed.
   explicit Cholmod_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
   /// Returns `false` if memory runs out.
   bool analyze(const Sparse_matrix& a)
   {
-    m_state.reset(); // its memory is of use
-    m_state = std::make_unique<State>(m_ordering);
+    m_state.emplace(m_ordering);
     cholmod_sparse matrix = view(a);
     return m_state->analyze(matrix);
   }
@@ -74,18 +72,9 @@ public:
     return m_state->factorize(matrix);
   }
 
-  /// gives the matrix a border, or takes it away if `b` has no columns.
-  ///
-  /// What is solved from now on is the symmetric system
-  /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$.
-  /// Time: for each column of `b` the part of the factor that the elimination tree reaches from
-  /// its entries.
-  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
-  /// \param d a symmetric matrix, of which the lower triangle is read
-  /// \return `false` if the bordered matrix cannot be solved safely, or has more negative
-  /// eigenvalues than `d` has zeros on its diagonal; there is no border then.
-  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  /// gives the matrix a border, or removes it if `b` has no columns, as
+  /// `Multifrontal_cholesky_solver::set_border()` does.
+  bool set_border(const Sparse_matrix& b, const Dense_matrix& d)
   {
     return m_state->substitution.set_border(m_state->structure, m_state->values(), b, d);
   }
@@ -102,19 +91,19 @@ public:
   std::size_t factor_bytes() const { return m_state->structure.number_of_bytes(); }
 
 private:
-  // what CHOLMOD owns, and the substitution that reads it
+  // what CHOLMOD owns, and the substitution
   struct State
   {
     explicit State(Fill_reducing_ordering ordering)
     {
       cholmod_start(&common);
-      common.print = 0;                       // return values say all
-      common.supernodal = CHOLMOD_SUPERNODAL; // what the substitution takes
+      common.print = 0;
+      common.supernodal = CHOLMOD_SUPERNODAL;
       common.nmethods = 1;
       common.method[0].ordering = CHOLMOD_AMD;
       if(ordering == Fill_reducing_ordering::nested_dissection)
       {
-        common.nmethods = 2; // the second one too, of use where CHOLMOD is built without METIS
+        common.nmethods = 2; // the second is for a CHOLMOD without METIS
         common.method[0].ordering = CHOLMOD_METIS;
         common.method[1].ordering = CHOLMOD_AMD;
       }
@@ -161,7 +150,7 @@ private:
       substitution.remove_border();
       if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK
       || !internal::has_positive_diagonal(structure, values()))
-        return false; // CHOLMOD lets pivots pass that are not numbers
+        return false; // CHOLMOD accepts pivots that are NaN
       internal::invert_diagonal(structure, values());
       return true;
     }
@@ -169,10 +158,10 @@ private:
     cholmod_common common;
     cholmod_factor* factor = nullptr;
     internal::Supernodal_structure structure;
-    internal::Bordered_substitution substitution;
+    internal::Bordered_substitution<double> substitution;
   };
 
-  // `a` as CHOLMOD sees it, which does not change it
+  // `a` as a matrix of CHOLMOD, which does not change it
   static cholmod_sparse view(const Sparse_matrix& a)
   {
     cholmod_sparse matrix = {};

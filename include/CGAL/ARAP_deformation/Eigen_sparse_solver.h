@@ -95,7 +95,7 @@ public:
   /// lets Eigen analyze the pattern of `a`.
   bool analyze(const Sparse_matrix& a)
   {
-    m_state = std::make_unique<State>();
+    m_state.emplace();
     if(m_prepare)
       m_prepare(m_state->solver);
     m_state->solver.analyzePattern(keep(a));

@@ -16,102 +16,112 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
-#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
-#include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
-
-#include <Eigen/Core>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
 
 #include <cstddef>
-#include <memory>
 
 namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method,
-/// parallel over the subtrees of the elimination tree: the default.
+/// \brief The numbers in which `Multifrontal_cholesky_solver` stores a factor.
+enum class Factor_precision
+{
+  /// Double precision. The default.
+  double_precision,
+  /// Single precision: half the memory, and faster iterations on large regions.
+  single_precision
+};
+
+/// \ingroup PkgARAPDeformationSolvers
+/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method, parallel
+/// over the subtrees of the elimination tree: the default.
 ///
-/// Factorization and substitution go over the dense blocks of the factor, its supernodes. The three
-/// columns of a right-hand side are solved for together. What can be done at the same time is,
-/// where programs are linked with TBB, and the result is the same to the last bit for any number of
-/// threads. The ordering is Eigen's, or that of METIS (see `Fill_reducing_ordering`).
+/// Factorization and substitution work on dense blocks of the factor, its supernodes, and solve for
+/// the three columns of a right-hand side together. In programs that are linked with TBB they run
+/// in parallel; the result is the same to the last bit for any number of threads.
 ///
-/// A copy has the same ordering and nothing analyzed; a move keeps the factor.
+/// ### Single Precision ###
+///
+/// The minimizers do not depend on the accuracy of solutions: they solve for the next step, from the
+/// forces at the current positions, which are computed in double precision. So a factor in single
+/// precision leads to the same minimum, and an iterate of `Minimizer::local_global` differs from
+/// that of other solvers by the error of a solution. The relative error is about \f$10^{-7}\f$
+/// times the square root of the condition number of the matrix in the norm of the energy, and up to
+/// that number itself in other norms: with `check_sparse_solver()`, allow residuals of 0.02.
+///
+/// If the matrix is so ill-conditioned that the steps would suffer, or if its entries are out of the
+/// range of `float`, `factorize()` computes the factor again and stores it in double precision. It
+/// finds out by refining the solution for a random right-hand side three times: in the norm of the
+/// energy, each correction must be at most a tenth of the one before.
+///
+/// A copy has the same ordering and precision, and nothing analyzed; a move keeps the factor.
 ///
 /// \cgalModels{ARAPSparseSolver}
 class Multifrontal_cholesky_solver
 {
 public:
   /// constructs a solver that has nothing analyzed.
-  Multifrontal_cholesky_solver() = default;
+  explicit Multifrontal_cholesky_solver(
+    Fill_reducing_ordering ordering = Fill_reducing_ordering::minimum_degree,
+    Factor_precision precision = Factor_precision::double_precision)
+    : m_ordering(ordering), m_precision(precision)
+  {}
 
-  /// constructs a solver that has nothing analyzed, and orders as told.
-  explicit Multifrontal_cholesky_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
+  /// constructs a solver with the default ordering that has nothing analyzed.
+  explicit Multifrontal_cholesky_solver(Factor_precision precision)
+    : Multifrontal_cholesky_solver(Fill_reducing_ordering::minimum_degree, precision)
+  {}
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
-  bool analyze(const Sparse_matrix& a)
-  {
-    m_state.reset(); // its memory is of use
-    m_state = std::make_unique<State>(a, m_ordering);
-    return true;
-  }
+  bool analyze(const Sparse_matrix& a);
 
   /// computes the factor; `a` has the pattern of the last `analyze()`. Returns `false` if `a` is
   /// not positive definite.
-  bool factorize(const Sparse_matrix& a)
-  {
-    m_state->substitution.remove_border();
-    return m_state->cholesky.factorize(a, m_state->values);
-  }
+  bool factorize(const Sparse_matrix& a);
 
-  /// gives the matrix a border, or takes it away if `b` has no columns.
+  /// gives the matrix a border, or removes it if `b` has no columns.
   ///
-  /// What is solved from now on is the symmetric system
+  /// `solve()` then solves the symmetric system
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
-  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$.
-  /// Time: for each column of `b` the part of the factor that the elimination tree reaches from
-  /// its entries.
-  /// \param b the columns of the border, as many rows as \f$A\f$; all entries are stored
+  /// = \begin{pmatrix} f \\ g \end{pmatrix}, \f] without another factorization of \f$A\f$. This
+  /// takes the time of a forward substitution for each column of `b`, restricted to the part of the
+  /// factor that the elimination tree reaches from the entries of the column.
+  ///
+  /// A row of the border is a multiplier if its diagonal entry in `d` is zero or negative: zero for
+  /// a constraint, \f$-1/w\f$ for a penalty of weight \f$w\f$.
+  /// \param b the columns of the border, with as many rows as \f$A\f$; all entries are stored
   /// \param d a symmetric matrix, of which the lower triangle is read
-  /// \return `false` if the bordered matrix cannot be solved safely, or has more negative
-  /// eigenvalues than `d` has zeros on its diagonal; there is no border then.
-  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
-  {
-    return m_state->substitution.set_border(m_state->cholesky.structure(), m_state->values.get(), b,
-                                            d);
-  }
+  /// \return `false` if the bordered system cannot be solved safely, or if the bordered matrix does
+  /// not have exactly as many negative eigenvalues as there are multipliers; there is no border
+  /// then.
+  bool set_border(const Sparse_matrix& b, const Dense_matrix& d);
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the
   /// factorized matrix, its border included. Time: two sweeps over the factor.
-  bool solve(std::size_t n, Coordinates* x)
-  {
-    m_state->substitution.solve(m_state->cholesky.structure(), m_state->values.get(), n, x);
-    return true;
-  }
+  bool solve(std::size_t n, Coordinates* x);
 
-  /// returns the size of the factor, its indices included. Each solution reads it twice.
+  /// returns whether the factor is in single precision; `false` if there is none.
+  bool is_single_precision() const;
+
+  /// returns the size of the factor, including its indices. Each solution reads it twice.
   /// \pre A matrix was analyzed.
-  std::size_t factor_bytes() const { return m_state->cholesky.structure().number_of_bytes(); }
+  std::size_t factor_bytes() const;
 
 private:
-  struct State
-  {
-    State(const Sparse_matrix& a, Fill_reducing_ordering ordering)
-      : cholesky(a, internal::fill_reducing_order(a, ordering))
-    {}
+  struct State;
 
-    internal::Supernodal_cholesky cholesky;
-    std::unique_ptr<double[]> values;
-    internal::Bordered_substitution substitution;
-  };
-
-  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
+  Fill_reducing_ordering m_ordering;
+  Factor_precision m_precision;
   internal::Unshared_ptr<State> m_state;
 };
 
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_MULTIFRONTAL_CHOLESKY_SOLVER_H

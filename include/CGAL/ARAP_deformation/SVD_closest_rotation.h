@@ -15,7 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
 
 #include <cstddef>
 
@@ -37,14 +37,14 @@ class SVD_closest_rotation
 {
 public:
   /// computes `rotations[k]`, the rotation closest to `covariances[k]`, for `k` in `[0, n)`.
-  void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
-  {
-    for(std::size_t k = 0; k < n; ++k)
-      rotations[k] = internal::Svd_rotation::closest(covariances[k]);
-  }
+  void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const;
 };
 
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_SVD_CLOSEST_ROTATION_H

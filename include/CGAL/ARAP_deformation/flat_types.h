@@ -14,9 +14,19 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
 #include <Eigen/SparseCore>
+#endif
 
 #include <array>
+
+// Programs that are linked with the compiled core need Eigen only where they use its matrices.
+namespace Eigen {
+template <typename, int, int, int, int, int>
+class Matrix;
+template <typename, int, typename>
+class SparseMatrix;
+} // namespace Eigen
 
 namespace CGAL {
 namespace ARAP {
@@ -30,8 +40,13 @@ using Coordinates = std::array<double, 3>;
 using Matrix_3x3 = std::array<double, 9>;
 
 /// \ingroup PkgARAPDeformationTypes
-/// a symmetric sparse matrix. Only the lower triangle is stored, by columns, with ascending rows.
-using Sparse_matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+/// a symmetric sparse matrix: `Eigen::SparseMatrix<double>`. Only the lower triangle is stored, by
+/// columns, with ascending rows.
+using Sparse_matrix = Eigen::SparseMatrix<double, 0, int>;
+
+/// \ingroup PkgARAPDeformationTypes
+/// a dense matrix: `Eigen::MatrixXd`.
+using Dense_matrix = Eigen::Matrix<double, -1, -1, 0, -1, -1>;
 
 } // namespace ARAP
 } // namespace CGAL

@@ -271,6 +271,7 @@ private:
       Eigen::MatrixXd d = Eigen::MatrixXd::Zero(size, size);
       for(int k = 0; k < number_of_multipliers; ++k)
         entries.emplace_back(11 * k + repetition, k, 1);
+      d(0, 0) = -0.5 * repetition; // in the second repetition a penalty instead of a constraint
       for(int k = number_of_multipliers; k < size; ++k)
       {
         d(k, k) = 20;
@@ -288,7 +289,7 @@ private:
       check_solution(moved, whole, random_rows(whole), "a matrix with a border after a move");
       solver = std::move(moved);
 
-      d(size - 1, size - 1) = -1;
+      d(size - 1, size - 1) = 1e-3; // not a multiplier, and too small for a minimum
       m_violations.check(!solver.set_border(b, d), "set_border() returns true for a matrix that is "
                          "not positive definite");
       check_solution(solver, a, random_rows(a), "a matrix after a border was refused");

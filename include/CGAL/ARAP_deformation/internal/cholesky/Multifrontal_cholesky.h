@@ -15,61 +15,52 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
-#include <CGAL/ARAP_deformation/internal/cholesky/cholesky_kernels.h>
-#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The numeric factorization. Each supernode leaves to its parent what its columns subtract from the
-// rows below, as a dense matrix; so subtrees are independent, and all arithmetic is dense. See Liu,
-// The multifrontal method for sparse matrix solution: theory and practice. All is computed in
-// double, whatever numbers the factor is stored in.
-template <typename Number>
+// The numeric factorization. Each supernode passes to its parent, as a dense matrix, what its columns
+// subtract from the rows below; so subtrees are independent, and all arithmetic is dense. See Liu,
+// The multifrontal method for sparse matrix solution: theory and practice. All arithmetic is done in
+// double precision; the factor may be stored in single precision.
 class Multifrontal_cholesky
 {
 public:
-  Multifrontal_cholesky(const Supernodal_structure& structure, Number* values)
-    : m_structure(structure), m_values(values), m_updates(structure.supernodes().size()),
-      m_first_child(structure.supernodes().size(), -1),
-      m_next_child(structure.supernodes().size(), -1)
-  {
-    for(int s = static_cast<int>(m_next_child.size()); s-- > 0;)
-      if(const int parent = structure.supernodes()[s].parent; parent >= 0)
-      {
-        m_next_child[s] = m_first_child[parent];
-        m_first_child[parent] = s;
-      }
-  }
+  Multifrontal_cholesky(const Supernodal_structure& structure, double* values)
+    : Multifrontal_cholesky(structure, values, nullptr) {}
 
-  // Puts the factor into the array of the constructor, with the reciprocals of its diagonal. They
-  // are positive numbers if the matrix is positive definite. assemble(s, panel) adds the entries of
-  // the matrix to the columns of supernode s, which are zero; it is called from several threads.
+  Multifrontal_cholesky(const Supernodal_structure& structure, float* values)
+    : Multifrontal_cholesky(structure, nullptr, values) {}
+
+  // Stores the factor in the array of the constructor, with the reciprocals of its diagonal, which
+  // are positive if the matrix is positive definite. assemble(s, panel) adds the entries of the
+  // matrix to the columns of supernode s, which are zero; it is called from several threads.
   template <typename Assemble>
   void factorize(const Assemble& assemble)
   {
     m_structure.for_each_block_upwards([&](int k) {
       const Block& b = m_structure.blocks()[k];
       std::vector<int> places;
-      std::vector<double> columns; // of a supernode, if they are not computed where they are stored
+      std::vector<double> columns; // of a supernode, if they are stored in single precision
       for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
       {
         const Supernode& supernode = m_structure.supernodes()[s];
         const std::size_t size = m_structure.size(supernode);
-        Number* const stored = m_values + supernode.values;
-        double* const panel = place_of_panel(stored, size, columns);
+        if(m_single_values)
+          columns.resize((std::max)(columns.size(), size));
+        double* const panel = m_single_values ? columns.data() : m_values + supernode.values;
         std::fill_n(panel, size, 0);
         assemble(s, panel);
         factorize_supernode(k, s, panel, places);
-        if constexpr(!std::is_same_v<Number, double>)
-          std::transform(panel, panel + size, stored,
-                         [](double value) { return static_cast<Number>(value); });
+        if(m_single_values)
+          std::transform(panel, panel + size, m_single_values + supernode.values,
+                         [](double value) { return static_cast<float>(value); });
       }
     });
   }
@@ -78,15 +69,18 @@ private:
   using Supernode = Supernodal_structure::Supernode;
   using Block = Supernodal_structure::Block;
 
-  static double* place_of_panel(Number* stored, std::size_t size, std::vector<double>& columns)
+  Multifrontal_cholesky(const Supernodal_structure& structure, double* values,
+                        float* single_values)
+    : m_structure(structure), m_values(values), m_single_values(single_values),
+      m_updates(structure.supernodes().size()), m_first_child(structure.supernodes().size(), -1),
+      m_next_child(structure.supernodes().size(), -1)
   {
-    if constexpr(std::is_same_v<Number, double>)
-      return stored;
-    else
-    {
-      columns.resize((std::max)(columns.size(), size));
-      return columns.data();
-    }
+    for(int s = static_cast<int>(m_next_child.size()); s-- > 0;)
+      if(const int parent = structure.supernodes()[s].parent; parent >= 0)
+      {
+        m_next_child[s] = m_first_child[parent];
+        m_first_child[parent] = s;
+      }
   }
 
   void factorize_supernode(int block, int index, double* panel, std::vector<int>& places)
@@ -101,11 +95,10 @@ private:
       add_update(s, m_updates[child], places, panel, update.data());
       std::vector<double>().swap(m_updates[child]);
     }
-    run_kernel<Factor_panel>(panel, s.width, s.width + s.below);
+    factor_panel(panel, s.width, s.width + s.below);
     if(below > 0)
-      run_kernel<Subtract_square>(update.data(), s.below,
-                                  static_cast<const double*>(panel + s.width), s.width,
-                                  below + static_cast<std::size_t>(s.width));
+      subtract_square(update.data(), below, s.below, 0, s.below, panel + s.width, s.width,
+                      below + static_cast<std::size_t>(s.width));
   }
 
   // The rows of `child` below among the rows of `s`. Both are in ascending order.
@@ -150,8 +143,9 @@ private:
   }
 
   const Supernodal_structure& m_structure;
-  Number* m_values;
-  std::vector<std::vector<double>> m_updates; // of supernodes whose parent is not factorized yet
+  double* m_values; // one of the two arrays is null
+  float* m_single_values;
+  std::vector<std::vector<double>> m_updates; // of supernodes whose parents are not factorized yet
   std::vector<int> m_first_child, m_next_child;
 };
 

@@ -17,8 +17,11 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
-#include <CGAL/ARAP_deformation/internal/cholesky/find_supernodes.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +36,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Sparse Cholesky factorization for a given ordering, with the symbolic part done once.
+// Sparse Cholesky factorization for a given ordering. The symbolic part is done once.
 class Supernodal_cholesky
 {
 public:
@@ -63,10 +66,7 @@ public:
   {
     if(!values)
       values.reset(new Number[m_values_size]); // the pages are first touched by the threads
-    Multifrontal_cholesky<Number>(m_structure, values.get()).factorize([&](int s, double* panel) {
-      for(std::size_t k = m_entries_begin[s]; k < m_entries_begin[s + 1]; ++k)
-        panel[m_entries[k].place] += a.valuePtr()[m_entries[k].index];
-    });
+    factorize(a, Multifrontal_cholesky(m_structure, values.get()));
     return has_positive_diagonal(m_structure, values.get());
   }
 
@@ -77,6 +77,14 @@ private:
     int index;
     std::uint32_t place;
   };
+
+  void factorize(const Sparse_matrix& a, Multifrontal_cholesky cholesky) const
+  {
+    cholesky.factorize([&](int s, double* panel) {
+      for(std::size_t k = m_entries_begin[s]; k < m_entries_begin[s + 1]; ++k)
+        panel[m_entries[k].place] += a.valuePtr()[m_entries[k].index];
+    });
+  }
 
   void find_entries(const Sparse_matrix& a, const Supernodes& supernodes,
                     const std::vector<int>& position)
@@ -92,7 +100,7 @@ private:
         ++m_entries_begin[m_structure.numbers()[s] + 2];
       }
     std::partial_sum(m_entries_begin.begin(), m_entries_begin.end(), m_entries_begin.begin());
-    // of each of them first the column, from which its place follows
+    // at first with the column instead of the place
     m_entries.resize(m_entries_begin.back());
     for(int j = 0; j < a.cols(); ++j)
       for(int k = begin[j]; k < begin[j + 1]; ++k)

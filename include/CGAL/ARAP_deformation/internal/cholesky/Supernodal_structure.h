@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Tree_blocks.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <algorithm>
@@ -27,11 +28,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Supernodes cut into blocks, which are connected parts of the elimination tree: subtrees of about
-// equal work at the bottom, and above them what lies between two branchings. Each block has a local
-// vector of its own columns and, after them, the rows of its topmost supernode below, which are all
-// the others that its supernodes refer to. So the blocks of different branches are independent, and
-// a block needs of its parent no more than those rows.
+// The supernodes of a factor, grouped by the blocks of the elimination tree. Each block has a local
+// vector: its own columns and, after them, the rows below of its topmost supernode, which are all
+// other rows that its supernodes refer to. So blocks of different branches are independent, and a
+// block needs no more of its parent than those rows.
 class Supernodal_structure
 {
 public:
@@ -39,7 +39,7 @@ public:
   {
     std::size_t values; // where its values begin
     std::size_t rows;   // where its rows below the triangle begin; they are places in local vectors
-    int first;          // the place of its first column in local vectors
+    int first;          // the place of its first column in the local vector of its block
     int width;
     int below;
     int parent;         // in the elimination tree, or -1
@@ -50,7 +50,7 @@ public:
     int supernodes_begin, supernodes_end;
     int parent;             // -1 for block 0 only, the root
     int own, boundary;      // the parts of the local vector
-    std::size_t vector;     // where the local vector begins, if all are in a row
+    std::size_t vector;     // where the local vector begins, if all stand in a row
     std::size_t columns;    // where its own columns begin in order()
     std::size_t to_parent;  // where the places of its boundary in the parent's local vector begin
     int children_begin, children_end;
@@ -66,16 +66,26 @@ public:
     for(std::size_t s = 0; s < supernodes.size(); ++s)
       parent[s] = supernodes.below(s) == 0
                 ? -1 : supernode_of[supernodes.rows[supernodes.rows_begin[s]]];
-    const std::vector<int> block_of = assign_blocks(supernodes, parent);
-    number_supernodes(supernodes, parent, block_of, order);
-    number_rows(supernodes, supernode_of, block_of);
+    std::vector<double> work(supernodes.size());
+    for(std::size_t s = 0; s < supernodes.size(); ++s)
+      work[s] = supernodes.width(s) * (0.5 * supernodes.width(s) + supernodes.below(s) + 8);
+    const Tree_blocks blocks(parent, std::move(work));
+    m_blocks.resize(blocks.size());
+    for(std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      m_blocks[b].parent = blocks.parent(b);
+      m_blocks[b].children_begin = blocks.children_begin(b);
+      m_blocks[b].children_end = blocks.children_end(b);
+    }
+    number_supernodes(supernodes, parent, blocks.block_of(), order);
+    number_rows(supernodes, supernode_of, blocks.block_of());
   }
 
   const std::vector<Supernode>& supernodes() const { return m_supernodes; }
   const std::vector<Block>& blocks() const { return m_blocks; }
 
-  // the memory that a sweep over a factor of numbers of that size has to read: what is on and below
-  // the diagonal, and the rows
+  // the memory that a sweep over the factor reads: the entries on and below the diagonal, which
+  // have that size, and the rows
   std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
   {
     std::size_t bytes = 0;
@@ -97,7 +107,7 @@ public:
   const int* rows(const Supernode& s) const { return m_rows.data() + s.rows; }
   const int* to_parent(const Block& b) const { return m_to_parent.data() + b.to_parent; }
 
-  // the rows of the matrix that the own columns of all blocks belong to, block after block
+  // the row of the matrix of each column, block after block
   const std::vector<int>& order() const { return m_order; }
 
   // the block of each supernode
@@ -116,7 +126,7 @@ public:
     return static_cast<int>(next - m_supernodes.begin()) - 1;
   }
 
-  // the supernode here of each supernode of the constructor
+  // the number here of each supernode of the constructor
   const std::vector<int>& numbers() const { return m_numbers; }
 
   // the length of all local vectors together
@@ -126,8 +136,8 @@ public:
                                   + m_blocks.back().boundary;
   }
 
-  // Calls f(block) for all blocks, for children before their parent, and at the same time for those
-  // of different branches.
+  // Calls f(block) for all blocks, children before their parent, in parallel for those of different
+  // branches.
   template <typename Function>
   void for_each_block_upwards(const Function& f, int block = 0) const
   {
@@ -138,7 +148,7 @@ public:
     f(block);
   }
 
-  // Calls f(block) for all blocks, for parents before their children.
+  // Calls f(block) for all blocks, parents before their children.
   template <typename Function>
   void for_each_block_downwards(const Function& f, int block = 0) const
   {
@@ -150,79 +160,6 @@ public:
   }
 
 private:
-  // about a hundred subtrees keep a dozen threads busy; below the least work, in numbers to be read
-  // from the factor, the cost of a task shows
-  static constexpr double number_of_subtrees = 100;
-  static constexpr double least_work = 6000;
-
-  // The block of each supernode. The blocks are numbered so that children of one parent are
-  // consecutive, after their parent.
-  std::vector<int> assign_blocks(const Supernodes& supernodes, const std::vector<int>& parent)
-  {
-    const int n = static_cast<int>(supernodes.size());
-    std::vector<double> work(n); // of subtrees
-    double total = 0;
-    for(int s = 0; s < n; ++s)
-    {
-      const int width = supernodes.width(s);
-      total += work[s] = width * (0.5 * width + supernodes.below(s) + 8);
-    }
-    for(int s = 0; s < n; ++s)
-      if(parent[s] >= 0)
-        work[parent[s]] += work[s];
-    const double subtree = (std::max)(total / number_of_subtrees, least_work);
-    // hardly worth a block of its own
-    const double twig = subtree / 8;
-
-    std::vector<int> heavy_children(n + 1, 0); // the last for the roots
-    for(int s = 0; s < n; ++s)
-      heavy_children[parent[s] < 0 ? n : parent[s]] += work[s] > subtree;
-
-    std::vector<int> result(n), block_parent(1, -1);
-    std::vector<char> is_subtree(1, 0);
-    for(int s = n; s-- > 0;)
-    {
-      const int above = parent[s] < 0 ? 0 : result[parent[s]];
-      const bool is_continued = work[s] > subtree
-                              ? heavy_children[parent[s] < 0 ? n : parent[s]] == 1
-                              : work[s] < twig;
-      result[s] = above;
-      if(!is_subtree[above] && !is_continued)
-      {
-        result[s] = static_cast<int>(block_parent.size());
-        block_parent.push_back(above);
-        is_subtree.push_back(work[s] <= subtree);
-      }
-    }
-    return renumbered_blocks(result, block_parent);
-  }
-
-  // breadth first
-  std::vector<int> renumbered_blocks(std::vector<int>& block_of, const std::vector<int>& parent)
-  {
-    const int n = static_cast<int>(parent.size());
-    std::vector<std::vector<int>> children(n);
-    for(int b = 1; b < n; ++b)
-      children[parent[b]].push_back(b);
-    std::vector<int> queue(1, 0), number(n, 0);
-    m_blocks.assign(n, Block());
-    m_blocks[0].parent = -1;
-    for(int k = 0; k < n; ++k)
-    {
-      m_blocks[k].children_begin = static_cast<int>(queue.size());
-      for(int child : children[queue[k]])
-      {
-        number[child] = static_cast<int>(queue.size());
-        m_blocks[number[child]].parent = k;
-        queue.push_back(child);
-      }
-      m_blocks[k].children_end = static_cast<int>(queue.size());
-    }
-    for(int& b : block_of)
-      b = number[b];
-    return std::move(block_of);
-  }
-
   void number_supernodes(const Supernodes& supernodes, const std::vector<int>& parent,
                          const std::vector<int>& block_of, const std::vector<int>& order)
   {
@@ -324,12 +261,12 @@ private:
     });
   }
 
-  std::vector<Supernode> m_supernodes; // of one block in a row
+  std::vector<Supernode> m_supernodes; // block after block
   std::vector<Block> m_blocks;
   std::vector<int> m_rows, m_to_parent, m_order, m_block_of, m_numbers;
 };
 
-// whether the diagonal of a factor has only numbers that are positive and finite
+// whether all diagonal entries of a factor are positive and finite
 template <typename Number>
 bool has_positive_diagonal(const Supernodal_structure& structure, const Number* values)
 {
@@ -344,7 +281,7 @@ bool has_positive_diagonal(const Supernodal_structure& structure, const Number* 
   return true;
 }
 
-// Replaces the diagonal of a factor by its reciprocals, as the substitution needs it.
+// Replaces the diagonal of a factor by its reciprocals, which the substitution multiplies by.
 inline void invert_diagonal(const Supernodal_structure& structure, double* values)
 {
   for(const Supernodal_structure::Supernode& s : structure.supernodes())

@@ -21,18 +21,16 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A pointer to what a class owns but does not hand on to its copies, such as a factor: a copy is
-// null. Moves are those of `std::unique_ptr`.
+// A pointer to what a class owns but does not pass on to its copies, such as a factor: a copy is
+// null. The type need not be complete where the class is defined.
 template <typename T>
-class Unshared_ptr : public std::unique_ptr<T>
+class Unshared_ptr : public std::shared_ptr<T> // which keeps the deleter, and is never shared
 {
 public:
-  using std::unique_ptr<T>::unique_ptr;
-
   Unshared_ptr() = default;
   Unshared_ptr(Unshared_ptr&&) = default;
   Unshared_ptr& operator=(Unshared_ptr&&) = default;
-  Unshared_ptr(const Unshared_ptr&) : std::unique_ptr<T>() {}
+  Unshared_ptr(const Unshared_ptr&) : std::shared_ptr<T>() {}
   ~Unshared_ptr() = default;
 
   Unshared_ptr& operator=(const Unshared_ptr&)
@@ -41,10 +39,12 @@ public:
     return *this;
   }
 
-  Unshared_ptr& operator=(std::unique_ptr<T>&& other)
+  // replaces the object by a new one, and destroys the old one first
+  template <typename... Arguments>
+  void emplace(Arguments&&... arguments)
   {
-    std::unique_ptr<T>::operator=(std::move(other));
-    return *this;
+    this->reset();
+    std::shared_ptr<T>::operator=(std::make_shared<T>(std::forward<Arguments>(arguments)...));
   }
 };
 

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 
 #include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 
 #ifdef CGAL_METIS_ENABLED
 #include <metis.h>

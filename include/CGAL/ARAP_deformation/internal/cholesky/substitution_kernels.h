@@ -23,8 +23,8 @@
 // Substitution with the supernodes of one block, for four right-hand sides side by side. The values
 // of a supernode are read once, a few columns together, so that each row of the vector is read and
 // written once for all of them. Vectors are arrays of numbers, four for each row: an array of
-// Vector4 would have another alignment for the code that makes it than for the wide kernels. In
-// place of the diagonal there are its reciprocals.
+// Vector4 would have one alignment in the code that allocates it and another in the AVX2 kernels.
+// The diagonal is stored as its reciprocals.
 
 namespace CGAL {
 namespace ARAP {
@@ -108,29 +108,32 @@ struct Backward_columns
   }
 };
 
-// Columns<width>::run(arguments...) for a width of at most `most`, which is 4 or 8
+// how many of the remaining columns of a supernode are worked on together: 1 to 4, or 8
+CGAL_ARAP_ALWAYS_INLINE int columns_at_once(int remaining, int most)
+{
+  return remaining >= most ? most : remaining > 4 ? 4 : remaining;
+}
+
+// Columns<width>::run(arguments...) for a width of columns_at_once()
 template <template <int> class Columns, int most, typename... Arguments>
 CGAL_ARAP_ALWAYS_INLINE void run_columns(int width, Arguments... arguments)
 {
-  static_assert(most == 4 || most == 8, "a case for each width");
+  static_assert(most == 2 || most == 4 || most == 8, "a case for each width");
   if constexpr(most == 8)
+    if(width == 8)
+      return Columns<8>::run(arguments...);
+  if constexpr(most >= 4)
     switch(width)
     {
-    case 5: return Columns<5>::run(arguments...);
-    case 6: return Columns<6>::run(arguments...);
-    case 7: return Columns<7>::run(arguments...);
-    case 8: return Columns<8>::run(arguments...);
+    case 3: return Columns<3>::run(arguments...);
+    case 4: return Columns<4>::run(arguments...);
     }
-  switch(width)
-  {
-  case 1: return Columns<1>::run(arguments...);
-  case 2: return Columns<2>::run(arguments...);
-  case 3: return Columns<3>::run(arguments...);
-  default: return Columns<4>::run(arguments...);
-  }
+  if(width == 1)
+    return Columns<1>::run(arguments...);
+  Columns<2>::run(arguments...);
 }
 
-// Has the values of a supernode, or its first ones, fetched from memory while others are worked on.
+// Prefetches the values of a supernode, or the first of them.
 template <typename Number>
 CGAL_ARAP_ALWAYS_INLINE void prefetch(const Supernodal_structure::Supernode& s,
                                       const Number* values)
@@ -162,9 +165,9 @@ struct Forward_supernodes
         prefetch(structure.supernodes()[k + 1], values);
       const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
       const Number* const first = values + s.values;
-      for(int j = 0; j < s.width; j += most)
+      for(int j = 0, width = 0; j < s.width; j += width)
       {
-        const int width = s.width - j < most ? s.width - j : most;
+        width = columns_at_once(s.width - j, most);
         run_columns<Forward_columns, most>(width, first + j * stride + j, stride,
                                            s.width - j - width, structure.rows(s), s.below,
                                            vector + 4 * std::ptrdiff_t(s.first + j), vector);
@@ -188,9 +191,11 @@ struct Backward_supernodes
         prefetch(structure.supernodes()[k - 1], values);
       const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
       const Number* const first = values + s.values;
-      for(int j = (s.width - 1) / most * most; j >= 0; j -= most)
+      for(int j = s.width; j > 0;)
       {
-        const int width = s.width - j < most ? s.width - j : most;
+        const int remainder = j % most; // the widths of the way forward, backward
+        const int width = remainder == 0 ? most : remainder > 4 ? remainder - 4 : remainder;
+        j -= width;
         run_columns<Backward_columns, most>(width, first + j * stride + j, stride,
                                             s.width - j - width, structure.rows(s), s.below,
                                             vector + 4 * std::ptrdiff_t(s.first + j), vector);
@@ -199,19 +204,21 @@ struct Backward_supernodes
   }
 };
 
-// As many columns at a time as leave registers for the rest: eight with AVX2.
+// With AVX2, eight columns at a time leave enough registers for the rest.
 template <typename Number>
 void run_forward(const Supernodal_structure& structure, int begin, int end, const Number* values,
                  Number* vector)
 {
-  run_kernel<Forward_supernodes<8>, Forward_supernodes<4>>(structure, begin, end, values, vector);
+  run_kernel<Forward_supernodes<8>, Forward_supernodes<plain_columns>>(structure, begin, end,
+                                                                       values, vector);
 }
 
 template <typename Number>
 void run_backward(const Supernodal_structure& structure, int begin, int end, const Number* values,
                   Number* vector)
 {
-  run_kernel<Backward_supernodes<8>, Backward_supernodes<4>>(structure, begin, end, values, vector);
+  run_kernel<Backward_supernodes<8>, Backward_supernodes<plain_columns>>(structure, begin, end,
+                                                                         values, vector);
 }
 
 } // namespace internal

@@ -25,17 +25,17 @@
 #include <tbb/task_arena.h>
 #endif
 
-// All that knows of threads. With TBB (the target CGAL::TBB_support, which defines
-// CGAL_LINKED_WITH_TBB) work is done at the same time, without it one piece after the other. How
-// work is cut into pieces never depends on the number of threads, and so neither do the results.
+// The only header that uses threads. With TBB (the target CGAL::TBB_support, which defines
+// CGAL_LINKED_WITH_TBB) tasks run in parallel, without it one after the other. The division into
+// tasks never depends on the number of threads, and so neither do the results.
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
 #ifdef CGAL_LINKED_WITH_TBB
-// A reference to a function object of a type that is forgotten: TBB's templates are instantiated
-// for this one, and not for each piece of parallel work, which would take seconds to compile.
+// A type-erased reference to a function object: TBB's templates are instantiated for this type
+// only and not for each loop, which would take seconds to compile.
 class Task_reference
 {
 public:
@@ -63,7 +63,7 @@ inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_refe
   arena.execute([&] { f(0); });
 }
 
-// A thread that waits for others here takes no work of the caller's own parallel loops meanwhile.
+// A thread that waits in here does not take tasks of the caller's own parallel loops.
 inline void run_in_isolation(const Task_reference& f)
 {
   tbb::this_task_arena::isolate([&] { f(0); });
@@ -75,8 +75,7 @@ inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
 }
 #endif
 
-// Calls f() with at most `number_of_threads` threads at work on what it runs in parallel; 0 for as
-// many as TBB takes by itself.
+// Calls f() with at most `number_of_threads` threads for its parallel loops; 0 for TBB's default.
 template <typename Function>
 void run_with_threads(unsigned int number_of_threads, const Function& f)
 {

@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
-#include <CGAL/ARAP_deformation/internal/simd/Double8.h>
+#include <CGAL/ARAP_deformation/internal/rotation/matrix_lanes.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <algorithm>
@@ -26,8 +26,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rotations closest to matrices C, four or eight at a time, from rotations R that are about
-// right.
+// The rotations closest to matrices C, four or eight at a time, starting from rotations R near them.
 //
 // The closest rotation is Q R, with Q that closest to M = C R^T: the Q for which Q^T M is symmetric
 // with the largest trace. With the Gibbs vector x of Q (the axis, times the tangent of half the
@@ -35,19 +34,18 @@ namespace internal {
 //
 //     (H + m I) x = a   with   m = x . a.
 //
-// That is Newton's equation for the trace but for m, which is of second order in x. As m is one
-// number it can be had to full precision beforehand: with x = adj(H + m I) a / det(H + m I) it is
-// a root of the polynomial p(m) = m det(H + m I) - a . adj(H + m I) a of degree four. Its roots are
-// real, and at the largest one, where H + m I has no negative eigenvalue, the trace is the
-// largest. If H is positive definite, then the largest root is the only one that is not negative.
-// So a positive definite H proves that the result is the closest rotation, and not only one with a
-// stationary trace; this covers negative determinants too.
+// Apart from m, which is of second order in x, that is Newton's equation for the trace. As m is one
+// number, it can be computed to full precision beforehand: with x = adj(H + m I) a / det(H + m I) it
+// is a root of the polynomial p(m) = m det(H + m I) - a . adj(H + m I) a of degree four. Its roots
+// are real; the trace is largest at the largest one, where H + m I has no negative eigenvalue. If H
+// is positive definite, the largest root is the only one that is not negative. So a positive
+// definite H proves that the result is the closest rotation and not just a stationary point of the
+// trace, for negative determinants too.
 //
-// One step with all that is exact but for rounding, and the rounding errors are proportional to
-// x. A second step is needed only where x is not small.
+// One such step is exact up to rounding, and the rounding errors are proportional to x. A second
+// step is needed only if x is not small.
 //
-// The lanes do not know of each other: what is computed in one is the same whatever the others
-// hold.
+// Lanes are independent: the result of one does not depend on what the others hold.
 template <typename Number>
 class Newton_rotation_kernel
 {
@@ -60,7 +58,7 @@ public:
       const std::size_t size = (std::min)(n - k, width);
       const Matrix_3x3* c = covariances + k;
       Matrix_3x3* r = rotations + k;
-      // the last ones are filled up in a copy, so that there is only one piece of code
+      // a copy, filled up to the width, saves a second version of the code
       Matrix_3x3 last_covariances[width], last_rotations[width];
       if(size < width)
       {
@@ -83,132 +81,20 @@ private:
 
   static constexpr std::size_t width = Number::size;
 
-  // The first step goes near the result from anywhere but half a turn away, the second one to it.
+  // The first step comes near the result unless it is half a turn away, and the second one reaches it.
   static constexpr int step_limit = 4;
 
-  // Determinants of H, scaled to about one, that are smaller are taken for zero.
+  // Smaller determinants of H, which is scaled to about one, count as zero.
   static constexpr double smallest_determinant = 1e-10;
 
-  // row by row
-  template <typename Entry>
-  struct Matrices_of
-  {
-    Entry entries[9];
-
-    CGAL_ARAP_ALWAYS_INLINE const Entry& operator()(int row, int column) const
-    { return entries[3 * row + column]; }
-    CGAL_ARAP_ALWAYS_INLINE Entry& operator()(int row, int column)
-    { return entries[3 * row + column]; }
-  };
-
-  using Matrices = Matrices_of<Number>;
-
-  struct Vectors
-  {
-    Number x, y, z;
-
-    friend CGAL_ARAP_ALWAYS_INLINE Number dot(const Vectors& a, const Vectors& b)
-    { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
-    friend CGAL_ARAP_ALWAYS_INLINE Vectors scaled(const Number& a, const Vectors& b)
-    { return {a * b.x, a * b.y, a * b.z}; }
-    // a b + c
-    friend CGAL_ARAP_ALWAYS_INLINE Vectors multiply_add(const Number& a, const Vectors& b,
-                                                        const Vectors& c)
-    { return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)}; }
-  };
-
-  struct Symmetric_matrices
-  {
-    Number xx, yy, zz, yz, xz, xy;
-
-    friend CGAL_ARAP_ALWAYS_INLINE Vectors operator*(const Symmetric_matrices& m, const Vectors& a)
-    {
-      return {multiply_add(m.xx, a.x, multiply_add(m.xy, a.y, m.xz * a.z)),
-              multiply_add(m.xy, a.x, multiply_add(m.yy, a.y, m.yz * a.z)),
-              multiply_add(m.xz, a.x, multiply_add(m.yz, a.y, m.zz * a.z))};
-    }
-    friend CGAL_ARAP_ALWAYS_INLINE Symmetric_matrices adjugate(const Symmetric_matrices& m)
-    {
-      return {multiply_subtract(m.yy, m.zz, m.yz * m.yz),
-              multiply_subtract(m.xx, m.zz, m.xz * m.xz),
-              multiply_subtract(m.xx, m.yy, m.xy * m.xy),
-              multiply_subtract(m.xy, m.xz, m.xx * m.yz),
-              multiply_subtract(m.xy, m.yz, m.yy * m.xz),
-              multiply_subtract(m.xz, m.yz, m.zz * m.xy)};
-    }
-  };
-
-  // No loop over the matrices: the compilers would not hold them in registers.
-  CGAL_ARAP_ALWAYS_INLINE static Matrices_of<Double4> load_four(const Matrix_3x3* m)
-  {
-    const double *a = m[0].data(), *b = m[1].data(), *c = m[2].data(), *d = m[3].data();
-    Matrices_of<Double4> result =
-      {{Double4::load(a), Double4::load(b), Double4::load(c), Double4::load(d),
-        Double4::load(a + 4), Double4::load(b + 4), Double4::load(c + 4), Double4::load(d + 4),
-        Double4::of(a[8], b[8], c[8], d[8])}};
-    Double4* e = result.entries;
-    transpose(e[0], e[1], e[2], e[3]);
-    transpose(e[4], e[5], e[6], e[7]);
-    return result;
-  }
-
-  CGAL_ARAP_ALWAYS_INLINE static void store_four(const Matrices_of<Double4>& from, Matrix_3x3* m)
-  {
-    double *a = m[0].data(), *b = m[1].data(), *c = m[2].data(), *d = m[3].data();
-    Double4 a0 = from.entries[0], b0 = from.entries[1], c0 = from.entries[2], d0 = from.entries[3];
-    Double4 a4 = from.entries[4], b4 = from.entries[5], c4 = from.entries[6], d4 = from.entries[7];
-    transpose(a0, b0, c0, d0);
-    transpose(a4, b4, c4, d4);
-    a0.store(a);
-    b0.store(b);
-    c0.store(c);
-    d0.store(d);
-    a4.store(a + 4);
-    b4.store(b + 4);
-    c4.store(c + 4);
-    d4.store(d + 4);
-    a[8] = from.entries[8][0];
-    b[8] = from.entries[8][1];
-    c[8] = from.entries[8][2];
-    d[8] = from.entries[8][3];
-  }
-
-  CGAL_ARAP_ALWAYS_INLINE static Matrices load(const Matrix_3x3* m)
-  {
-    const Matrices_of<Double4> low = load_four(m);
-    if constexpr(width == 4)
-      return low;
-    else
-    {
-      const Matrices_of<Double4> high = load_four(m + 4);
-      Matrices result;
-      for(int k = 0; k < 9; ++k)
-        result.entries[k] = {low.entries[k], high.entries[k]};
-      return result;
-    }
-  }
-
-  CGAL_ARAP_ALWAYS_INLINE static void store(const Matrices& from, Matrix_3x3* m)
-  {
-    if constexpr(width == 4)
-      store_four(from, m);
-    else
-    {
-      Matrices_of<Double4> low, high;
-      for(int k = 0; k < 9; ++k)
-      {
-        low.entries[k] = from.entries[k].low;
-        high.entries[k] = from.entries[k].high;
-      }
-      store_four(low, m);
-      store_four(high, m + 4);
-    }
-  }
+  using Matrices = Matrix_lanes<Number>;
+  using Vectors = Vector_lanes<Number>;
+  using Symmetric_matrices = Symmetric_matrix_lanes<Number>;
 
   CGAL_ARAP_ALWAYS_INLINE static void fit(const Matrix_3x3* covariances, Matrix_3x3* rotations)
   {
-    const Matrices c = load(covariances);
-    Matrices r = load(rotations);
+    const Matrices c = load_lanes<Number>(covariances);
+    Matrices r = load_lanes<Number>(rotations);
     make_orthonormal(r);
     Truths is_done;
     for(int k = 0; k < step_limit && (k == 0 || !are_all(is_done)); ++k) // one copy of step()
@@ -225,15 +111,15 @@ private:
         r.entries[j] = select(is_done, r.entries[j], next.entries[j]);
       is_done = is_done | is_done_now;
     }
-    store(r, rotations);
+    store_lanes(r, rotations);
     if(!are_all(is_done))
       for(int k = 0; k < static_cast<int>(width); ++k)
         if(!is_done[k])
           rotations[k] = Svd_rotation::closest(covariances[k]);
   }
 
-  // Rounding errors would add up from call to call. What is no rotation but for them becomes the
-  // identity. The third row is not looked at, but computed from the others.
+  // Removes rounding errors, which would add up from call to call. A matrix that is no rotation
+  // becomes the identity. The third row is not read but computed from the others.
   CGAL_ARAP_ALWAYS_INLINE static void make_orthonormal(Matrices& r)
   {
     const Number zero = Number::zero(), half = Number::all(0.5), one = Number::all(1);
@@ -244,7 +130,7 @@ private:
     a = multiply_add(error_a, a, multiply_add(error_ab, b, a));
     b = multiply_add(error_b, b, multiply_add(error_ab, a_old, b));
 
-    // what is left is of the order of the squares
+    // the errors that remain are of the order of the squares
     const Truths is_rotation =
       multiply_add(error_a, error_a, multiply_add(error_b, error_b, error_ab * error_ab)) <
       Number::all(1e-16);
@@ -260,7 +146,7 @@ private:
           multiply_subtract(a.x, b.y, a.y * b.x)}};
   }
 
-  // replaces r by the rotation closest to c; returns where it is so to full precision
+  // replaces r by the rotation closest to c; returns in which lanes it has full precision
   CGAL_ARAP_ALWAYS_INLINE static Truths step(const Matrices& c, Matrices& r)
   {
     Matrices m; // C R^T
@@ -273,7 +159,7 @@ private:
     Symmetric_matrices h = {m(1, 1) + m(2, 2), m(0, 0) + m(2, 2), m(0, 0) + m(1, 1),
                             m(1, 2) + m(2, 1), m(0, 2) + m(2, 0), m(0, 1) + m(1, 0)};
 
-    // scaled, or products of four entries could overflow or underflow
+    // unscaled, products of four entries could overflow or underflow
     const Number two = Number::all(2);
     const Number scale = scale_to_one(multiply_add(two, abs(h.xx) + abs(h.yy) + abs(h.zz),
                                                     abs(a.x) + abs(a.y) + abs(a.z)));
@@ -321,7 +207,7 @@ private:
   }
 
   // Of m^4 + p3 m^3 + p2 m^2 + p1 m - q, whose roots are real, by Newton's method from above, which
-  // does not overshoot. A few digits are enough to go on from.
+  // does not overshoot. A few digits suffice.
   CGAL_ARAP_ALWAYS_INLINE static Number largest_root(const Number& q, const Number& p1,
                                                       const Number& p2, const Number& p3)
   {

@@ -20,8 +20,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Two vectors of four numbers, for long chains of operations that wait for each other: the
-// processor does those of one while the other waits.
+// Two SIMD vectors of four numbers, for long chains of dependent operations: the processor interleaves
+// two chains.
 struct Double8
 {
   static constexpr int size = 8;

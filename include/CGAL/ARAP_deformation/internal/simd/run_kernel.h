@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
-// Whether there is something to choose at run time: x86 that is not compiled for AVX2 anyway.
-// (On Windows, g++ does not align the stack for it.)
+// Whether kernels are chosen at run time: on x86, unless AVX2 is required at compile time. (On
+// Windows, g++ does not align the stack for it.)
 #if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__x86_64__) && !defined(_WIN32) && \
     !(defined(__AVX2__) && defined(__FMA__))
 #define CGAL_ARAP_HAS_DISPATCH
@@ -41,8 +41,17 @@ __attribute__((target("avx2,fma"))) void run_with_avx2(const Arguments&... argum
 }
 #endif
 
-// Calls Kernel::run(arguments...) in a version for the widest registers of this processor that are
-// of use; Plain_kernel without them. Kernel::run() is static and void, and like all that it calls
+// How many columns of a matrix the plain versions of kernels hold in registers. If the kernel is
+// chosen at run time, the plain one is for processors without AVX2 only, which are rare: so few
+// columns that it is compiled soon.
+#ifdef CGAL_ARAP_HAS_DISPATCH
+constexpr int plain_columns = 2;
+#else
+constexpr int plain_columns = 4;
+#endif
+
+// Calls Kernel::run(arguments...), compiled for AVX2, if this processor has it, and otherwise
+// Plain_kernel::run(arguments...). Both are static and void and, like all that they call,
 // CGAL_ARAP_ALWAYS_INLINE; lambda expressions would not be.
 template <typename Kernel, typename Plain_kernel = Kernel, typename... Arguments>
 void run_kernel(const Arguments&... arguments)

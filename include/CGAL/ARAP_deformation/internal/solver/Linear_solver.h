@@ -36,7 +36,7 @@ public:
   virtual bool factorize(const Sparse_matrix& a) = 0;
   virtual bool solve(std::size_t n, Coordinates* x) = 0;
   // false where the model has no borders
-  virtual bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d) = 0;
+  virtual bool set_border(const Sparse_matrix& b, const Dense_matrix& d) = 0;
   virtual bool can_have_border() const = 0;
 };
 
@@ -55,7 +55,7 @@ public:
   bool factorize(const Sparse_matrix& a) override { return m_solver.factorize(a); }
   bool solve(std::size_t n, Coordinates* x) override { return m_solver.solve(n, x); }
 
-  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d) override
+  bool set_border(const Sparse_matrix& b, const Dense_matrix& d) override
   {
     if constexpr(internal::can_have_border<Solver>)
       return m_solver.set_border(b, d);

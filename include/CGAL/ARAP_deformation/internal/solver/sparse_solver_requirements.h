@@ -47,7 +47,7 @@ using Call_solve = Requires_convertible<
 template <typename Solver>
 using Call_set_border = Requires_convertible<
   decltype(std::declval<Solver&>().set_border(std::declval<const Sparse_matrix&>(),
-                                              std::declval<const Eigen::MatrixXd&>())), bool>;
+                                              std::declval<const Dense_matrix&>())), bool>;
 
 template <typename Solver>
 constexpr bool can_have_border = is_valid<Call_set_border, Solver>;

@@ -9,25 +9,26 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_CHOLESKY_KERNELS_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_CHOLESKY_KERNELS_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_DENSE_CHOLESKY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_DENSE_CHOLESKY_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
 #include <cmath>
 #include <cstddef>
 
-// Dense Cholesky factorization of the columns of one supernode. Matrices are stored column by
-// column.
+// Dense Cholesky factorization of the columns of one supernode, and the dense product that goes with
+// it. Matrices are stored column by column.
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// C := C - A B^T for a tile of C in registers: 4 `Fours` rows, `Columns` columns. A and B have
-// `depth` columns and one stride.
+// C := C - A B^T for a tile of C in registers, with 4 `Fours` rows and `Columns` columns. A and B
+// have `depth` columns and the same stride.
 template <int Fours, int Columns>
 CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::size_t c_stride, const double* a,
                                            const double* b, std::size_t stride, int depth)
@@ -83,8 +84,8 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::size_t c
     subtract_row_product<Columns>(c + i, c_stride, a + i, b, stride, depth);
 }
 
-// The first `Columns` columns of `panel` hold a symmetric matrix with `rows` more rows below;
-// factors them. In place of the diagonal its reciprocals are stored.
+// Factors the first `Columns` columns of `panel`, which hold a symmetric matrix with `rows` more
+// rows below. The diagonal is replaced by its reciprocals.
 template <int Columns>
 CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::size_t stride)
 {
@@ -126,11 +127,28 @@ CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::size_t
     }
 }
 
-// The columns of a supernode, which have been assembled, become those of the factor.
+// factor_panel() with at most so many columns at a time
+template <int most>
 struct Factor_panel
 {
+  CGAL_ARAP_ALWAYS_INLINE static void run(double* panel, int width, int height)
+  {
+    int j = 0;
+    for(; j + most <= width; j += most)
+      run_columns<most>(panel, j, height);
+    if constexpr(most > 2)
+      switch(width - j)
+      {
+      case 2: return run_columns<2>(panel, j, height);
+      case 3: return run_columns<3>(panel, j, height);
+      }
+    if(j < width)
+      run_columns<1>(panel, j, height);
+  }
+
+private:
   template <int Columns>
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* panel, int first, int height)
+  CGAL_ARAP_ALWAYS_INLINE static void run_columns(double* panel, int first, int height)
   {
     const std::size_t stride = static_cast<std::size_t>(height);
     double* const columns = panel + first * stride + first;
@@ -138,66 +156,72 @@ struct Factor_panel
                               stride, first);
     factor_columns<Columns>(height - first - Columns, columns, stride);
   }
-
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* panel, int width, int height)
-  {
-    int j = 0;
-    for(; j + 4 <= width; j += 4)
-      run<4>(panel, j, height);
-    switch(width - j)
-    {
-    case 1: return run<1>(panel, j, height);
-    case 2: return run<2>(panel, j, height);
-    case 3: return run<3>(panel, j, height);
-    }
-  }
 };
 
-// U := U - A A^T, of which the lower triangle counts, for the `n` rows of A below the triangle of a
-// supernode.
+// subtract_square() with at most so many columns at a time
+template <int most>
 struct Subtract_square
 {
-  // of A, so many numbers stay in the cache nearest to the registers but one
+  // so many entries of A fit into the second-level cache
   static constexpr int rows_at_once = 192, depth_at_once = 128;
 
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, int n, const double* a, int width,
-                                          std::size_t stride)
+  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::size_t u_stride, int n, int first,
+                                          int last, const double* a, int width, std::size_t stride)
   {
-    const std::size_t u_stride = static_cast<std::size_t>(n);
     for(int k = 0; k < width; k += depth_at_once)
     {
       const int depth = width - k < depth_at_once ? width - k : depth_at_once;
       for(int i = 0; i < n; i += rows_at_once)
       {
         const int end = n - i < rows_at_once ? n : i + rows_at_once;
-        for(int j = 0; j < end; j += 4)
+        for(int j = first; j < end && j < last; j += most)
         {
           const int begin = i < j ? j : i;
-          subtract_up_to_four_columns(n - j, end - begin, u + j * u_stride + begin, u_stride,
-                                      a + k * stride + begin, a + k * stride + j, stride, depth);
+          run_columns(last - j, end - begin, u + j * u_stride + begin, u_stride,
+                      a + k * stride + begin, a + k * stride + j, stride, depth);
         }
       }
     }
   }
 
 private:
-  // with as many columns as there are, but not more than four
+  // with as many columns as there are, but at most `most`
   CGAL_ARAP_ALWAYS_INLINE static void
-  subtract_up_to_four_columns(int columns, int rows, double* u, std::size_t u_stride,
-                              const double* a, const double* b, std::size_t stride, int depth)
+  run_columns(int columns, int rows, double* u, std::size_t u_stride, const double* a,
+              const double* b, std::size_t stride, int depth)
   {
-    switch(columns)
-    {
-    case 1: return subtract_columns<1>(rows, u, u_stride, a, b, stride, depth);
-    case 2: return subtract_columns<2>(rows, u, u_stride, a, b, stride, depth);
-    case 3: return subtract_columns<3>(rows, u, u_stride, a, b, stride, depth);
-    default: return subtract_columns<4>(rows, u, u_stride, a, b, stride, depth);
-    }
+    if constexpr(most > 2)
+      switch(columns)
+      {
+      case 2: return subtract_columns<2>(rows, u, u_stride, a, b, stride, depth);
+      case 3: return subtract_columns<3>(rows, u, u_stride, a, b, stride, depth);
+      }
+    if(columns < most)
+      return subtract_columns<1>(rows, u, u_stride, a, b, stride, depth);
+    subtract_columns<most>(rows, u, u_stride, a, b, stride, depth);
   }
 };
+
+// Factors the first `width` columns of a matrix with `height` rows, whose upper part is symmetric
+// and given by its lower triangle. The diagonal is replaced by its reciprocals, which are NaN where
+// the matrix is not positive definite.
+inline void factor_panel(double* panel, int width, int height)
+{
+  run_kernel<Factor_panel<4>, Factor_panel<plain_columns>>(panel, width, height);
+}
+
+// U := U - A A^T in the columns from `first` to before `last` of the lower triangle of U. A has n
+// rows and `width` columns; `first` is a multiple of four. Entries of U above the diagonal may
+// change too.
+inline void subtract_square(double* u, std::size_t u_stride, int n, int first, int last,
+                            const double* a, int width, std::size_t stride)
+{
+  run_kernel<Subtract_square<4>, Subtract_square<plain_columns>>(u, u_stride, n, first, last, a,
+                                                                 width, stride);
+}
 
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_CHOLESKY_KERNELS_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_DENSE_CHOLESKY_H

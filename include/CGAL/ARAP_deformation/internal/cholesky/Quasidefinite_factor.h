@@ -1,0 +1,138 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_QUASIDEFINITE_FACTOR_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_QUASIDEFINITE_FACTOR_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The factorization of a dense symmetric matrix
+//   [ -S   C ]   [ L     ] [ -I   ] [ L^T  X^T ]
+//   [ C^T  R ] = [ X  L' ] [    I ] [      L'^T ]
+// where S and R + C^T S^-1 C are positive definite. With the rows of S first it needs no pivoting.
+class Quasidefinite_factor
+{
+public:
+  // Factorizes an n x n matrix, of which the lower triangle is read; is_negative[i] is true for the
+  // rows of S. Returns `false` if a pivot is not above its smallest value, which is not negative.
+  bool factorize(int n, const std::vector<double>& matrix, const std::vector<char>& is_negative,
+                 const std::vector<double>& smallest_pivots)
+  {
+    std::vector<int> order;
+    for(char sign : {1, 0})
+      for(int i = 0; i < n; ++i)
+        if(is_negative[i] == sign)
+          order.push_back(i);
+    const int negative = static_cast<int>(std::count(is_negative.begin(), is_negative.end(), 1));
+    const auto entry = [&](int i, int j) {
+      return matrix[static_cast<std::size_t>((std::min)(i, j)) * static_cast<std::size_t>(n)
+                    + static_cast<std::size_t>((std::max)(i, j))];
+    };
+    m_structure = Supernodal_structure(dense_supernodes(negative, n), order);
+    m_negative = negative;
+
+    // both panels with the opposite sign
+    const int positive = n - negative;
+    const std::size_t height = static_cast<std::size_t>(n);
+    const std::size_t below = static_cast<std::size_t>(positive);
+    m_values.assign(height * static_cast<std::size_t>(negative) + below * below, 0);
+    double* const first = m_values.data();
+    double* const second = first + height * static_cast<std::size_t>(negative);
+    for(int j = 0; j < negative; ++j)
+      for(int i = j; i < n; ++i)
+        first[j * height + i] = -entry(order[i], order[j]);
+    for(int j = 0; j < positive; ++j)
+      for(int i = j; i < positive; ++i)
+        second[j * below + i] = -entry(order[negative + i], order[negative + j]);
+    if(negative > 0)
+    {
+      factor_panel(first, negative, n);
+      subtract_square(second, below, positive, 0, positive, first + negative, negative, height);
+    }
+    std::transform(second, second + below * below, second, [](double value) { return -value; });
+    factor_panel(second, positive, positive);
+
+    const auto is_safe = [&](int i, double reciprocal) {
+      const double pivot = 1 / (reciprocal * reciprocal);
+      return std::isfinite(pivot) && pivot > smallest_pivots[order[i]];
+    };
+    for(int j = 0; j < n; ++j)
+      if(!is_safe(j, j < negative ? first[j * (height + 1)]
+                                  : second[(j - negative) * (below + 1)]))
+        return false;
+    return true;
+  }
+
+  // replaces the rows of x, as many as the matrix has, by the solution
+  void solve(Coordinates* x)
+  {
+    m_substitution.forward(m_structure, m_values.data(), x);
+    if(m_negative > 0)
+    {
+      const int s = m_structure.numbers()[0];
+      double* const row = m_substitution.local_vector(m_structure.blocks()[m_structure.block_of(s)])
+                        + 4 * m_structure.supernodes()[s].first;
+      std::transform(row, row + 4 * m_negative, row, [](double value) { return -value; });
+    }
+    m_substitution.backward(m_structure, m_values.data(), x);
+  }
+
+private:
+  // the rows of S, and the others
+  static Supernodes dense_supernodes(int negative, int n)
+  {
+    Supernodes result;
+    result.columns.assign(1, 0);
+    result.rows_begin.assign(1, 0);
+    if(negative > 0)
+    {
+      for(int i = negative; i < n; ++i)
+        result.rows.push_back(i);
+      result.columns.push_back(negative);
+      result.rows_begin.push_back(result.rows.size());
+      result.values_begin.push_back(0);
+    }
+    if(negative < n)
+    {
+      result.columns.push_back(n);
+      result.rows_begin.push_back(result.rows.size());
+      result.values_begin.push_back(static_cast<std::size_t>(negative)
+                                    * static_cast<std::size_t>(n));
+    }
+    return result;
+  }
+
+  Supernodal_structure m_structure;
+  std::vector<double> m_values;
+  Supernodal_substitution<double> m_substitution;
+  int m_negative = 0;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CHOLESKY_QUASIDEFINITE_FACTOR_H
