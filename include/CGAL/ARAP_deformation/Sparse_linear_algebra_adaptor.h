@@ -17,6 +17,8 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
 
+#include <Eigen/SparseCore>
+
 #include <cmath>
 #include <cstddef>
 #include <functional>
