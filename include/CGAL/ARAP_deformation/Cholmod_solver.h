@@ -37,8 +37,8 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief CHOLMOD's supernodal Cholesky factorization.
 ///
-/// CHOLMOD computes the factor; the substitution is that of `Multifrontal_cholesky_solver`, and reads
-/// the factor in place.
+/// CHOLMOD computes the factor; the substitution is that of `Multifrontal_cholesky_solver`, and
+/// reads the factor in place.
 ///
 /// Needs CHOLMOD, a library of SuiteSparse. CHOLMOD calls the BLAS it is built with, whose threads
 /// may make results differ in the last bits from run to run.

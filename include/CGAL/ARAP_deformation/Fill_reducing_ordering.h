@@ -18,16 +18,16 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief How a Cholesky factorization orders the rows of a matrix, which determines the size of the
-/// factor.
+/// \brief How a Cholesky factorization orders the rows of a matrix, which determines the size of
+/// the factor.
 enum class Fill_reducing_ordering
 {
   /// Approximate minimum degree. The default: the fastest preprocessing.
   minimum_degree,
-  /// Nested dissection by METIS, or minimum degree if a solver has no METIS. The ordering takes about
-  /// four times as long; the factor of a large surface is an eighth to a quarter smaller, and so is
-  /// the time of each global step. It pays for thousands of iterations with one set of control
-  /// vertices.
+  /// Nested dissection by METIS, or minimum degree if a solver has no METIS. The ordering takes
+  /// about four times as long; the factor of a large surface is an eighth to a quarter smaller, and
+  /// so is the time of each global step. It pays for thousands of iterations with one set of
+  /// control vertices.
   nested_dissection
 };
 

@@ -35,8 +35,8 @@ enum class Factor_precision
 };
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method, parallel
-/// over the subtrees of the elimination tree: the default.
+/// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method,
+/// parallel over the subtrees of the elimination tree: the default.
 ///
 /// Factorization and substitution work on dense blocks of the factor, its supernodes, and solve for
 /// the three columns of a right-hand side together. In programs that are linked with TBB they run
@@ -44,17 +44,17 @@ enum class Factor_precision
 ///
 /// ### Single Precision ###
 ///
-/// The minimizers do not depend on the accuracy of solutions: they solve for the next step, from the
-/// forces at the current positions, which are computed in double precision. So a factor in single
-/// precision leads to the same minimum, and an iterate of `Minimizer::local_global` differs from
-/// that of other solvers by the error of a solution. The relative error is about \f$10^{-7}\f$
+/// The minimizers do not depend on the accuracy of solutions: they solve for the next step, from
+/// the forces at the current positions, which are computed in double precision. So a factor in
+/// single precision leads to the same minimum, and an iterate of `Minimizer::local_global` differs
+/// from that of other solvers by the error of a solution. The relative error is about \f$10^{-7}\f$
 /// times the square root of the condition number of the matrix in the norm of the energy, and up to
 /// that number itself in other norms: with `check_sparse_solver()`, allow residuals of 0.02.
 ///
-/// If the matrix is so ill-conditioned that the steps would suffer, or if its entries are out of the
-/// range of `float`, `factorize()` computes the factor again and stores it in double precision. It
-/// finds out by refining the solution for a random right-hand side three times: in the norm of the
-/// energy, each correction must be at most a tenth of the one before.
+/// If the matrix is so ill-conditioned that the steps would suffer, or if its entries are out of
+/// the range of `float`, `factorize()` computes the factor again and stores it in double precision.
+/// It finds out by refining the solution for a random right-hand side three times: in the norm of
+/// the energy, each correction must be at most a tenth of the one before.
 ///
 /// A copy has the same ordering and precision, and nothing analyzed; a move keeps the factor.
 ///

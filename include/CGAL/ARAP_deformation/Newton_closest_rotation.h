@@ -27,11 +27,11 @@ namespace ARAP {
 /// matrices at a time where the processor has AVX2.
 ///
 /// One step is exact up to rounding if the previous rotation is less than about a fiftieth of a
-/// radian away; otherwise a second one follows. A Hessian of the trace of \f$R^T C\f$ that is safely
-/// definite proves that the result is the closest rotation, for negative determinants too. If four
-/// steps do not reach that, as for matrices of rank one, whose closest rotation is not unique, the
-/// result is that of `SVD_closest_rotation`. A previous matrix that is no rotation counts as the
-/// identity.
+/// radian away; otherwise a second one follows. A Hessian of the trace of \f$R^T C\f$ that is
+/// safely definite proves that the result is the closest rotation, for negative determinants too.
+/// If four steps do not reach that, as for matrices of rank one, whose closest rotation is not
+/// unique, the result is that of `SVD_closest_rotation`. A previous matrix that is no rotation
+/// counts as the identity.
 ///
 /// The results are as accurate as those of `SVD_closest_rotation`. With AVX2, which is detected at
 /// run time, they take a twenty-fifth of its time if the rotations have changed little, and a

@@ -33,9 +33,9 @@ namespace ARAP {
 /// as it is.
 ///
 /// That concept has no separate analysis and one column for each call: a factorization costs the
-/// ordering again, and each solution three calls. The matrix has both triangles, so that solvers for
-/// general matrices such as `Eigen::SparseLU` work too. It depends on the model whether a matrix that
-/// is not positive definite is detected.
+/// ordering again, and each solution three calls. The matrix has both triangles, so that solvers
+/// for general matrices such as `Eigen::SparseLU` work too. It depends on the model whether a
+/// matrix that is not positive definite is detected.
 ///
 /// \tparam SparseLinearAlgebra a model of `SparseLinearAlgebraWithFactorTraits_d`, for example
 ///         `CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>`. It need

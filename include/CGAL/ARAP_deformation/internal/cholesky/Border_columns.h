@@ -85,8 +85,8 @@ struct Subtract_border
   }
 };
 
-// The columns W = L^-1 P B of a border. They are computed in the precision of the factor, and stored
-// in double precision.
+// The columns W = L^-1 P B of a border. They are computed in the precision of the factor, and
+// stored in double precision.
 template <typename Number>
 class Border_columns : public Border_parts
 {

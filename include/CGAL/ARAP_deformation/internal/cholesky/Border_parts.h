@@ -33,9 +33,9 @@ namespace ARAP {
 namespace internal {
 
 // The storage of the columns W = L^-1 P B for a border B of a factorized matrix. The columns are
-// sorted, so that those that begin near each other in the elimination tree stand together, and padded
-// with zeros to a multiple of eight. For each supernode that the tree reaches from an entry of B, the
-// rows of W are stored from the first to the last column that reaches it, row by row.
+// sorted, so that those that begin near each other in the elimination tree stand together, and
+// padded with zeros to a multiple of eight. For each supernode that the tree reaches from an entry
+// of B, the rows of W are stored from the first to the last column that reaches it, row by row.
 class Border_parts
 {
 public:

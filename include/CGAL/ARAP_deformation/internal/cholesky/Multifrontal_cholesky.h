@@ -25,10 +25,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The numeric factorization. Each supernode passes to its parent, as a dense matrix, what its columns
-// subtract from the rows below; so subtrees are independent, and all arithmetic is dense. See Liu,
-// The multifrontal method for sparse matrix solution: theory and practice. All arithmetic is done in
-// double precision; the factor may be stored in single precision.
+// The numeric factorization. Each supernode passes to its parent, as a dense matrix, what its
+// columns subtract from the rows below; so subtrees are independent, and all arithmetic is dense.
+// See Liu, The multifrontal method for sparse matrix solution: theory and practice. All arithmetic
+// is done in double precision; the factor may be stored in single precision.
 class Multifrontal_cholesky
 {
 public:

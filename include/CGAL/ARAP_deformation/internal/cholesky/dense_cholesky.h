@@ -20,8 +20,8 @@
 #include <cmath>
 #include <cstddef>
 
-// Dense Cholesky factorization of the columns of one supernode, and the dense product that goes with
-// it. Matrices are stored column by column.
+// Dense Cholesky factorization of the columns of one supernode, and the dense product that goes
+// with it. Matrices are stored column by column.
 
 namespace CGAL {
 namespace ARAP {

@@ -26,7 +26,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rotations closest to matrices C, four or eight at a time, starting from rotations R near them.
+// The rotations closest to matrices C, four or eight at a time, starting from rotations R near
+// them.
 //
 // The closest rotation is Q R, with Q that closest to M = C R^T: the Q for which Q^T M is symmetric
 // with the largest trace. With the Gibbs vector x of Q (the axis, times the tangent of half the
@@ -35,12 +36,12 @@ namespace internal {
 //     (H + m I) x = a   with   m = x . a.
 //
 // Apart from m, which is of second order in x, that is Newton's equation for the trace. As m is one
-// number, it can be computed to full precision beforehand: with x = adj(H + m I) a / det(H + m I) it
-// is a root of the polynomial p(m) = m det(H + m I) - a . adj(H + m I) a of degree four. Its roots
-// are real; the trace is largest at the largest one, where H + m I has no negative eigenvalue. If H
-// is positive definite, the largest root is the only one that is not negative. So a positive
-// definite H proves that the result is the closest rotation and not just a stationary point of the
-// trace, for negative determinants too.
+// number, it can be computed to full precision beforehand: with x = adj(H + m I) a / det(H + m I)
+// it is a root of the polynomial p(m) = m det(H + m I) - a . adj(H + m I) a of degree four. Its
+// roots are real; the trace is largest at the largest one, where H + m I has no negative
+// eigenvalue. If H is positive definite, the largest root is the only one that is not negative. So
+// a positive definite H proves that the result is the closest rotation and not just a stationary
+// point of the trace, for negative determinants too.
 //
 // One such step is exact up to rounding, and the rounding errors are proportional to x. A second
 // step is needed only if x is not small.
@@ -81,7 +82,8 @@ private:
 
   static constexpr std::size_t width = Number::size;
 
-  // The first step comes near the result unless it is half a turn away, and the second one reaches it.
+  // The first step comes near the result unless it is half a turn away, and the second one reaches
+  // it.
   static constexpr int step_limit = 4;
 
   // Smaller determinants of H, which is scaled to about one, count as zero.

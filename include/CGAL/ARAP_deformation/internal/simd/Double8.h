@@ -20,8 +20,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Two SIMD vectors of four numbers, for long chains of dependent operations: the processor interleaves
-// two chains.
+// Two SIMD vectors of four numbers, for long chains of dependent operations: the processor
+// interleaves two chains.
 struct Double8
 {
   static constexpr int size = 8;

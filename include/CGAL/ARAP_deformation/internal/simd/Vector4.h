@@ -17,7 +17,8 @@
 #include <cmath>
 #include <cstring>
 
-// Functions that must be inlined: only then are they compiled for the instruction set of the caller.
+// Functions that must be inlined: only then are they compiled for the instruction set of the
+// caller.
 #if defined(__GNUC__) && !defined(CGAL_ARAP_NO_VECTOR_EXTENSIONS) // a test does without
 #define CGAL_ARAP_HAS_VECTOR_EXTENSIONS
 #define CGAL_ARAP_ALWAYS_INLINE __attribute__((always_inline)) inline
@@ -41,8 +42,8 @@ struct Lanes_of<float> { using type = float __attribute__((vector_size(16))); };
 #endif
 
 // A SIMD vector of four numbers. Compilers map it to the registers of the processor: for double one
-// of AVX, two of SSE2, NEON or WebAssembly. (Without alignas(), g++ would align it for the instruction
-// set of the program, which is not enough for kernels that are chosen at run time.)
+// of AVX, two of SSE2, NEON or WebAssembly. (Without alignas(), g++ would align it for the
+// instruction set of the program, which is not enough for kernels that are chosen at run time.)
 template <typename Number>
 struct alignas(4 * sizeof(Number)) Vector4
 {
@@ -210,8 +211,8 @@ CGAL_ARAP_ALWAYS_INLINE Double4 abs(const Double4& a)
 #endif
 }
 
-// The powers of two that scale the positive numbers a to [1, 2), from the bits of the exponent, which
-// is faster than a division. Not for denormal or infinite numbers.
+// The powers of two that scale the positive numbers a to [1, 2), from the bits of the exponent,
+// which is faster than a division. Not for denormal or infinite numbers.
 CGAL_ARAP_ALWAYS_INLINE Double4 scale_to_one(const Double4& a)
 {
   const long long exponent_bits = 0x7ff0000000000000, twice_the_bias = 0x7fe0000000000000;

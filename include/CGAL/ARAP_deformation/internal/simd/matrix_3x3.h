@@ -21,8 +21,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The columns of a 3 x 3 matrix, for products with vectors. The fourth lane of a column, and so of a
-// product, may hold anything.
+// The columns of a 3 x 3 matrix, for products with vectors. The fourth lane of a column, and so of
+// a product, may hold anything.
 struct Matrix_columns
 {
   Double4 x, y, z;
