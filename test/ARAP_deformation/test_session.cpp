@@ -649,8 +649,8 @@ void test_checks()
   const double nan = std::nan("");
   CHECK(larger(1, 2) == 2 && larger(2, 1) == 2);
   CHECK(std::isnan(larger(1, nan)) && std::isnan(larger(nan, 1)));
-  CHECK(std::isnan(largest_distance({Point(0, nan, 0), Point(3, 0, 0)},
-                                    {Point(0, 0, 0), Point(1, 0, 0)})));
+  const std::vector<Point> lost = {Point(0, nan, 0), Point(3, 0, 0)};
+  CHECK(std::isnan(largest_distance(lost, std::vector<Point>(2, Point(1, 0, 0)))));
 
   Report report;
   report.energy_scale = 1;
