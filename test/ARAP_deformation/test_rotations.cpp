@@ -20,7 +20,6 @@
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
-#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_rotation_kernel.h>
 
 #include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
@@ -430,6 +429,8 @@ namespace conformance {
 
 using namespace CGAL::ARAP;
 
+const Matrix_3x3 identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
 // A model of nothing but what the documentation of DeformationClosestRotationTraits_3 asks for: no
 // function is const, vectors are not assigned, and all there is to see are the operations.
 class Bare_rotation_traits
@@ -464,16 +465,16 @@ public:
   void add__scalar_t_matrix_p_scalar_t_matrix__t_vector(Vector& result, double w1, const Matrix& a,
                                                         double w2, const Matrix& b, const Vector& v)
   {
-    CGAL::ARAP::internal::add(result.coordinates, w1,
-                              CGAL::ARAP::internal::product(a.entries, v.coordinates));
-    CGAL::ARAP::internal::add(result.coordinates, w2,
-                              CGAL::ARAP::internal::product(b.entries, v.coordinates));
+    for(int row = 0; row < 3; ++row)
+      for(int column = 0; column < 3; ++column)
+        result.coordinates[row] += (w1 * a.entries[3 * row + column] +
+                                    w2 * b.entries[3 * row + column]) * v.coordinates[column];
   }
 
   Matrix identity_matrix()
   {
     Matrix m;
-    m.entries = CGAL::ARAP::internal::identity_matrix();
+    m.entries = identity;
     return m;
   }
 
@@ -570,7 +571,7 @@ void test_all()
   CHECK_CAUGHT(check_broken([](size_t, size_t, const M&, const M&, M& r) { r[4] *= 1 + 1e-6; }),
                "not orthonormal");
   CHECK_CAUGHT(check_broken([](size_t n, size_t k, const M&, const M&, M& r) {
-    if(n > 1 && k + 1 == n) r = CGAL::ARAP::internal::identity_matrix();
+    if(n > 1 && k + 1 == n) r = identity;
   }), "not the closest rotation");
   CHECK_CAUGHT(check_broken([](size_t n, size_t k, const M&, const M&, M& r) {
     if(n == 7 && k == 6) turn(r, 0.1);
@@ -582,7 +583,7 @@ void test_all()
     turn(r, 1e-3 * (previous[1] != 0));
   }), "previous rotation");
   CHECK_CAUGHT(check_broken([](size_t, size_t, const M& c, const M&, M& r) {
-    if(determinant(c) < 1e-300) r = CGAL::ARAP::internal::identity_matrix();
+    if(determinant(c) < 1e-300) r = identity;
   }), "a tiny matrix");
   CHECK_CAUGHT(check_broken([](size_t, size_t, const M& c, const M&, M& r) {
     if(!(std::abs(c[0]) + std::abs(c[4]) > 0)) r.fill(std::numeric_limits<double>::quiet_NaN());

@@ -72,11 +72,11 @@ void test_point_type(double tolerance)
 {
   const Shape shape = shapes()[9];
   const Scenario s = scenario(shape);
+  using Domain = Polygon_soup_domain<std::vector<Point_>, decltype(shape.triangles)>;
   std::vector<Point_> points;
   for(const auto& p : shape.points)
-    points.push_back(CGAL::ARAP::internal::construct_point<Point_>(p.x(), p.y(), p.z()));
-  const Polygon_soup_domain<std::vector<Point_>, decltype(shape.triangles)> domain(points,
-                                                                                   shape.triangles);
+    points.push_back(Domain::make_point({p.x(), p.y(), p.z()}));
+  const Domain domain(points, shape.triangles);
   check_conforms(domain);
   compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()),
           deform(domain, numbers(points.size()), s, Cell_scheme::spokes()), shape.diameter(),
