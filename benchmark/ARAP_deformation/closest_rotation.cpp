@@ -76,7 +76,7 @@ private:
 // the input of the local step before the iteration with the given number
 Batch record_batch(const Scenario& scenario, unsigned int iteration)
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight,
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Clamped_angle_weight,
                                                  Recording_rotation>;
   Recording_rotation::Record record;
   Our_deformation<Traits> ours(scenario, Traits(Traits::Sparse_solver(), Clamped_angle_weight(),

@@ -37,7 +37,7 @@ using namespace benchmark;
 // single precision with few steps, so that only the first iterates are comparable.
 void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
 {
-  Our_deformation<CGAL::ARAP_deformation_traits_3<CGAL::Default, ARAP::Cotangent_weight>>
+  Our_deformation<CGAL::ARAP_deformation_traits<CGAL::Default, ARAP::Cotangent_weight>>
     ours(scenario);
   ours.run(1);
   libigl.run(1);

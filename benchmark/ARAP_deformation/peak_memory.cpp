@@ -80,10 +80,10 @@ void deform_with(const std::string& name, Scenario& scenario)
     if(name == "ours")
       deform_by_traits(Default_traits());
     else if(name == "ours_single")
-      deform_by_traits(CGAL::ARAP_deformation_traits_3<benchmark::Single_precision_solver,
+      deform_by_traits(CGAL::ARAP_deformation_traits<benchmark::Single_precision_solver,
                                                        Clamped_angle_weight>());
     else
-      deform_by_traits(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_LDLT_solver,
+      deform_by_traits(CGAL::ARAP_deformation_traits<ARAP::Eigen_LDLT_solver,
                                                        Clamped_angle_weight>());
   }
   else if(name == "cgal")

@@ -157,7 +157,7 @@ Libigl_scenario libigl_bar(const Bar& bar)
 // Fails unless the first iterates are the same; libigl fits rotations in single precision.
 double verify_libigl(const Bar& bar, Libigl_deformation& libigl)
 {
-  Our_bar<CGAL::ARAP_deformation_traits_3<>> ours(bar, CGAL::ARAP_deformation_traits_3<>());
+  Our_bar<CGAL::ARAP_deformation_traits<>> ours(bar, CGAL::ARAP_deformation_traits<>());
   ours.run(1);
   libigl.run(1);
   double largest = 0;

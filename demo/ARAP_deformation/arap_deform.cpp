@@ -82,7 +82,7 @@ private:
                CGAL::ARAP::Clamped_cotangent_weight, CGAL::ARAP::Uniform_weight> m_weight;
 };
 
-using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Chosen_weight>;
+using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Chosen_weight>;
 
 // the report of the deformation, and what the command adds to it
 struct Result

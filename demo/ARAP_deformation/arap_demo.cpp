@@ -118,9 +118,9 @@ void draw_model(const fs::path& folder, const Demo_model<Shape>& model)
        model.view, folder / (model.name + ".png"));
 }
 
-using Traits = CGAL::ARAP_deformation_traits_3<>;
+using Traits = CGAL::ARAP_deformation_traits<>;
 using Uniform_traits =
-  CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight>;
+  CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
 
 // Figure 3 of the paper: iterations on a bent bar, from the distorted guess of naive Laplacian
 // editing.

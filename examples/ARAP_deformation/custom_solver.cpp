@@ -96,7 +96,7 @@ bool bend(const char* name, const Solver& solver = Solver())
   }, true);
   const Mesh rest = mesh;
 
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver>; // all else by default
+  using Traits = CGAL::ARAP_deformation_traits<Solver>; // all else by default
   CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, Traits(solver));
   for(Mesh::Vertex_index v : mesh.vertices())
   {

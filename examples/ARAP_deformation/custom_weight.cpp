@@ -73,8 +73,8 @@ bool bend(const char* name, const Traits& traits, Cell_scheme cells)
 
 int main()
 {
-  using Own_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Inverse_length_weight>;
-  const CGAL::ARAP_deformation_traits_3<> default_traits;
+  using Own_traits = CGAL::ARAP_deformation_traits<CGAL::Default, Inverse_length_weight>;
+  const CGAL::ARAP_deformation_traits<> default_traits;
   const Own_traits own_traits({}, Inverse_length_weight(0.5));
   const bool done =
     bend("cotangents, spokes and rims", default_traits, Cell_scheme::spokes_and_rims()) &&

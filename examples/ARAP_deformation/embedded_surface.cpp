@@ -1,6 +1,6 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Embedding.h>
-#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
+#include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>

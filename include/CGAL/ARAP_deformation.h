@@ -22,7 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
 #include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/assertions.h>
@@ -49,19 +49,19 @@ namespace CGAL {
 /// All computations are in `double`, whatever the type of the points.
 ///
 /// \tparam Mesh the type of the mesh, or of its domain
-/// \tparam Traits a model of `ARAPDeformationTraits_3`, default `ARAP_deformation_traits_3<>`
-/// \tparam Domain a model of `ARAPDomain_3`. The default depends on `Mesh`:
-///         - if `Mesh` is itself a model of `ARAPDomain_3`, `Mesh`;
-///         - for triangulations and complexes in them, `ARAP::Triangulation_domain_3`: include its
+/// \tparam Traits a model of `ARAPDeformationTraits`, default `ARAP_deformation_traits<>`
+/// \tparam Domain a model of `ARAPDomain`. The default depends on `Mesh`:
+///         - if `Mesh` is itself a model of `ARAPDomain`, `Mesh`;
+///         - for triangulations and complexes in them, `ARAP::Triangulation_domain`: include its
 ///           header;
 ///         - for linear cell complexes that are no `FaceGraph` (of dimension 3, over generalized
-///           maps, or without face attributes), `ARAP::Linear_cell_complex_domain_3`: include its
+///           maps, or without face attributes), `ARAP::Linear_cell_complex_domain`: include its
 ///           header;
 ///         - else `ARAP::Face_graph_domain<Mesh>`.
 template <typename Mesh, typename Traits = Default, typename Domain = Default>
 class ARAP_deformation
 {
-  using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits_3<>>::type;
+  using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits<>>::type;
   using Domain_ =
     typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
 

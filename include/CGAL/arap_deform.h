@@ -20,7 +20,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/session/default_models.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -59,7 +59,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// mesh, to move the targets repeatedly, or to have soft targets, use the class `ARAP_deformation`.
 ///
 /// \tparam Shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
-///         `ARAPDomain_3`
+///         `ARAPDomain`
 /// \tparam VertexConstrainedMap a model of `ReadablePropertyMap` from vertices to `bool`
 /// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
 /// \tparam NamedParameters a sequence of named parameters
@@ -96,13 +96,13 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{weight_calculator}
 ///     \cgalParamDescription{the weights of the edges}
-///     \cgalParamType{a model of `ARAPEdgeWeight_3`}
+///     \cgalParamType{a model of `ARAPEdgeWeight`}
 ///     \cgalParamDefault{`ARAP::Safe_cotangent_weight`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{sparse_linear_solver}
 ///     \cgalParamDescription{the solver}
 ///     \cgalParamType{a model of `ARAPSparseSolver`}
-///     \cgalParamDefault{that of `ARAP_deformation_traits_3`}
+///     \cgalParamDefault{that of `ARAP_deformation_traits`}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
@@ -121,7 +121,7 @@ ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,
                                  ARAP::Safe_cotangent_weight());
   auto solver = choose_parameter(get_parameter(np, internal_np::sparse_linear_solver),
                                  ARAP::internal::Default_solver());
-  using Traits = ARAP_deformation_traits_3<decltype(solver), decltype(weight)>;
+  using Traits = ARAP_deformation_traits<decltype(solver), decltype(weight)>;
   using Visitor = typename internal_np::Lookup_named_param_def<
     internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;
 

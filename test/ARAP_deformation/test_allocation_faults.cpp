@@ -55,7 +55,7 @@ void test_cell_schemes()
 template <typename Solver>
 void test_solver(const std::string& name)
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Solver>;
   Fault_statistics statistics(name);
   test_stories(fault_test<Session<Surface, Traits>>(statistics), name,
                Cell_scheme::spokes_and_rims());

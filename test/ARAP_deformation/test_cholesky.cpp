@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -168,8 +169,8 @@ Sparse_matrix sparse(const Eigen::MatrixXd& m)
   return s;
 }
 
-// Columns of all kinds: unit vectors, which fix a vertex or, with a negative entry of d, pull it, and
-// rows of a Laplacian, which free one.
+// Columns of all kinds: unit vectors, which fix a vertex or, with a negative entry of d, pull it,
+// and rows of a Laplacian, which free one.
 struct Border
 {
   Eigen::MatrixXd b, d;

@@ -22,7 +22,7 @@
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
@@ -553,7 +553,7 @@ CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_sch
 {
   using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
                                                      std::vector<std::array<std::size_t, 4>>>;
-  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>> d(
+  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>> d(
     Domain(points, shape.tetrahedra));
   d.set_options(options_for(cells));
   const Eigen::Matrix4d m = task.motion.matrix();

@@ -494,7 +494,7 @@ struct Pair
 {
   using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
   template <typename S>
-  using Traits = CGAL::ARAP_deformation_traits_3<S, Weight>;
+  using Traits = CGAL::ARAP_deformation_traits<S, Weight>;
   template <typename S>
   using Deformation = CGAL::ARAP_deformation<Domain, Traits<S>>;
 
@@ -1125,8 +1125,8 @@ void test_pulls()
 
 void test_all()
 {
-  test_bridge<CGAL::ARAP_deformation_traits_3<>>("multifrontal");
-  test_bridge<CGAL::ARAP_deformation_traits_3<CGAL::ARAP::Eigen_LDLT_solver>>("Eigen");
+  test_bridge<CGAL::ARAP_deformation_traits<>>("multifrontal");
+  test_bridge<CGAL::ARAP_deformation_traits<CGAL::ARAP::Eigen_LDLT_solver>>("Eigen");
   test_pulls();
 }
 

@@ -15,7 +15,7 @@
 #include "include/domains.h"
 
 #include <CGAL/ARAP_deformation/Embedding.h>
-#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
+#include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>

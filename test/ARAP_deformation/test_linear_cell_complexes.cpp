@@ -15,7 +15,7 @@
 #include "include/nasty_runs.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
-#include <CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>
+#include <CGAL/ARAP_deformation/Linear_cell_complex_domain.h>
 #include <CGAL/Linear_cell_complex_for_bgl_combinatorial_map_helper.h>
 #include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
 #include <CGAL/Linear_cell_complex_for_generalized_map.h>
@@ -23,7 +23,7 @@
 
 #include <map>
 
-using CGAL::ARAP::Linear_cell_complex_domain_3;
+using CGAL::ARAP::Linear_cell_complex_domain;
 
 using Traits = CGAL::Linear_cell_complex_traits<3, Kernel>;
 using Graph = CGAL::Linear_cell_complex_for_bgl_combinatorial_map_helper<2, 3, Traits>::type;
@@ -127,8 +127,8 @@ void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Si
     sew(complex);
     CHECK(complex.is_valid());
     static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Complex>::Deformation_domain,
-                                 Linear_cell_complex_domain_3<Complex>>);
-    const Linear_cell_complex_domain_3<Complex> domain(complex);
+                                 Linear_cell_complex_domain<Complex>>);
+    const Linear_cell_complex_domain<Complex> domain(complex);
     if(cells == all_cell_schemes[0])
       check_conforms(domain);
     compare(reference<Dimension>(points, simplices, s, cells),
@@ -162,7 +162,7 @@ void test_shelf_of_volumes()
     complex.make_tetrahedron(point(good.points[t[0]]), point(good.points[t[1]]),
                              point(good.points[t[2]]), point(good.points[t[3]]));
   sew(complex);
-  const Linear_cell_complex_domain_3<Volumes> domain(complex);
+  const Linear_cell_complex_domain<Volumes> domain(complex);
   const auto vertices = vertices_at(domain, good.points);
   for(const Nasty_volume& shape : shelf)
     test_in_place_of("linear cell complex of volumes", domain, vertices, shape);

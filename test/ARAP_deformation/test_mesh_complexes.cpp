@@ -14,7 +14,7 @@
 
 #include "include/nasty_runs.h"
 
-#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
+#include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -30,7 +30,7 @@ using Mesh_domain = CGAL::Labeled_mesh_domain_3<Epick>;
 using Triangulation = CGAL::Mesh_triangulation_3<Mesh_domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using Vertex = Triangulation::Vertex_handle;
-using Domain = CGAL::ARAP::Triangulation_domain_3<Triangulation>;
+using Domain = CGAL::ARAP::Triangulation_domain<Triangulation>;
 
 // an ellipsoid: subdomain 1 in the left half, 2 in the right half
 Complex make_complex()

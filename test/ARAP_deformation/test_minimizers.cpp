@@ -47,7 +47,7 @@ Options options_for(Minimizer minimizer, Cell_scheme cells = Cell_scheme::spokes
 }
 
 // a run from the rest shape with the handles moved
-template <typename Traits = CGAL::ARAP_deformation_traits_3<>>
+template <typename Traits = CGAL::ARAP_deformation_traits<>>
 Report run(const Shape& shape, const Scenario& s, const Options& options, unsigned int iterations,
            double tolerance, const Traits& traits = Traits())
 {
@@ -313,7 +313,7 @@ void test_tetrahedra()
 void test_inexact_solver()
 {
   using Solver = CGAL::ARAP::Eigen_conjugate_gradient_solver;
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Solver>;
   const Shape shape = shapes()[5];
   const Scenario s = scenario(shape);
   const Options options = options_for(Minimizer::quasi_newton);
@@ -352,7 +352,7 @@ private:
 void test_failing_solver()
 {
   test_case() = "a solver that fails";
-  using Traits = CGAL::ARAP_deformation_traits_3<Failing_solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Failing_solver>;
   const Shape shape = shapes()[5];
   for(const int good : {0, 1, 7})
     for(const bool is_silent : {false, true})

@@ -140,7 +140,7 @@ struct Faulty_rotation : CGAL::ARAP::Newton_closest_rotation
 };
 
 // One thread: faults are counted.
-using Faulty_traits = CGAL::ARAP_deformation_traits_3<Faulty_solver, Faulty_weight, Faulty_rotation,
+using Faulty_traits = CGAL::ARAP_deformation_traits<Faulty_solver, Faulty_weight, Faulty_rotation,
                                                       CGAL::Sequential_tag>;
 
 void test_models()
@@ -227,7 +227,7 @@ private:
 
 void test_domain()
 {
-  using Session_ = Session<Solid, CGAL::ARAP_deformation_traits_3<>, Faulty_domain>;
+  using Session_ = Session<Solid, CGAL::ARAP_deformation_traits<>, Faulty_domain>;
   Fault_statistics domain("domain"), put("writing points");
   for(Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::elements()})
   {

@@ -23,7 +23,7 @@
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <Eigen/Dense>
 
@@ -48,7 +48,7 @@ void compare(const std::vector<Eigen::Vector3d>& rest, const Simplices& simplice
              bool is_soft)
 {
   using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
-  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>;
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Weight>;
   std::vector<Point> points = points_of(rest);
   CGAL::ARAP_deformation<Domain, Traits> deformation(Domain(points, simplices));
   CHECK(deformation.set_options(options_for(cells)));
@@ -179,7 +179,7 @@ template <typename Solver>
 void test()
 {
   using Deformation =
-    CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits_3<Solver>>;
+    CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>>;
   static Every_nth is_run(5);
   for(const Shape& shape : shapes())
     for(Cell_scheme cells : all_cell_schemes)
@@ -386,7 +386,7 @@ void test_sign_of_energy()
                         p.z() + jitter(random));
   const Scenario s = scenario(shape);
   const auto run = [&](auto weight, Cell_scheme cells) {
-    using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, decltype(weight)>;
+    using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, decltype(weight)>;
     std::vector<Point> points = points_of(shape.points);
     CGAL::ARAP_deformation<Soup, Traits> d(Soup(points, shape.tetrahedra));
     d.set_options(options_for(cells));

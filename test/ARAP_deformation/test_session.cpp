@@ -331,7 +331,7 @@ std::vector<CGAL::ARAP::Matrix_3x3> Recording_rotation::given, Recording_rotatio
 void test_defaults()
 {
   test_case() = "defaults";
-  using Traits = CGAL::ARAP_deformation_traits_3<>;
+  using Traits = CGAL::ARAP_deformation_traits<>;
   static_assert(std::is_same_v<Traits::Sparse_solver, CGAL::ARAP::Multifrontal_cholesky_solver>);
   static_assert(std::is_same_v<Traits::Closest_rotation, CGAL::ARAP::Newton_closest_rotation>);
   static_assert(std::is_same_v<Traits::Edge_weight, CGAL::ARAP::Safe_cotangent_weight>);
@@ -346,7 +346,7 @@ void test_warm_start()
 {
   test_case() = "warm start";
   using Traits =
-    CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Recording_rotation>;
+    CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::Default, Recording_rotation>;
   const Shape shape = sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
   CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
@@ -464,7 +464,7 @@ void test_all()
     CHECK(d.deform(iterations, 0));
     return mesh;
   };
-  const CGAL::ARAP_deformation_traits_3<> traits;
+  const CGAL::ARAP_deformation_traits<> traits;
 
   Mesh mesh = rest;
   auto report = CGAL::arap_deform(mesh, constrained_map, target_map, options);
@@ -483,7 +483,7 @@ void test_all()
   CHECK(CGAL::arap_deform(mesh, constrained_map, target_map, options,
                           params::weight_calculator(CGAL::ARAP::Uniform_weight())
                             .sparse_linear_solver(CGAL::ARAP::Multifrontal_cholesky_solver())));
-  const CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::ARAP::Uniform_weight> uniform;
+  const CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight> uniform;
   CHECK(same_points(mesh, by_class(uniform, 12)));
 
   test_case() = "visitor";
@@ -881,7 +881,7 @@ void test_faces()
   test_case() = "a weight that is not finite";
   Mesh mesh = make_mesh<Mesh>(sheet());
   const Mesh before = mesh;
-  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Undefined_weight>;
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Undefined_weight>;
   CGAL::ARAP_deformation<Mesh, Traits> u(mesh);
   prepare(u, scenario(sheet()), all_vertices(mesh));
   const auto refused = u.deform();
@@ -978,7 +978,7 @@ struct Bad_weight : CGAL::ARAP::Uniform_weight
 
 void test_matrices()
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Bad_weight>;
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Bad_weight>;
   const Shape shape = sheet();
   const Scenario s = scenario(shape);
   const Mesh rest = make_mesh<Mesh>(shape);
@@ -1017,7 +1017,7 @@ bool Failing_solver::can_factorize = true;
 
 void test_solver()
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<Failing_solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Failing_solver>;
   const Shape shape = sheet();
   for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
   {
@@ -1059,7 +1059,7 @@ double Overshooting_solver::factor = 1;
 
 void test_rising_energy()
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<Overshooting_solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Overshooting_solver>;
   for(auto minimizer : {CGAL::ARAP::Minimizer::local_global, CGAL::ARAP::Minimizer::quasi_newton})
   {
     test_case() = "a solver that makes the energy rise";

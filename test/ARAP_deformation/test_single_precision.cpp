@@ -227,7 +227,7 @@ template <typename Solver>
 Run run(const Shape& shape, const Options& options, unsigned int iterations, double tolerance)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits_3<Solver>> deformation(mesh);
+  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> deformation(mesh);
   CHECK(deformation.set_options(options));
   prepare(deformation, scenario(shape), all_vertices(mesh));
   Run result;

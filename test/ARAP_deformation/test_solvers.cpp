@@ -21,7 +21,7 @@
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
@@ -506,22 +506,22 @@ private:
 };
 
 template <typename Solver>
-CGAL::ARAP_deformation_traits_3<Solver> with_solver(const Solver& solver = Solver())
+CGAL::ARAP_deformation_traits<Solver> with_solver(const Solver& solver = Solver())
 {
-  return CGAL::ARAP_deformation_traits_3<Solver>(solver);
+  return CGAL::ARAP_deformation_traits<Solver>(solver);
 }
 
 template <typename Rotation>
-CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Rotation> with_rotation()
+CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::Default, Rotation> with_rotation()
 {
-  return CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, Rotation>();
+  return CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::Default, Rotation>();
 }
 
 void test_all()
 {
   Swaps swaps(20);
   swaps("Multifrontal_cholesky_solver, Newton_closest_rotation (default)",
-        CGAL::ARAP_deformation_traits_3<>(), 0);
+        CGAL::ARAP_deformation_traits<>(), 0);
 
   const double direct = 1e-8;
   swaps("Eigen_sparse_solver<Eigen::SimplicialLLT>",
@@ -536,7 +536,8 @@ void test_all()
         with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>(), direct);
 
   // the errors of these are corrections that come an iteration later
-  swaps("Multifrontal_cholesky_solver, single precision", with_solver<Single_precision_solver>(), 1e-6);
+  swaps("Multifrontal_cholesky_solver, single precision", with_solver<Single_precision_solver>(),
+        1e-6);
   swaps("Eigen_conjugate_gradient_solver", with_solver<Eigen_conjugate_gradient_solver>(), 1e-8);
   for(double tolerance : {1e-8, 1e-4})
   {

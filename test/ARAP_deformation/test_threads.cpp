@@ -61,7 +61,7 @@ Bits run(const std::vector<Eigen::Vector3d>& vectors, const Simplices& simplices
          CGAL::ARAP::Options options, unsigned int threads)
 {
   using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
-  using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default, CGAL::Default,
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::Default, CGAL::Default,
                                                  ConcurrencyTag>;
   Bits bits{{}, points_of(vectors)};
   CGAL::ARAP_deformation<Domain, Traits> deformation(Domain(bits.points, simplices));
@@ -132,7 +132,7 @@ struct Watching_rotation : CGAL::ARAP::Newton_closest_rotation
 };
 
 template <typename ConcurrencyTag>
-using Watching_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, CGAL::Default,
+using Watching_traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::Default,
                                                         Watching_rotation, ConcurrencyTag>;
 
 template <typename ConcurrencyTag>

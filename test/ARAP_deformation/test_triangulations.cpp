@@ -15,7 +15,7 @@
 
 #include "include/nasty_runs.h"
 
-#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>
+#include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_with_circumcenter_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -28,7 +28,7 @@
 #include <set>
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CGAL::ARAP::Triangulation_domain_3;
+using CGAL::ARAP::Triangulation_domain;
 
 std::vector<Eigen::Vector3d> random_points(int n)
 {
@@ -42,9 +42,9 @@ std::vector<Eigen::Vector3d> random_points(int n)
 
 // a triangulation as points and tetrahedra, in the order of its finite vertices
 template <typename Triangulation>
-Block block_of(const Triangulation_domain_3<Triangulation>& domain)
+Block block_of(const Triangulation_domain<Triangulation>& domain)
 {
-  using Domain = Triangulation_domain_3<Triangulation>;
+  using Domain = Triangulation_domain<Triangulation>;
   Block block;
   std::set<typename Triangulation::Cell_handle> cells;
   for(auto v : domain.vertices())
@@ -61,7 +61,7 @@ Block block_of(const Triangulation_domain_3<Triangulation>& domain)
 }
 
 template <typename Triangulation>
-void compare_with_reference(Triangulation_domain_3<Triangulation> domain)
+void compare_with_reference(Triangulation_domain<Triangulation> domain)
 {
   using Vertex = typename Triangulation::Vertex_handle;
   check_conforms(domain);
@@ -74,7 +74,7 @@ void compare_with_reference(Triangulation_domain_3<Triangulation> domain)
             deform(domain, vertices, s, cells), shape.diameter(), 1e-10,
             1e-7); // the triangulation of random points has slivers
     for(Vertex v : vertices)
-      domain.set_point(v, Triangulation_domain_3<Triangulation>::make_point(
+      domain.set_point(v, Triangulation_domain<Triangulation>::make_point(
         {shape.points[domain.index(v)].x(), shape.points[domain.index(v)].y(),
          shape.points[domain.index(v)].z()}));
   }
@@ -99,7 +99,7 @@ void test_plain()
   // the class finds the domain by itself
   CGAL::ARAP_deformation<Triangulation> deformation(t);
   static_assert(std::is_same_v<decltype(deformation)::Deformation_domain,
-                               Triangulation_domain_3<Triangulation>>);
+                               Triangulation_domain<Triangulation>>);
   CHECK(deformation.domain().vertices().size() == t.number_of_vertices());
 
   // without cells every vertex is isolated
@@ -125,7 +125,7 @@ void test_some_cells()
     if(CGAL::centroid(cell->vertex(0)->point(), cell->vertex(1)->point(),
                       cell->vertex(2)->point(), cell->vertex(3)->point()).y() < 0.7)
       selected.insert(cell);
-  const Triangulation_domain_3<Triangulation> domain(
+  const Triangulation_domain<Triangulation> domain(
     t, [&](Triangulation::Cell_handle cell) { return selected.count(cell) > 0; });
   CHECK(block_of(domain).tetrahedra.size() == selected.size());
   CHECK(selected.size() < t.number_of_finite_cells());

@@ -21,7 +21,7 @@
 #include <CGAL/ARAP_deformation/conformance/check_edge_weight.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
-#include <CGAL/ARAP_deformation_traits_3.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
@@ -311,7 +311,7 @@ namespace edge_map {
 
 using CGAL::ARAP::Edge_map_weight;
 using CGAL::ARAP::Status;
-using Traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Edge_map_weight>;
+using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Edge_map_weight>;
 
 // for each edge the sum of its weights in all simplices, as a star has it
 template <std::size_t N>
@@ -507,8 +507,8 @@ void test_all()
   CHECK_CAUGHT(check_edge_weight(Divides()), "not finite for a finite sum");
 
   // what a traits object hands out
-  CHECK_CONFORMS(check_deformation_traits(CGAL::ARAP_deformation_traits_3<>()));
-  using Wrong_traits = CGAL::ARAP_deformation_traits_3<Sparse_solver_that_refuses, Divides>;
+  CHECK_CONFORMS(check_deformation_traits(CGAL::ARAP_deformation_traits<>()));
+  using Wrong_traits = CGAL::ARAP_deformation_traits<Sparse_solver_that_refuses, Divides>;
   CHECK_CAUGHT(check_deformation_traits(Wrong_traits()), "sparse_solver_object(): factorize()");
   CHECK_CAUGHT(check_deformation_traits(Wrong_traits()), "edge_weight_object(): edge_weight()");
 }

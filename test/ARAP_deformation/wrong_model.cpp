@@ -111,20 +111,20 @@ void deform()
 
 int main()
 {
-  using CGAL::ARAP_deformation_traits_3;
+  using CGAL::ARAP_deformation_traits;
   using CGAL::Default;
 #if WRONG_MODEL == 0
-  deform<ARAP_deformation_traits_3<Solver, Weight_of_triangles>>();
+  deform<ARAP_deformation_traits<Solver, Weight_of_triangles>>();
 #elif WRONG_MODEL == 1
-  deform<ARAP_deformation_traits_3<Solver_without_solve>>();
+  deform<ARAP_deformation_traits<Solver_without_solve>>();
 #elif WRONG_MODEL == 2
-  deform<ARAP_deformation_traits_3<Solver_without_copies>>();
+  deform<ARAP_deformation_traits<Solver_without_copies>>();
 #elif WRONG_MODEL == 3
-  deform<ARAP_deformation_traits_3<Default, Default, Rotation_that_changes>>();
+  deform<ARAP_deformation_traits<Default, Default, Rotation_that_changes>>();
 #elif WRONG_MODEL == 4
-  deform<ARAP_deformation_traits_3<Default, Weight_without_indices>>();
+  deform<ARAP_deformation_traits<Default, Weight_without_indices>>();
 #elif WRONG_MODEL == 5
-  deform<ARAP_deformation_traits_3<Default, Weight_without_triangles>>();
+  deform<ARAP_deformation_traits<Default, Weight_without_triangles>>();
 #elif WRONG_MODEL == 6
   deform<Traits_without_rotation>();
 #elif WRONG_MODEL == 7
@@ -137,7 +137,7 @@ int main()
 #elif WRONG_MODEL == 9
   deform<Default, Domain_without_points>();
 #elif WRONG_MODEL == 10
-  deform<ARAP_deformation_traits_3<Default, Weight_of_triangles>, Domain_of_tetrahedra>();
+  deform<ARAP_deformation_traits<Default, Weight_of_triangles>, Domain_of_tetrahedra>();
 #elif WRONG_MODEL == 11
   std::vector<std::array<double, 3>> points;
   CGAL::ARAP_deformation<decltype(points)> deformation(points);

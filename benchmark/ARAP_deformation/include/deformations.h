@@ -57,7 +57,7 @@ public:
 // afterwards it is the default fitting.
 class Rotation_after_identity
 {
-  using Rotation = CGAL::ARAP_deformation_traits_3<>::Closest_rotation;
+  using Rotation = CGAL::ARAP_deformation_traits<>::Closest_rotation;
 
 public:
   explicit Rotation_after_identity(const bool& is_identity) : m_is_identity(&is_identity) {}
@@ -88,21 +88,21 @@ struct Single_precision_solver : ARAP::Multifrontal_cholesky_solver
 template <typename Weight, typename Function>
 void for_each_solver(const Function& f)
 {
-  f(CGAL::ARAP_deformation_traits_3<ARAP::Multifrontal_cholesky_solver, Weight>(), "default");
-  f(CGAL::ARAP_deformation_traits_3<Single_precision_solver, Weight>(), "single precision");
-  f(CGAL::ARAP_deformation_traits_3<ARAP::Eigen_LDLT_solver, Weight>(), "Eigen");
+  f(CGAL::ARAP_deformation_traits<ARAP::Multifrontal_cholesky_solver, Weight>(), "default");
+  f(CGAL::ARAP_deformation_traits<Single_precision_solver, Weight>(), "single precision");
+  f(CGAL::ARAP_deformation_traits<ARAP::Eigen_LDLT_solver, Weight>(), "Eigen");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
-  f(CGAL::ARAP_deformation_traits_3<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
+  f(CGAL::ARAP_deformation_traits<ARAP::Cholmod_solver, Weight>(), "CHOLMOD");
 #endif
 #ifdef CGAL_METIS_ENABLED
-  using Solver = CGAL::ARAP_deformation_traits_3<>::Sparse_solver;
-  f(CGAL::ARAP_deformation_traits_3<CGAL::Default, Weight>(
+  using Solver = CGAL::ARAP_deformation_traits<>::Sparse_solver;
+  f(CGAL::ARAP_deformation_traits<CGAL::Default, Weight>(
       Solver(ARAP::Fill_reducing_ordering::nested_dissection)), "default, METIS");
 #endif
 }
 
 // the defaults, except for the weights, which are those of CGAL's class
-using Default_traits = CGAL::ARAP_deformation_traits_3<CGAL::Default, Clamped_angle_weight>;
+using Default_traits = CGAL::ARAP_deformation_traits<CGAL::Default, Clamped_angle_weight>;
 
 // Makes all vertices free except the control vertices.
 template <typename Deformation>
@@ -239,7 +239,7 @@ private:
 template <typename Weight, CGAL::Deformation_algorithm_tag Tag, typename Solver = CGAL::Default>
 double verify_iterates(const Scenario& scenario, ARAP::Cell_scheme cells, double bound = 1e-8)
 {
-  using Traits = CGAL::ARAP_deformation_traits_3<Solver, Weight, Rotation_after_identity>;
+  using Traits = CGAL::ARAP_deformation_traits<Solver, Weight, Rotation_after_identity>;
   bool is_identity = true;
   Our_deformation<Traits> ours(scenario,
                                Traits(typename Traits::Sparse_solver(), Weight(),

@@ -29,7 +29,7 @@ A call may throw, for example `std::bad_alloc`; the deformation is then as it wa
 \cgalHasModels{CGAL::ARAP::Sparse_linear_algebra_adaptor<SparseLinearAlgebra>}
 \cgalHasModelsEnd
 
-\sa `ARAPDeformationTraits_3`
+\sa `ARAPDeformationTraits`
 */
 class ARAPSparseSolver
 {

@@ -39,7 +39,7 @@ namespace ARAP {
 ///         constructed for each batch; in programs linked with TBB several may be in use at once,
 ///         in different threads.
 ///
-/// \cgalModels{ARAPClosestRotation_3}
+/// \cgalModels{ARAPClosestRotation}
 template <typename ClosestRotationTraits>
 class Closest_rotation_traits_adaptor
 {

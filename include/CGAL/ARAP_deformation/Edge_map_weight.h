@@ -43,7 +43,7 @@ namespace ARAP {
 /// have weight 0. If no weight is negative, no cell has a negative energy. Copies share the
 /// weights.
 ///
-/// \cgalModels{ARAPEdgeWeight_3}
+/// \cgalModels{ARAPEdgeWeight}
 ///
 /// \sa `make_edge_map_weight()`
 class Edge_map_weight

@@ -57,7 +57,7 @@ namespace ARAP {
 /// The mesh of the domain must outlive the object, and its simplices must not change in the
 /// meantime. The embedded points are only read at construction.
 ///
-/// \tparam Domain a model of `ARAPDomain_3` of dimension 3
+/// \tparam Domain a model of `ARAPDomain` of dimension 3
 template <typename Domain>
 class Embedding
 {

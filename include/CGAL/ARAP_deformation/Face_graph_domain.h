@@ -69,7 +69,7 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
 ///         type, default `VertexPointMap`
 ///
-/// \cgalModels{ARAPDomain_3}
+/// \cgalModels{ARAPDomain}
 template <typename PolygonMesh, typename VertexPointMap = Default,
           typename VertexIndexMap = Default, typename OutputPointMap = Default>
 class Face_graph_domain

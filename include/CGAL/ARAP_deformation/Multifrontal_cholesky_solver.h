@@ -62,9 +62,12 @@ enum class Factor_precision
 class Multifrontal_cholesky_solver
 {
 public:
+  /// constructs a solver that has nothing analyzed, with the default ordering and precision.
+  Multifrontal_cholesky_solver() = default;
+
   /// constructs a solver that has nothing analyzed.
   explicit Multifrontal_cholesky_solver(
-    Fill_reducing_ordering ordering = Fill_reducing_ordering::minimum_degree,
+    Fill_reducing_ordering ordering,
     Factor_precision precision = Factor_precision::double_precision)
     : m_ordering(ordering), m_precision(precision)
   {}
@@ -112,8 +115,8 @@ public:
 private:
   struct State;
 
-  Fill_reducing_ordering m_ordering;
-  Factor_precision m_precision;
+  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
+  Factor_precision m_precision = Factor_precision::double_precision;
   internal::Unshared_ptr<State> m_state;
 };
 

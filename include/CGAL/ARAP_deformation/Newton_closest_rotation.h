@@ -40,7 +40,7 @@ namespace ARAP {
 /// The result for a matrix depends only on this matrix and its previous rotation, to the last bit,
 /// and not on the other matrices, nor on how the arrays are divided into calls.
 ///
-/// \cgalModels{ARAPClosestRotation_3}
+/// \cgalModels{ARAPClosestRotation}
 class Newton_closest_rotation
 {
 public:

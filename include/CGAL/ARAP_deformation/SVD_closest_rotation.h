@@ -32,7 +32,7 @@ namespace ARAP {
 /// closest rotation is not unique the choice is fixed: for a matrix of rank one the smallest
 /// rotation among the closest ones, for the zero matrix the identity.
 ///
-/// \cgalModels{ARAPClosestRotation_3}
+/// \cgalModels{ARAPClosestRotation}
 class SVD_closest_rotation
 {
 public:

@@ -47,7 +47,7 @@ namespace ARAP {
 ///         `std::vector<std::array<int, 3>>`. The corners of a polygon are listed in order around
 ///         it.
 ///
-/// \cgalModels{ARAPDomain_3}
+/// \cgalModels{ARAPDomain}
 template <int Dimension, typename PointRange, typename SimplexRange>
 class Simplex_soup_domain
   : public internal::Point_conversion<typename PointRange::value_type>

@@ -68,7 +68,7 @@ namespace ARAP {
 /// - *Targets.* All functions, not only `set_target_position()`, ignore vertices that are not
 ///   control vertices; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
-///   \cgal. The defaults are those of `CGAL::ARAP_deformation_traits_3`. A Cholesky factorization
+///   \cgal. The defaults are those of `CGAL::ARAP_deformation_traits`. A Cholesky factorization
 ///   needs a positive definite matrix, which the weights of \cgal give; where negative weights
 ///   make it indefinite, `preprocess()` fails.
 /// - *Unconstrained components.* If a component of the region of interest is not connected to any
@@ -91,7 +91,7 @@ namespace ARAP {
 /// \tparam TAG `SPOKES_AND_RIMS`, `ORIGINAL_ARAP` or `SRE_ARAP`
 /// \tparam WC a model of `SurfaceMeshDeformationWeights`
 /// \tparam ST a model of `ARAPSparseSolver` or of `SparseLinearAlgebraWithFactorTraits_d`
-/// \tparam CR a model of `ARAPClosestRotation_3` or of `DeformationClosestRotationTraits_3`
+/// \tparam CR a model of `ARAPClosestRotation` or of `DeformationClosestRotationTraits_3`
 /// \tparam VPM a model of `ReadWritePropertyMap` from the vertices to their points
 ///
 /// The defaults of `VIM`, `HIM`, `WC` and `VPM` are those of `CGAL::Surface_mesh_deformation`.

@@ -46,7 +46,7 @@ namespace ARAP {
 /// longest edge. This connects the corners of degenerate simplices, except of a tetrahedron in a
 /// single point, and keeps their energy non-negative.
 ///
-/// \cgalModels{ARAPEdgeWeight_3}
+/// \cgalModels{ARAPEdgeWeight}
 class Cotangent_weight
 {
 public:
@@ -130,7 +130,7 @@ private:
 /// lose an edge, and the identity of `Cotangent_weight` with the area or volume no longer holds
 /// there: prefer `Safe_cotangent_weight`.
 ///
-/// \cgalModels{ARAPEdgeWeight_3}
+/// \cgalModels{ARAPEdgeWeight}
 class Clamped_cotangent_weight : public Cotangent_weight
 {
 public:
@@ -147,7 +147,7 @@ public:
 /// These weights change cotangents no more than is needed for the energy to be non-negative with
 /// every cell scheme.
 ///
-/// \cgalModels{ARAPEdgeWeight_3}
+/// \cgalModels{ARAPEdgeWeight}
 class Safe_cotangent_weight : public Cotangent_weight
 {
 public:
@@ -164,7 +164,7 @@ public:
 /// Uses no geometry and never fails, but the result depends on the meshing of the shape (Figure 2
 /// of \cgalCite{Sorkine2007AsRigidAs}).
 ///
-/// \cgalModels{ARAPEdgeWeight_3}
+/// \cgalModels{ARAPEdgeWeight}
 class Uniform_weight
 {
 public:

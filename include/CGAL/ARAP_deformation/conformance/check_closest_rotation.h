@@ -318,7 +318,7 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a message for each identity that a model of `ARAPClosestRotation_3` violates;
+/// \brief returns a message for each identity that a model of `ARAPClosestRotation` violates;
 /// none if it conforms.
 ///
 /// Tests that the results are the closest rotations, against Eigen's singular value decomposition

@@ -27,7 +27,7 @@ namespace ARAP {
 
 /// \ingroup PkgARAPDeformationChecks
 /// \brief returns a message for each identity that the objects of a model of
-/// `ARAPDeformationTraits_3` violate; none if they conform.
+/// `ARAPDeformationTraits` violate; none if they conform.
 ///
 /// Applies `check_sparse_solver()`, `check_edge_weight()` and `check_closest_rotation()`, with
 /// their default tolerances, to the objects of a copy of `traits`.

@@ -150,7 +150,7 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief tests a model of `ARAPDomain_3` on a mesh: its functions must agree at each vertex and
+/// \brief tests a model of `ARAPDomain` on a mesh: its functions must agree at each vertex and
 /// simplex.
 ///
 /// Moves each point and restores it: the mesh is unchanged afterwards if the domain conforms and

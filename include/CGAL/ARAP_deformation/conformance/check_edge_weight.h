@@ -157,7 +157,7 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a message for each identity that a model of `ARAPEdgeWeight_3` violates; none if
+/// \brief returns a message for each identity that a model of `ARAPEdgeWeight` violates; none if
 /// it conforms.
 ///
 /// In well-shaped triangles, and in tetrahedra if the model supports them, the weights must be

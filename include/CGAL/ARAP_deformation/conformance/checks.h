@@ -118,7 +118,7 @@ double relative_edge_length_error(const Mesh& mesh, RestPointMap rest_points, Ve
 /// \brief returns the relative root mean square error of the edge lengths, as above, over all edges
 /// of the simplices of a domain. The edges of a polygon are its sides.
 ///
-/// \param domain a model of `ARAPDomain_3` from which the points of the deformed shape are read
+/// \param domain a model of `ARAPDomain` from which the points of the deformed shape are read
 /// \param rest_points a range with `operator[]`: the point of `v` in the rest shape is
 ///        `rest_points[domain.index(v)]`
 template <typename Domain, typename PointRange>

@@ -14,9 +14,9 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-// The package is header-only by default: X.h includes X_impl.h, whose functions are inline. Programs
-// that define CGAL_ARAP_DEFORMATION_COMPILED (the CMake target ARAP_deformation_core does so) do
-// without the second, and link with what src/ARAP_deformation/core.cpp compiles once.
+// The package is header-only by default: X.h includes X_impl.h, whose functions are inline.
+// Programs that define CGAL_ARAP_DEFORMATION_COMPILED (the CMake target ARAP_deformation_core does
+// so) do without the second, and link with what src/ARAP_deformation/core.cpp compiles once.
 #ifdef CGAL_ARAP_DEFORMATION_COMPILED
 #define CGAL_ARAP_INLINE_FUNCTION
 #else

@@ -123,7 +123,8 @@ private:
     std::vector<int> rows(m_weights.size());
     for(int r = 0; r < size(); ++r)
       rows[r] = r;
-    std::sort(rows.begin(), rows.end(), [this](int r, int s) { return is_less(*this, r, *this, s); });
+    std::sort(rows.begin(), rows.end(),
+              [this](int r, int s) { return is_less(*this, r, *this, s); });
     return rows;
   }
 

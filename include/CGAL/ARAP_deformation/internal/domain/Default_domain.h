@@ -27,14 +27,14 @@ namespace CGAL {
 namespace ARAP {
 
 template <typename Triangulation>
-class Triangulation_domain_3;
+class Triangulation_domain;
 
 template <typename MeshComplex>
-Triangulation_domain_3<typename MeshComplex::Triangulation>
+Triangulation_domain<typename MeshComplex::Triangulation>
 make_complex_domain(MeshComplex& complex);
 
 template <typename LinearCellComplex>
-class Linear_cell_complex_domain_3;
+class Linear_cell_complex_domain;
 
 namespace internal {
 
@@ -117,10 +117,10 @@ struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
 {
   static_assert(!is_valid<Covering_sheets_of, Mesh>,
                 "periodic triangulations cannot be deformed");
-  using type = Triangulation_domain_3<Mesh>;
+  using type = Triangulation_domain<Mesh>;
   static_assert(Is_complete<type>::value,
                 "to deform a triangulation, "
-                "#include <CGAL/ARAP_deformation/Triangulation_domain_3.h>");
+                "#include <CGAL/ARAP_deformation/Triangulation_domain.h>");
 };
 
 template <typename Mesh>
@@ -131,10 +131,10 @@ struct Default_domain<Mesh, std::enable_if_t<Is_mesh_complex<Mesh>::value>>
 template <typename Mesh>
 struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
 {
-  using type = Linear_cell_complex_domain_3<Mesh>;
+  using type = Linear_cell_complex_domain<Mesh>;
   static_assert(Is_complete<type>::value,
                 "to deform this linear cell complex, #include "
-                "<CGAL/ARAP_deformation/Linear_cell_complex_domain_3.h>");
+                "<CGAL/ARAP_deformation/Linear_cell_complex_domain.h>");
 };
 
 template <typename Domain, typename Mesh>

@@ -45,8 +45,8 @@ struct Domain_region
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
   // Collects the region of the given movable vertices, which differ, but for the positions of its
-  // vertices. Movable vertices are numbered in breadth-first order, so that what is near in the mesh
-  // is near in memory. Returns false if there is something that is not a simplex:
+  // vertices. Movable vertices are numbered in breadth-first order, so that what is near in the
+  // mesh is near in memory. Returns false if there is something that is not a simplex:
   // refused_vertex() is at it.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices)
   {
@@ -121,9 +121,9 @@ private:
     return n;
   }
 
-  // Visits the vertices from `begin` to `end`, which moves on while movable vertices are found. They
-  // are visited in the order of their numbers, and what is not yet numbered gets a larger number:
-  // a simplex is met first at its smallest vertex.
+  // Visits the vertices from `begin` to `end`, which moves on while movable vertices are found.
+  // They are visited in the order of their numbers, and what is not yet numbered gets a larger
+  // number: a simplex is met first at its smallest vertex.
   bool collect_simplices(const Domain& domain, int begin, const int& end)
   {
     for(int v = begin; v < end; ++v)

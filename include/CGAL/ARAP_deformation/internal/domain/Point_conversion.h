@@ -39,7 +39,7 @@ Point construct_point(const FT& x, const FT& y, const FT& z)
   }
 }
 
-// A base of the domains: the point functions of ARAPDomain_3, for any type with operator[] and a
+// A base of the domains: the point functions of ARAPDomain, for any type with operator[] and a
 // constructor from three coordinates.
 template <typename Point>
 struct Point_conversion

@@ -101,46 +101,46 @@ constexpr int dimension_of<Domain, std::void_t<Constant_dimension<Domain>>> =
 template <typename Domain, typename Weight>
 struct Domain_requirements
 {
-  static_assert(is_valid<Point_of, Domain>, "the model of ARAPDomain_3 lacks: the type Point");
+  static_assert(is_valid<Point_of, Domain>, "the model of ARAPDomain lacks: the type Point");
   static_assert(is_valid<Vertex_of, Domain>,
-    "the model of ARAPDomain_3 lacks: the type vertex_descriptor");
+    "the model of ARAPDomain lacks: the type vertex_descriptor");
   static_assert(is_valid<Simplex_of, Domain>,
-    "the model of ARAPDomain_3 lacks: the type simplex_descriptor");
+    "the model of ARAPDomain lacks: the type simplex_descriptor");
   static_assert(is_valid<Constant_dimension, Domain>,
-    "the model of ARAPDomain_3 lacks: static constexpr int dimension");
+    "the model of ARAPDomain lacks: static constexpr int dimension");
   static_assert(is_valid<Call_index, Domain>,
-    "the model of ARAPDomain_3 lacks: std::size_t index(vertex_descriptor) const");
+    "the model of ARAPDomain lacks: std::size_t index(vertex_descriptor) const");
   static_assert(is_valid<Call_point, Domain>,
-    "the model of ARAPDomain_3 lacks: Point point(vertex_descriptor) const");
+    "the model of ARAPDomain lacks: Point point(vertex_descriptor) const");
   static_assert(is_valid<Call_set_point, Domain>,
-    "the model of ARAPDomain_3 lacks: void set_point(vertex_descriptor, const Point&) const");
+    "the model of ARAPDomain lacks: void set_point(vertex_descriptor, const Point&) const");
   static_assert(is_valid<Call_is_in_place, Domain>,
-    "the model of ARAPDomain_3 lacks: bool is_in_place() const");
+    "the model of ARAPDomain lacks: bool is_in_place() const");
   static_assert(is_valid<Call_is_isolated, Domain>,
-    "the model of ARAPDomain_3 lacks: bool is_isolated(vertex_descriptor) const");
+    "the model of ARAPDomain lacks: bool is_isolated(vertex_descriptor) const");
   static_assert(is_valid<Call_vertices, Domain>,
-    "the model of ARAPDomain_3 lacks: vertices() const, a range of vertex_descriptor");
+    "the model of ARAPDomain lacks: vertices() const, a range of vertex_descriptor");
   static_assert(is_valid<Call_simplex_vertices, Domain>,
-    "the model of ARAPDomain_3 lacks: simplex_vertices(simplex_descriptor) const, "
+    "the model of ARAPDomain lacks: simplex_vertices(simplex_descriptor) const, "
     "a range of vertex_descriptor");
   static_assert(is_valid<Call_coordinates, Domain>,
-    "the model of ARAPDomain_3 lacks: "
+    "the model of ARAPDomain lacks: "
     "static CGAL::ARAP::Coordinates coordinates(const Point&)");
   static_assert(is_valid<Call_make_point, Domain>,
-    "the model of ARAPDomain_3 lacks: static Point make_point(const CGAL::ARAP::Coordinates&)");
+    "the model of ARAPDomain lacks: static Point make_point(const CGAL::ARAP::Coordinates&)");
   static_assert(is_valid<Call_for_each_incident_simplex, Domain>,
-    "the model of ARAPDomain_3 lacks: "
+    "the model of ARAPDomain lacks: "
     "void for_each_incident_simplex(vertex_descriptor, const Function&) const");
   static_assert(std::is_copy_constructible_v<Domain>,
-    "the model of ARAPDomain_3 lacks: a copy constructor");
+    "the model of ARAPDomain lacks: a copy constructor");
   static_assert(std::is_copy_assignable_v<Domain>,
-    "the model of ARAPDomain_3 lacks: an assignment");
+    "the model of ARAPDomain lacks: an assignment");
 
   static constexpr int dimension = dimension_of<Domain>;
   static_assert(dimension == 0 || dimension == 2 || dimension == 3,
-    "the dimension of the model of ARAPDomain_3 must be 2 or 3");
+    "the dimension of the model of ARAPDomain must be 2 or 3");
   static_assert(dimension != 3 || is_valid<Call_tetrahedron_weights, Weight>,
-    "the model of ARAPEdgeWeight_3 lacks, for a domain of dimension 3: std::array<double, 6> "
+    "the model of ARAPEdgeWeight lacks, for a domain of dimension 3: std::array<double, 6> "
     "simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>&) const");
   static constexpr bool are_met = true;
 };

@@ -59,12 +59,12 @@ struct Select_sparse_solver
 template <>
 struct Select_sparse_solver<Default> { using type = Default_solver; };
 
-// the model of ARAPClosestRotation_3 for what a user gave, which may be a model of CGAL's concept
+// the model of ARAPClosestRotation for what a user gave, which may be a model of CGAL's concept
 template <typename T>
 struct Select_closest_rotation
 {
   static_assert(is_closest_rotation<T> || is_valid<Types_of_closest_rotation_traits, T>,
-                "The rotation CR must be a model of ARAPClosestRotation_3 (a function object for "
+                "The rotation CR must be a model of ARAPClosestRotation (a function object for "
                 "arrays of matrices) or of DeformationClosestRotationTraits_3 (types Matrix, "
                 "Vector).");
   using type =
@@ -95,7 +95,7 @@ public:
   static constexpr bool has_triangles_only = true;
 };
 
-// a model of ARAPDeformationTraits_3
+// a model of ARAPDeformationTraits
 template <typename Solver, typename Weight, typename Rotation>
 class Drop_in_traits
 {

@@ -53,7 +53,7 @@ struct Double_point_map
   }
 };
 
-// A model of ARAPEdgeWeight_3: a weight for each halfedge of a mesh, as a model of CGAL's
+// A model of ARAPEdgeWeight: a weight for each halfedge of a mesh, as a model of CGAL's
 // SurfaceMeshDeformationWeights computes it for the points at the time of construction or of the
 // last recompute_at(). Copies share the weights. The mesh is not copied.
 template <typename Mesh, typename VertexIndexMap, typename HalfedgeIndexMap,
@@ -82,8 +82,8 @@ public:
       compute(h, m_state->weights);
   }
 
-  // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those of
-  // its halfedges. Zero where a face of more corners has no such halfedge.
+  // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those
+  // of its halfedges. Zero where a face of more corners has no such halfedge.
   std::array<double, 3> simplex_weights(const std::array<std::size_t, 3>& indices) const
   {
     for(const auto& [a, b, c] : {indices, {indices[1], indices[0], indices[2]}})

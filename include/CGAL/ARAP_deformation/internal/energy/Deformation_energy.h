@@ -76,8 +76,8 @@ public:
     return std::visit([](const auto& cells) { return cells.number_of_cells(); }, m_cells);
   }
 
-  // Says which of the movable vertices are fixed. Only cells in which something moves count from now
-  // on, unless all shall; the others cost nothing, and their rotations become identities.
+  // Says which of the movable vertices are fixed. Only cells in which something moves count from
+  // now on, unless all shall; the others cost nothing, and their rotations become identities.
   void set_fixed(const std::vector<char>& is_fixed, bool are_all_cells_counted,
                  std::vector<Matrix_3x3>& rotations)
   {
@@ -126,6 +126,18 @@ public:
   void for_each_edge(const Function& f) const
   {
     std::visit([&f](const auto& cells) { cells.for_each_edge(f); }, m_cells);
+  }
+
+  // a vertex with an edge whose weight is not finite, or -1
+  int find_vertex_of_non_finite_weight() const
+  {
+    int vertex = -1;
+    if(!std::isfinite(m_sum_of_weights))
+      for_each_edge([&](int i, int, double weight) {
+        if(!std::isfinite(weight))
+          vertex = i;
+      });
+    return vertex;
   }
 
   // Fits the rotations to the positions x, starting from those given, and returns the energy.

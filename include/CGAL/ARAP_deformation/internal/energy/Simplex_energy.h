@@ -227,8 +227,8 @@ public:
     }
   }
 
-  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each movable
-  // vertex that is in chosen cells only.
+  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
+  // movable vertex that is in chosen cells only.
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {

@@ -153,8 +153,8 @@ public:
     run_kernel<Star_covariances_kernel>(view(rest, x), begin, end, covariances);
   }
 
-  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each movable
-  // vertex that has neighbours in chosen cells only.
+  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
+  // movable vertex that has neighbours in chosen cells only.
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {

@@ -47,15 +47,15 @@ template <typename Weight>
 struct Edge_weight_requirements
 {
   static_assert(is_valid<Call_triangle_weights, Weight>,
-    "the model of ARAPEdgeWeight_3 lacks: std::array<double, 3> "
+    "the model of ARAPEdgeWeight lacks: std::array<double, 3> "
     "simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>&) const");
   static_assert(is_valid<Call_edge_weight, Weight>,
-    "the model of ARAPEdgeWeight_3 lacks: "
+    "the model of ARAPEdgeWeight lacks: "
     "double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double) const");
   static_assert(std::is_copy_constructible_v<Weight>,
-    "the model of ARAPEdgeWeight_3 lacks: a copy constructor");
+    "the model of ARAPEdgeWeight lacks: a copy constructor");
   static_assert(std::is_copy_assignable_v<Weight>,
-    "the model of ARAPEdgeWeight_3 lacks: an assignment");
+    "the model of ARAPEdgeWeight lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

@@ -54,11 +54,12 @@ struct Core_models
 // fixed, or become fixed if there are other free vertices.
 enum class Unconstrained_components { refused, fixed, fixed_beside_others };
 
-// In what CGAL's class differs: it counts all cells, and begins each iteration with the global step.
+// In what CGAL's class differs: it counts all cells, and begins each iteration with the global
+// step.
 enum class Minimization_order { local_first, global_first };
 
-// The deformation of a region: all of it that is numbers, and nothing that is a mesh; no template, so
-// that it can be compiled once. It knows what a change of the constraints costs.
+// The deformation of a region: all of it that is numbers, and nothing that is a mesh; no template,
+// so that it can be compiled once. It knows what a change of the constraints costs.
 class Deformation_core
 {
 public:

@@ -31,7 +31,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -68,13 +67,8 @@ Diagnosis Deformation_core::prepare(Cell_scheme cells)
     return {Status::non_finite_weight, -1, s};
   Deformation_energy energy =
     make_deformation_energy(*m_models.weight, std::move(simplices), cells, m_region);
-  int bad_vertex = -1;
-  energy.for_each_edge([&](int i, int, double w) {
-    if(!std::isfinite(w))
-      bad_vertex = i;
-  });
-  if(bad_vertex >= 0)
-    return {Status::non_finite_weight, bad_vertex};
+  if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
+    return {Status::non_finite_weight, v};
   m_rotations.assign(energy.number_of_cells(), identity_matrix());
   Laplacian laplacian = laplacian_of(energy);
   m_state.reset(new State{std::move(energy),

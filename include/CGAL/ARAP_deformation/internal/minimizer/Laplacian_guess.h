@@ -79,8 +79,8 @@ public:
 
   bool is_factorized() const { return m_is_factorized; }
 
-  // Moves the free vertices of x; there is a target for each row of the constraints. Returns false if
-  // the solver failed.
+  // Moves the free vertices of x; there is a target for each row of the constraints. Returns false
+  // if the solver failed.
   bool operator()(const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
   {
     for(const auto& [v, row] : m_soft_positions)

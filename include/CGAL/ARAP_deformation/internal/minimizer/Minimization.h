@@ -35,10 +35,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What all minimizers have in common: the energy that is minimized, the rigidity and the pull of the
-// constraints; the local step, the solution for the global step, and what is observed, reported and
-// tested after each iteration. Forces and steps are those of all movable vertices, the first ones;
-// they are zero where a vertex is fixed.
+// What all minimizers have in common: the energy that is minimized, the rigidity and the pull of
+// the constraints; the local step, the solution for the global step, and what is observed, reported
+// and tested after each iteration. Forces and steps are those of all movable vertices, the first
+// ones; they are zero where a vertex is fixed.
 class Minimization
 {
 public:

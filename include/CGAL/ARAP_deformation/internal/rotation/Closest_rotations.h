@@ -23,7 +23,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Replaces n rotations by those closest to n covariances: a model of ARAPClosestRotation_3 as the
+// Replaces n rotations by those closest to n covariances: a model of ARAPClosestRotation as the
 // numeric core calls it, which is no template.
 using Closest_rotations =
   std::function<void(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations)>;

@@ -34,12 +34,12 @@ template <typename Rotation>
 struct Closest_rotation_requirements
 {
   static_assert(is_valid<Call_closest_rotation, Rotation>,
-    "the model of ARAPClosestRotation_3 lacks: void operator()(std::size_t, "
+    "the model of ARAPClosestRotation lacks: void operator()(std::size_t, "
     "const CGAL::ARAP::Matrix_3x3*, CGAL::ARAP::Matrix_3x3*) const");
   static_assert(std::is_copy_constructible_v<Rotation>,
-    "the model of ARAPClosestRotation_3 lacks: a copy constructor");
+    "the model of ARAPClosestRotation lacks: a copy constructor");
   static_assert(std::is_copy_assignable_v<Rotation>,
-    "the model of ARAPClosestRotation_3 lacks: an assignment");
+    "the model of ARAPClosestRotation lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

@@ -153,9 +153,9 @@ private:
     m_is_region_stale = m_are_constraints_stale = false;
     return result;
   }
-  // Movable is all of the region of interest, so that handles may change without another region. But
-  // where most of it is fixed, these are the free vertices and their neighbours: the cost follows
-  // what can move.
+  // Movable is all of the region of interest, so that handles may change without another region.
+  // But where most of it is fixed, these are the free vertices and their neighbours: the cost
+  // follows what can move.
   bool is_whole(std::size_t roi_size, std::size_t number_of_fixed) const
   {
     return m_rules.order == Minimization_order::global_first || 2 * number_of_fixed <= roi_size;

@@ -28,11 +28,12 @@ struct Session_rules
   // whether unconstrained components make a run fail, instead of staying where they are
   bool are_unconstrained_refused = false;
 
-  // whether vertices that leave the region of interest return to the rest shape when it is next used
+  // whether vertices that leave the region of interest return to the rest shape when it is next
+  // used
   bool are_erased_put_back = false;
 
-  // whether a target outlives that its vertex is no control vertex, and rotations outlive a change of
-  // the region of interest
+  // whether a target outlives that its vertex is no control vertex, and rotations outlive a change
+  // of the region of interest
   bool are_targets_and_rotations_kept = false;
 };
 

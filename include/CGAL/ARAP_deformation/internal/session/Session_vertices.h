@@ -183,7 +183,9 @@ public:
     for(const Entry& entry : m_entries)
       if(predicate(entry))
         entries.push_back(&entry);
-    const auto is_before = [](const Entry* a, const Entry* b) { return a->insertion < b->insertion; };
+    const auto is_before = [](const Entry* a, const Entry* b) {
+      return a->insertion < b->insertion;
+    };
     if(!std::is_sorted(entries.begin(), entries.end(), is_before))
       std::sort(entries.begin(), entries.end(), is_before);
     std::vector<vertex_descriptor> selected;

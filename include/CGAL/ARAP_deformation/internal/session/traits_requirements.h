@@ -59,27 +59,27 @@ template <typename Traits>
 struct Deformation_traits_requirements
 {
   static_assert(is_valid<Sparse_solver_of, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: the type Sparse_solver");
+    "the model of ARAPDeformationTraits lacks: the type Sparse_solver");
   static_assert(is_valid<Edge_weight_of, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: the type Edge_weight");
+    "the model of ARAPDeformationTraits lacks: the type Edge_weight");
   static_assert(is_valid<Closest_rotation_of, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: the type Closest_rotation");
+    "the model of ARAPDeformationTraits lacks: the type Closest_rotation");
   static_assert(
     Requirements_of<Sparse_solver_requirements, Sparse_solver_of, Traits>::are_met);
   static_assert(Requirements_of<Edge_weight_requirements, Edge_weight_of, Traits>::are_met);
   static_assert(
     Requirements_of<Closest_rotation_requirements, Closest_rotation_of, Traits>::are_met);
   static_assert(is_valid<Call_sparse_solver_object, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: Sparse_solver sparse_solver_object() const");
+    "the model of ARAPDeformationTraits lacks: Sparse_solver sparse_solver_object() const");
   static_assert(is_valid<Call_edge_weight_object, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: Edge_weight edge_weight_object() const");
+    "the model of ARAPDeformationTraits lacks: Edge_weight edge_weight_object() const");
   static_assert(is_valid<Call_closest_rotation_object, Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: "
+    "the model of ARAPDeformationTraits lacks: "
     "Closest_rotation closest_rotation_object() const");
   static_assert(std::is_copy_constructible_v<Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: a copy constructor");
+    "the model of ARAPDeformationTraits lacks: a copy constructor");
   static_assert(std::is_copy_assignable_v<Traits>,
-    "the model of ARAPDeformationTraits_3 lacks: an assignment");
+    "the model of ARAPDeformationTraits lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

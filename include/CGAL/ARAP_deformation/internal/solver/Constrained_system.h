@@ -35,13 +35,13 @@ namespace internal {
 // order and pattern are those of the region, whatever is fixed, and the right-hand side of a fixed
 // vertex is zero.
 //
-// The factor serves for other constraints too, if they differ at few vertices: these become a border
-// of the matrix A' of the factor,
+// The factor serves for other constraints too, if they differ at few vertices: these become a
+// border of the matrix A' of the factor,
 //   [ A'   B ] [ x ]   [ f ]
 //   [ B^T  D ] [ z ] = [ g ].
-// A vertex that was free and is fixed is kept where it is by a multiplier, with a column of B that is
-// a unit vector. One that was fixed and is free is a further unknown, whose column has its entries
-// of A. One whose row of A differs, because of the rows of the constraints, is both.
+// A vertex that was free and is fixed is kept where it is by a multiplier, with a column of B that
+// is a unit vector. One that was fixed and is free is a further unknown, whose column has its
+// entries of A. One whose row of A differs, because of the rows of the constraints, is both.
 class Constrained_system
 {
 public:

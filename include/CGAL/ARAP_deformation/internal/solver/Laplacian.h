@@ -49,9 +49,9 @@ constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon()
 
 // Raises the diagonal of a positive definite matrix that is to be factorized, given by its lower
 // triangle, by some units in the last place. Rounding changes each pivot by about that much of the
-// diagonal entry; where large weights are next to small ones nothing else may be left of it. A pivot
-// that is too small flings away what depends on it. One that is too large only makes the steps of
-// local/global shorter: they still have the same fixed points, and never raise the energy.
+// diagonal entry; where large weights are next to small ones nothing else may be left of it. A
+// pivot that is too small flings away what depends on it. One that is too large only makes the
+// steps of local/global shorter: they still have the same fixed points, and never raise the energy.
 inline void raise_diagonal(Sparse_matrix& matrix)
 {
   for(int v = 0; v < matrix.cols(); ++v)

@@ -26,8 +26,9 @@ namespace ARAP {
 namespace internal {
 
 // For each movable vertex -1 if it is fixed, or if a chain of edges of non-zero weight ties it, by
-// way of other free vertices, to a vertex that is fixed or pulled to a target. If not, its component
-// could be anywhere, and the system is singular: then it is the smallest vertex of that component.
+// way of other free vertices, to a vertex that is fixed or pulled to a target. If not, its
+// component could be anywhere, and the system is singular: then it is the smallest vertex of that
+// component.
 inline std::vector<int> find_unconstrained_components(const Laplacian& laplacian,
                                                       const Constraints& constraints)
 {

@@ -2,7 +2,7 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPClosestRotation_3` describes a function object that finds the rotations
+\brief The concept `ARAPClosestRotation` describes a function object that finds the rotations
 closest to given matrices.
 
 This is the local step of the iteration: the matrices are the covariances
@@ -23,9 +23,9 @@ The function `CGAL::ARAP::check_closest_rotation()` tests a model.
 \cgalHasModels{CGAL::ARAP::Closest_rotation_traits_adaptor<ClosestRotationTraits>}
 \cgalHasModelsEnd
 
-\sa `ARAPDeformationTraits_3`
+\sa `ARAPDeformationTraits`
 */
-class ARAPClosestRotation_3
+class ARAPClosestRotation
 {
 public:
   /// computes for each `k` in `[0, n)` the rotation \f$R\f$ with the smallest Frobenius norm

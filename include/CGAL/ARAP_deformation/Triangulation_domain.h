@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
-#define CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
+#ifndef CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_H
+#define CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -45,12 +45,12 @@ namespace ARAP {
 ///
 /// \tparam Triangulation a `CGAL::Triangulation_3` or a class derived from it, weighted or not
 ///
-/// \cgalModels{ARAPDomain_3}
+/// \cgalModels{ARAPDomain}
 ///
 /// \sa `make_triangulation_domain()`
 /// \sa `make_complex_domain()`
 template <typename Triangulation>
-class Triangulation_domain_3
+class Triangulation_domain
   : public internal::Point_conversion<typename Triangulation::Geom_traits::Point_3>
 {
 public:
@@ -70,7 +70,7 @@ public:
   using Cell_predicate = std::function<bool(simplex_descriptor)>;
 
   /// constructs the domain of the finite cells for which `is_selected` is `true`.
-  Triangulation_domain_3(Triangulation& triangulation, Cell_predicate is_selected)
+  Triangulation_domain(Triangulation& triangulation, Cell_predicate is_selected)
     : m_triangulation(&triangulation), m_is_selected(std::move(is_selected)),
       m_indices(std::make_shared<Indices>())
   {
@@ -80,8 +80,8 @@ public:
 
   /// constructs the domain of all finite cells. If cells have a subdomain index, those with its
   /// default value, which denotes the outside, are left out: set the indices first.
-  explicit Triangulation_domain_3(Triangulation& triangulation)
-    : Triangulation_domain_3(triangulation, [](simplex_descriptor cell) {
+  explicit Triangulation_domain(Triangulation& triangulation)
+    : Triangulation_domain(triangulation, [](simplex_descriptor cell) {
         return internal::is_in_a_subdomain(*cell);
       })
   {}
@@ -158,9 +158,9 @@ private:
 /// \brief returns the domain of all finite cells of a 3D triangulation. If cells have a subdomain
 /// index, those with its default value, which denotes the outside, are left out.
 template <typename Triangulation>
-Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& triangulation)
+Triangulation_domain<Triangulation> make_triangulation_domain(Triangulation& triangulation)
 {
-  return Triangulation_domain_3<Triangulation>(triangulation);
+  return Triangulation_domain<Triangulation>(triangulation);
 }
 
 /// \ingroup PkgARAPDeformationDomains
@@ -169,11 +169,11 @@ Triangulation_domain_3<Triangulation> make_triangulation_domain(Triangulation& t
 /// The complex must outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
-Triangulation_domain_3<typename MeshComplex::Triangulation>
+Triangulation_domain<typename MeshComplex::Triangulation>
 make_complex_domain(MeshComplex& complex)
 {
   using Triangulation = typename MeshComplex::Triangulation;
-  return Triangulation_domain_3<Triangulation>(
+  return Triangulation_domain<Triangulation>(
     complex.triangulation(), [&complex](typename Triangulation::Cell_handle cell) {
       return complex.is_in_complex(cell);
     });
@@ -185,11 +185,11 @@ make_complex_domain(MeshComplex& complex)
 /// outlive the domain.
 /// \tparam MeshComplex a `CGAL::Mesh_complex_3_in_triangulation_3`, as 3D mesh generation makes it
 template <typename MeshComplex>
-Triangulation_domain_3<typename MeshComplex::Triangulation>
+Triangulation_domain<typename MeshComplex::Triangulation>
 make_complex_domain(MeshComplex& complex, typename MeshComplex::Subdomain_index subdomain)
 {
   using Triangulation = typename MeshComplex::Triangulation;
-  return Triangulation_domain_3<Triangulation>(
+  return Triangulation_domain<Triangulation>(
     complex.triangulation(), [&complex, subdomain](typename Triangulation::Cell_handle cell) {
       return complex.is_in_complex(cell) && complex.subdomain_index(cell) == subdomain;
     });
@@ -198,4 +198,4 @@ make_complex_domain(MeshComplex& complex, typename MeshComplex::Subdomain_index 
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_3_H
+#endif // CGAL_ARAP_DEFORMATION_TRIANGULATION_DOMAIN_H

@@ -2,7 +2,7 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPDomain_3` describes a mesh as the class `CGAL::ARAP_deformation` sees it:
+\brief The concept `ARAPDomain` describes a mesh as the class `CGAL::ARAP_deformation` sees it:
 vertices with points, and simplices of one dimension.
 
 The simplices are the triangles and polygons of a surface, or the tetrahedra of a volume. The only
@@ -26,14 +26,14 @@ takes a mesh. `CGAL::ARAP::check_domain()` tests a model on a mesh.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Face_graph_domain}
-\cgalHasModels{CGAL::ARAP::Triangulation_domain_3}
-\cgalHasModels{CGAL::ARAP::Linear_cell_complex_domain_3}
+\cgalHasModels{CGAL::ARAP::Triangulation_domain}
+\cgalHasModels{CGAL::ARAP::Linear_cell_complex_domain}
 \cgalHasModels{CGAL::ARAP::Simplex_soup_domain}
 \cgalHasModelsEnd
 
 \sa `CGAL::ARAP_deformation`
 */
-class ARAPDomain_3
+class ARAPDomain
 {
 public:
   /// \name Types
@@ -75,7 +75,7 @@ public:
   /// returns the index of `v`, which is unique.
   ///
   /// Use indices 0, 1, ... with few gaps: the memory of index tables grows with the spread of the
-  /// indices. Messages and models of `ARAPEdgeWeight_3` identify a vertex by its index.
+  /// indices. Messages and models of `ARAPEdgeWeight` identify a vertex by its index.
   std::size_t index(vertex_descriptor v) const;
 
   /// returns the point of `v`.

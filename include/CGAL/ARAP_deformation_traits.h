@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_TRAITS_3_H
-#define CGAL_ARAP_DEFORMATION_TRAITS_3_H
+#ifndef CGAL_ARAP_DEFORMATION_TRAITS_H
+#define CGAL_ARAP_DEFORMATION_TRAITS_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -34,19 +34,19 @@ namespace CGAL {
 ///
 /// \tparam SparseSolver a model of `ARAPSparseSolver`, default
 ///         `ARAP::Multifrontal_cholesky_solver`
-/// \tparam EdgeWeight a model of `ARAPEdgeWeight_3`, default `ARAP::Safe_cotangent_weight`
-/// \tparam ClosestRotation a model of `ARAPClosestRotation_3`, default
+/// \tparam EdgeWeight a model of `ARAPEdgeWeight`, default `ARAP::Safe_cotangent_weight`
+/// \tparam ClosestRotation a model of `ARAPClosestRotation`, default
 ///         `ARAP::Newton_closest_rotation`
 /// \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`, which
 ///         is the default and runs in parallel if the program is linked with TBB (the macro
 ///         `CGAL_LINKED_WITH_TBB`). Results do not depend on it.
 ///
-/// \cgalModels{ARAPDeformationTraits_3}
+/// \cgalModels{ARAPDeformationTraits}
 template <typename SparseSolver = Default,
           typename EdgeWeight = Default,
           typename ClosestRotation = Default,
           typename ConcurrencyTag = Parallel_if_available_tag>
-class ARAP_deformation_traits_3
+class ARAP_deformation_traits
 {
 public:
   /// the type of the solver.
@@ -71,7 +71,7 @@ public:
   static_assert(ARAP::internal::Closest_rotation_requirements<Closest_rotation>::are_met);
 
   /// constructs the traits from the objects that they provide.
-  explicit ARAP_deformation_traits_3(Sparse_solver solver = Sparse_solver(),
+  explicit ARAP_deformation_traits(Sparse_solver solver = Sparse_solver(),
                                      Edge_weight weight = Edge_weight(),
                                      Closest_rotation rotation = Closest_rotation())
     : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
@@ -94,4 +94,4 @@ private:
 
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_TRAITS_3_H
+#endif // CGAL_ARAP_DEFORMATION_TRAITS_H

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H
-#define CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H
+#ifndef CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_H
+#define CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -44,15 +44,15 @@ namespace ARAP {
 /// \tparam LinearCellComplex a `CGAL::Linear_cell_complex_for_combinatorial_map` or
 ///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with 3D points
 ///
-/// \cgalModels{ARAPDomain_3}
+/// \cgalModels{ARAPDomain}
 template <typename LinearCellComplex>
-class Linear_cell_complex_domain_3
+class Linear_cell_complex_domain
   : public internal::Point_conversion<typename LinearCellComplex::Point>
 {
   static_assert(LinearCellComplex::dimension == 2 || LinearCellComplex::dimension == 3,
-                "Linear_cell_complex_domain_3: the dimension of the complex must be 2 or 3");
+                "Linear_cell_complex_domain: the dimension of the complex must be 2 or 3");
   static_assert(LinearCellComplex::ambient_dimension == 3,
-                "Linear_cell_complex_domain_3: the points of the complex must be 3D");
+                "Linear_cell_complex_domain: the points of the complex must be 3D");
 
   // the handle types have different names in different versions of CGAL
   using Dart = decltype(std::declval<LinearCellComplex&>().create_dart());
@@ -76,7 +76,7 @@ public:
   static constexpr int dimension = static_cast<int>(LinearCellComplex::dimension);
 
   /// constructs the domain.
-  explicit Linear_cell_complex_domain_3(LinearCellComplex& complex)
+  explicit Linear_cell_complex_domain(LinearCellComplex& complex)
     : m_complex(&complex), m_tables(std::make_shared<const Tables>(complex))
   {}
 
@@ -182,4 +182,4 @@ private:
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_3_H
+#endif // CGAL_ARAP_DEFORMATION_LINEAR_CELL_COMPLEX_DOMAIN_H

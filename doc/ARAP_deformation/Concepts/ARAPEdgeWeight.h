@@ -2,7 +2,7 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPEdgeWeight_3` describes how the edges of a shape are weighted in the energy.
+\brief The concept `ARAPEdgeWeight` describes how the edges of a shape are weighted in the energy.
 
 `CGAL::ARAP_deformation` computes the weights in preprocessing, from the rest shape alone, in two
 steps. `simplex_weights()` returns the weight of each edge in each simplex. `edge_weight()` then
@@ -39,9 +39,9 @@ the state. `CGAL::ARAP::check_edge_weight()` tests a model.
 \cgalHasModels{CGAL::ARAP::Edge_map_weight}
 \cgalHasModelsEnd
 
-\sa `ARAPDeformationTraits_3`
+\sa `ARAPDeformationTraits`
 */
-class ARAPEdgeWeight_3
+class ARAPEdgeWeight
 {
 public:
   /// returns the weights of the edges \f$(0,1)\f$, \f$(0,2)\f$ and \f$(1,2)\f$ of a triangle, given

@@ -2,7 +2,7 @@
 \ingroup PkgARAPDeformationConcepts
 \cgalConcept
 
-\brief The concept `ARAPDeformationTraits_3` defines the types of the numeric parts of the class
+\brief The concept `ARAPDeformationTraits` defines the types of the numeric parts of the class
 `CGAL::ARAP_deformation`, and provides objects of them.
 
 The class keeps a copy of its traits, and requests the objects anew in every preprocessing. The
@@ -14,10 +14,10 @@ traits.
 \cgalRefines{CopyConstructible,Assignable}
 
 \cgalHasModelsBegin
-\cgalHasModels{CGAL::ARAP_deformation_traits_3}
+\cgalHasModels{CGAL::ARAP_deformation_traits}
 \cgalHasModelsEnd
 */
-class ARAPDeformationTraits_3
+class ARAPDeformationTraits
 {
 public:
   /// \name Types
@@ -26,10 +26,10 @@ public:
   /// a model of `ARAPSparseSolver`.
   using Sparse_solver = unspecified_type;
 
-  /// a model of `ARAPEdgeWeight_3`.
+  /// a model of `ARAPEdgeWeight`.
   using Edge_weight = unspecified_type;
 
-  /// a model of `ARAPClosestRotation_3`.
+  /// a model of `ARAPClosestRotation`.
   using Closest_rotation = unspecified_type;
 
   /// `CGAL::Sequential_tag`, `CGAL::Parallel_tag` or `CGAL::Parallel_if_available_tag`. Optional;
