@@ -992,8 +992,8 @@ void test_matrices()
   };
   test_case() = "singular and non-finite matrices";
   try_weight(-1, Status::singular_matrix, "vertex ");
-  try_weight(not_a_number, Status::singular_matrix, "vertex ");
-  try_weight(infinity, Status::singular_matrix, "vertex ");
+  try_weight(not_a_number, Status::non_finite_weight, "vertex ");
+  try_weight(infinity, Status::non_finite_weight, "vertex ");
 }
 
 // a solver that fails where it is told to

@@ -692,7 +692,7 @@ void test_failures()
           (value < 0 ? Status::singular_matrix : Status::non_finite_weight));
     // the face of the halfedge, or one of its ends
     CHECK(names(weighted.outcome(), 20) ||
-          names(weighted.outcome(), static_cast<std::size_t>(copy.source(h))) ||
+          names(weighted.outcome(), static_cast<std::size_t>(copy.target(h))) ||
           weighted.outcome().message.find("the face with the vertices") == 0);
     weighted.set_target_position(Mesh::Vertex_index(50), Point(3, 3, 3));
     CHECK(!weighted.deform());

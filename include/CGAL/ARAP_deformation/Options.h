@@ -44,7 +44,7 @@ enum class Minimizer
   local_global, ///< the iteration of the paper: gains the most in the first few iterations, and
                 ///< needs the least memory
   quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs many times fewer iterations to the
-                ///< minimum, and about 200 bytes more for each free vertex
+                ///< minimum, and about 200 bytes more for each vertex of the region
 };
 
 /// \ingroup PkgARAPDeformationOptions

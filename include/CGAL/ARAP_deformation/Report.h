@@ -38,7 +38,8 @@ struct Phase_seconds
 /// \brief tells which stages a call had to do again; all others served as they were.
 ///
 /// Time: `region` and `order` are linear in the region, up to the ordering; `factor` is that of a
-/// sparse Cholesky factorization; `border` follows the number of changed vertices.
+/// sparse Cholesky factorization; `border` follows the part of the factor that the changed vertices
+/// reach in the elimination tree, after a pass over the region.
 struct Stages
 {
   bool region = false;        ///< its vertices, simplices, weights and cells
@@ -80,7 +81,7 @@ struct Report : Outcome
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
   std::size_t free_vertices = 0; ///< the number of vertices that were solved for
-  std::size_t simplices = 0;     ///< the number of simplices at free vertices and their neighbours
+  std::size_t simplices = 0;     ///< the number of simplices in and around the region of interest
 
   /// the number of these tetrahedra that are inverted: the sign of their volume differs from that
   /// in the rest shape. 0 on a surface.

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -34,7 +35,6 @@ class Weighted_rows
 {
 public:
   int size() const { return m_vertices.size(); }
-  double weight(int r) const { return m_weights[r]; }
 
   // the vertex of a row that is the position of one vertex, or -1
   int position(int r) const
@@ -54,6 +54,7 @@ public:
     m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
     m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
     m_weights.push_back(weight);
+    m_is_diagonal &= vertices.size() == 1;
   }
 
   // Calls f(i, j, a) for each entry a of B^T M B with i >= j, one call for each row. There may be
@@ -70,7 +71,20 @@ public:
   }
 
   // whether each row has one vertex, so that B^T M B is diagonal
-  bool is_diagonal() const { return m_vertices.items.size() == m_weights.size(); }
+  bool is_diagonal() const { return m_is_diagonal; }
+
+  // Calls f(begin, end, sum, weight) for each row, with its vertices and the sum of its coefficients.
+  template <typename Function>
+  void for_each_row(const Function& f) const
+  {
+    for(int r = 0; r < size(); ++r)
+    {
+      const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
+      f(m_vertices.items.begin() + begin, m_vertices.items.begin() + end,
+        std::accumulate(m_coefficients.begin() + begin, m_coefficients.begin() + end, 0.0),
+        m_weights[r]);
+    }
+  }
 
   // Calls f(v) for each vertex of a row that only one of the two has.
   template <typename Function>
@@ -147,6 +161,7 @@ private:
   Index_lists m_vertices;             // of each row
   std::vector<double> m_coefficients; // of each item of these lists
   std::vector<double> m_weights;      // of each row
+  bool m_is_diagonal = true;
 };
 
 } // namespace internal

@@ -44,8 +44,8 @@ struct Domain_region
   std::vector<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
-  // Collects the region of the given movable vertices, which differ, but for the positions of its
-  // vertices. Movable vertices are numbered in breadth-first order, so that what is near in the
+  // Collects the region of the given movable vertices, which are distinct; positions are filled in
+  // later. Movable vertices are numbered in breadth-first order, so that what is near in the
   // mesh is near in memory. Returns false if there is something that is not a simplex:
   // refused_vertex() is at it.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices)

@@ -55,7 +55,7 @@ struct Double_point_map
 
 // A model of ARAPEdgeWeight: a weight for each halfedge of a mesh, as a model of CGAL's
 // SurfaceMeshDeformationWeights computes it for the points at the time of construction or of the
-// last recompute_at(). Copies share the weights. The mesh is not copied.
+// last take_over(). Copies share the weights. The mesh is not copied.
 template <typename Mesh, typename VertexIndexMap, typename HalfedgeIndexMap,
           typename VertexPointMap, typename WeightCalculator>
 class Halfedge_weights
@@ -111,20 +111,23 @@ public:
     return result;
   }
 
-  // Computes those of all halfedges that a vertex of the range is an end of. None of them changes
-  // if the user's calculator throws.
-  template <typename VertexRange>
-  void recompute_at(const VertexRange& range)
+  // Returns all weights, those of the halfedges that a vertex of the range is an end of computed
+  // again. This may throw, what takes them over does not.
+  template <typename VertexRange, typename IsInRange>
+  std::vector<double> recomputed_at(const VertexRange& range, const IsInRange& is_in_range) const
   {
     std::vector<double> weights = m_state->weights;
     for(const vertex_descriptor v : range)
       for(const halfedge_descriptor h : CGAL::halfedges_around_target(v, m_state->mesh))
       {
         compute(h, weights);
-        compute(opposite(h, m_state->mesh), weights);
+        if(!is_in_range(source(h, m_state->mesh)))
+          compute(opposite(h, m_state->mesh), weights);
       }
-    m_state->weights.swap(weights);
+    return weights;
   }
+
+  void take_over(std::vector<double>& weights) noexcept { m_state->weights.swap(weights); }
 
 private:
   struct State
@@ -147,7 +150,7 @@ private:
     return m_state->weights[static_cast<std::size_t>(get(m_state->index_map, h))];
   }
 
-  void compute(halfedge_descriptor h, std::vector<double>& weights)
+  void compute(halfedge_descriptor h, std::vector<double>& weights) const
   {
     const double weight = m_state->calculator(h, m_state->mesh, m_state->point_map);
     const auto i = static_cast<std::size_t>(get(m_state->index_map, h));

@@ -59,14 +59,6 @@ public:
     : m_cells(std::move(cells)), m_number_of_movable_vertices(number_of_movable_vertices)
   {
     assign(m_rest, rest);
-    Bounding_box box;
-    box.include(rest);
-    m_squared_length = box.squared_length();
-    for_each_edge([&](int i, int j, double weight) {
-      const Coordinates edge = difference(rest[i], rest[j]);
-      m_sum_of_weights += std::abs(weight);
-      m_scale += std::abs(weight) * dot(edge, edge);
-    });
   }
 
   int number_of_movable_vertices() const { return m_number_of_movable_vertices; }
@@ -77,22 +69,38 @@ public:
   }
 
   // Says which of the movable vertices are fixed. Only cells in which something moves count from
-  // now on, unless all shall; the others cost nothing, and their rotations become identities.
+  // now on, unless `are_all_cells_counted`; the others cost nothing, and their rotations become
+  // identities.
   void set_fixed(const std::vector<char>& is_fixed, bool are_all_cells_counted,
                  std::vector<Matrix_3x3>& rotations)
   {
     const auto is_free = [&](int v) { return v < m_number_of_movable_vertices && !is_fixed[v]; };
     std::vector<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
-    std::visit([&](auto& cells) {
-      for(int c = 0; c < number_of_cells(); ++c)
+    std::visit([&](const auto& cells) {
+      for(int c = 0; c < cells.number_of_cells(); ++c)
       {
         is_chosen[c] = are_all_cells_counted || cells.is_moving(c, is_free);
         if(!is_chosen[c])
           rotations[c] = identity_matrix();
       }
-      cells.choose_cells(is_chosen);
     }, m_cells);
+    m_number_of_free_vertices = static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
+    if(is_chosen == m_is_chosen)
+      return;
+    std::visit([&](auto& cells) { cells.choose_cells(is_chosen); }, m_cells);
     m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
+    m_is_chosen = std::move(is_chosen);
+    measure();
+  }
+
+  // the bounding box of the points of all vertices in cells that count
+  Bounding_box bounding_box(const std::vector<Coordinates>& points) const
+  {
+    Bounding_box box;
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(m_is_in_cell[v])
+        box.include(points[v]);
+    return box;
   }
 
   // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
@@ -107,18 +115,18 @@ public:
   }
 
   // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
-  // is far below the rounding error of the scale. Of the rows only the targets count, to which
-  // positions may yet go: where a weight is larger than those of the edges, the point fits.
+  // is far below the rounding error of the scale. The weights of rows do not count: where one is
+  // larger than those of the edges, the point is at its target.
   double rounding_level(const Bounding_box& box) const
   {
     const double error = 4 * rounding_error(box);
     return m_sum_of_weights * error * error;
   }
 
-  // what rounding the positions makes of the force at a movable vertex, on average
+  // what rounding the positions makes of the force at a free vertex, on average
   double rounding_error_of_force(const Bounding_box& box) const
   {
-    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_movable_vertices);
+    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
   }
 
   // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
@@ -132,7 +140,9 @@ public:
   int find_vertex_of_non_finite_weight() const
   {
     int vertex = -1;
-    if(!std::isfinite(m_sum_of_weights))
+    const auto& weights = std::visit(
+      [](const auto& cells) -> const std::vector<double>& { return cells.weights(); }, m_cells);
+    if(!std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); }))
       for_each_edge([&](int i, int, double weight) {
         if(!std::isfinite(weight))
           vertex = i;
@@ -170,6 +180,26 @@ public:
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
+  // of the cells that count, in the rest shape
+  void measure()
+  {
+    m_scale = m_sum_of_weights = 0;
+    m_is_in_cell.assign(m_rest.size(), false);
+    std::visit([&](const auto& cells) {
+      cells.for_each_chosen_edge([&](int i, int j, double weight) {
+        const Double4 edge = m_rest[i] - m_rest[j], square = edge * edge;
+        m_sum_of_weights += std::abs(weight);
+        m_scale += std::abs(weight) * (square[0] + square[1] + square[2]);
+        m_is_in_cell[i] = m_is_in_cell[j] = true;
+      });
+    }, m_cells);
+    Bounding_box box;
+    for(std::size_t v = 0; v < m_rest.size(); ++v)
+      if(m_is_in_cell[v])
+        box.include(Coordinates{m_rest[v][0], m_rest[v][1], m_rest[v][2]});
+    m_squared_length = box.squared_length();
+  }
+
   static double rounding_error(const Bounding_box& box) // of a position
   {
     return std::numeric_limits<double>::epsilon() * box.largest_coordinate();
@@ -196,7 +226,10 @@ private:
 
   std::variant<Star_energy, Simplex_energy> m_cells;
   int m_number_of_movable_vertices = 0;
-  Index_ranges m_batches; // of the cells that count
+  int m_number_of_free_vertices = 0;
+  std::vector<char> m_is_chosen;  // for each cell whether it counts
+  std::vector<char> m_is_in_cell; // for each vertex whether it is in a cell that counts
+  Index_ranges m_batches;         // of the cells that count
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x;    // of the last evaluation
   double m_scale = 0;          // in the rest shape

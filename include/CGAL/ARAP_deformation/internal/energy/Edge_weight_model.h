@@ -26,7 +26,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A model of ARAPEdgeWeight as the numeric core calls it, which is no template. Vertices are told
+// A model of ARAPEdgeWeight as the numeric core calls it, which is not a template. Vertices are told
 // by their points and by their indices in the mesh.
 class Edge_weight_model
 {

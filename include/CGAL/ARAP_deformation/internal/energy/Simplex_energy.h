@@ -163,13 +163,19 @@ public:
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
-    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
-      double stiffness = 0;
-      for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
-        stiffness += m_cells.stiffness[m_cells_of_simplices.items[k]];
-      f(i, j, stiffness * w);
+    for_each_edge(m_cells.stiffness, f);
+  }
+
+  // the same for the cells that count only
+  template <typename Function>
+  void for_each_chosen_edge(const Function& f) const
+  {
+    for_each_edge(m_stiffness, [&f](int i, int j, double w) {
+      if(w != 0) f(i, j, w);
     });
   }
+
+  const std::vector<double>& weights() const { return m_simplices.weights; }
 
   // whether a vertex of cell c moves; is_free(v) tells for all vertices
   template <typename Predicate>
@@ -247,6 +253,17 @@ public:
   }
 
 private:
+  template <typename Function>
+  void for_each_edge(const std::vector<double>& stiffness_of_cells, const Function& f) const
+  {
+    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
+      double stiffness = 0;
+      for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
+        stiffness += stiffness_of_cells[m_cells_of_simplices.items[k]];
+      f(i, j, stiffness * w);
+    });
+  }
+
   template <template <int> class Kernel, typename... Arguments>
   void run(const Arguments&... arguments) const
   {

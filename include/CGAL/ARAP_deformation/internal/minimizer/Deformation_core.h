@@ -58,8 +58,8 @@ enum class Unconstrained_components { refused, fixed, fixed_beside_others };
 // step.
 enum class Minimization_order { local_first, global_first };
 
-// The deformation of a region: all of it that is numbers, and nothing that is a mesh; no template,
-// so that it can be compiled once. It knows what a change of the constraints costs.
+// The numeric part of a deformation, which never sees a mesh; not a template, so that it can be
+// compiled once.
 class Deformation_core
 {
 public:
@@ -100,8 +100,8 @@ public:
   void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations; there is a target for each row of the constraints. Of what it does nothing is kept
-  // but the factorization for the initial guess.
+  // rotations; there is a target for each row of the constraints. Keeps only the
+  // factorization for the initial guess.
   Diagnosis run(const Options& options, const Observer& observe,
                 const std::vector<Coordinates>& targets, std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report);

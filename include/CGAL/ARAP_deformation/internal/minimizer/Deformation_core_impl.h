@@ -43,7 +43,8 @@ struct Deformation_core::State
 {
   Deformation_energy energy;
   Constrained_system system;
-  std::optional<Laplacian_guess> guess;
+  std::optional<Stars> stars;           // of the guess, if there was one
+  std::optional<Laplacian_guess> guess; // for the constraints
 };
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -72,7 +73,7 @@ Diagnosis Deformation_core::prepare(Cell_scheme cells)
   m_rotations.assign(energy.number_of_cells(), identity_matrix());
   Laplacian laplacian = laplacian_of(energy);
   m_state.reset(new State{std::move(energy),
-                          Constrained_system(std::move(laplacian), m_models.solver->copy()), {}});
+                          Constrained_system(std::move(laplacian), m_models.solver->copy()), {}, {}});
   m_is_isolated.assign(m_region.number_of_movable_vertices, true);
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
@@ -175,9 +176,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     auto& guess = m_state->guess;
     if(!guess)
     {
-      const Simplices simplices = weighted_simplices(*m_models.weight, m_region);
-      guess.emplace(star_edge_sets(*m_models.weight, simplices, m_region), m_region, m_constraints,
-                    m_models.solver->copy());
+      if(!m_state->stars)
+        m_state->stars = star_edge_sets(*m_models.weight,
+                                        weighted_simplices(*m_models.weight, m_region), m_region);
+      guess.emplace(*m_state->stars, m_region, m_constraints, m_models.solver->copy());
       report.stages.initial_guess = true;
     }
     if(!guess->is_factorized())

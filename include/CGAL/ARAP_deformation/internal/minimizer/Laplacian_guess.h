@@ -42,9 +42,9 @@ namespace internal {
 class Laplacian_guess
 {
 public:
-  Laplacian_guess(Stars stars, const Region& region, const Constraints& constraints,
+  Laplacian_guess(const Stars& stars, const Region& region, const Constraints& constraints,
                   std::unique_ptr<Linear_solver> solver)
-    : m_stars(std::move(stars)), m_rest_laplacian(laplacian(region.rest)),
+    : m_stars(stars), m_rest_laplacian(laplacian(region.rest)),
       m_row(region.number_of_vertices(), none), m_solver(std::move(solver))
   {
     for(int v = 0; v < region.number_of_movable_vertices; ++v)
@@ -153,7 +153,7 @@ private:
 
   static constexpr int none = -1;
 
-  Stars m_stars;
+  const Stars& m_stars;
   std::vector<Coordinates> m_rest_laplacian; // L p, for each star
   std::vector<std::pair<int, int>> m_soft_positions; // vertices and the rows that pull them
   std::vector<int> m_row;          // for each vertex its row in the system, if it has one

@@ -61,8 +61,7 @@ public:
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
         m_fixed_vertices.push_back(static_cast<int>(v));
-    Bounding_box box;
-    box.include(x);
+    Bounding_box box = energy.bounding_box(x);
     box.include(targets);
     report.energy_scale = energy.scale(box);
     report.rounding_level = energy.rounding_level(box);
@@ -77,7 +76,7 @@ public:
     return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
 
-  // the energy at x with the rotations that there are
+  // the energy at x with the current rotations
   double evaluate_without_fit()
   {
     Scoped_seconds local(report.seconds.local_steps);

@@ -29,7 +29,7 @@ namespace ARAP {
 namespace internal {
 
 // The iteration of minimize_local_global() in the order of CGAL's class: each iteration first
-// solves for the positions with the rotations that there are, and then fits the rotations to them.
+// solves for the positions with the current rotations, and then fits the rotations to them.
 // It ends when the energy changes by less than the tolerance, relative to itself. The first
 // iteration is not tested, as in CGAL's class: the rotations before it were not fitted to the
 // targets.

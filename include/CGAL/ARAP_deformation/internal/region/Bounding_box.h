@@ -30,14 +30,19 @@ namespace internal {
 class Bounding_box
 {
 public:
+  void include(const Coordinates& p)
+  {
+    for(std::size_t c = 0; c < 3; ++c)
+    {
+      m_least[c] = (std::min)(m_least[c], p[c]);
+      m_most[c] = (std::max)(m_most[c], p[c]);
+    }
+  }
+
   void include(const std::vector<Coordinates>& points)
   {
     for(const Coordinates& p : points)
-      for(std::size_t c = 0; c < 3; ++c)
-      {
-        m_least[c] = (std::min)(m_least[c], p[c]);
-        m_most[c] = (std::max)(m_most[c], p[c]);
-      }
+      include(p);
   }
 
   // of its diagonal; 0 without any points

@@ -24,7 +24,7 @@ namespace ARAP {
 namespace internal {
 
 // Replaces n rotations by those closest to n covariances: a model of ARAPClosestRotation as the
-// numeric core calls it, which is no template.
+// numeric core calls it, which is not a template.
 using Closest_rotations =
   std::function<void(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations)>;
 

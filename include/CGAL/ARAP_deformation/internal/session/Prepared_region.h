@@ -43,6 +43,7 @@ class Prepared_region
 {
 public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
+  using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
 
   explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
@@ -95,7 +96,7 @@ public:
 private:
   struct Prepared
   {
-    Domain_region<Domain> region; // but for what the core has of it
+    Domain_region<Domain> region; // without its flat part, which the core owns
     std::vector<Coordinates> positions;
     std::unique_ptr<Deformation_core> core;
     bool is_whole = true; // whether all of the region of interest is movable
@@ -145,7 +146,8 @@ private:
       return result;
     if(next)
     {
-      if(m_rules.are_targets_and_rotations_kept && m_prepared)
+      if(m_prepared && options.cells.has_vertex_cells() &&
+         (m_rules.are_targets_and_rotations_kept || !m_is_region_stale))
         take_over_rotations(vertices.domain(), *next);
       m_prepared = std::move(next);
     }
@@ -168,7 +170,9 @@ private:
       return true;
     if(m_prepared->is_whole)
       return !is_whole(roi_size, number_of_fixed) && 4 * number_of_fixed > 3 * roi_size;
+    const std::size_t number_of_movable = core().region().number_of_movable_vertices;
     return is_whole(roi_size, number_of_fixed) ||
+           number_of_movable > 8 * (roi_size - number_of_fixed) + 1000 ||
            std::any_of(vertices.entries().begin(), vertices.entries().end(), [&](const auto& e) {
              return e.is_roi && !vertices.is_hard_control(e) &&
                     !m_prepared->is_movable(region().find_vertex(vertices.domain(), e.vertex));
@@ -194,9 +198,14 @@ private:
     for(vertex_descriptor v : region.vertices)
     {
       const auto* entry = vertices.find(v);
-      const bool is_put_back = entry && !entry->is_roi && m_rules.are_erased_put_back;
-      prepared.positions.push_back(
-        Domain::coordinates(is_put_back ? entry->rest : vertices.present(v)));
+      if(entry && !entry->is_roi && m_rules.are_erased_put_back)
+      {
+        const Point point = entry->was_roi ? entry->rest : domain.point(v);
+        prepared.positions.push_back(Domain::coordinates(point));
+        region.flat.rest.push_back(prepared.positions.back());
+        continue;
+      }
+      prepared.positions.push_back(Domain::coordinates(vertices.present(v)));
       region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest)
                                        : prepared.positions.back());
     }

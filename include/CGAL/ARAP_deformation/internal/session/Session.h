@@ -88,17 +88,26 @@ public:
 
   bool insert_roi(vertex_descriptor v)
   {
-    return !is_in_a_run() && m_vertices.insert_roi(v) && region_changed();
+    if(is_in_a_run())
+      return false;
+    read_again(v);
+    return m_vertices.insert_roi(v) && region_changed();
   }
 
   bool erase_roi(vertex_descriptor v)
   {
-    return !is_in_a_run() && m_vertices.erase_roi(v) && region_changed();
+    if(is_in_a_run())
+      return false;
+    keep_target(m_vertices.find_control(v));
+    return m_vertices.erase_roi(v) && region_changed();
   }
 
   void clear_roi()
   {
-    if(!is_in_a_run() && m_vertices.clear_roi())
+    if(is_in_a_run())
+      return;
+    keep_targets();
+    if(m_vertices.clear_roi())
       region_changed();
   }
 
@@ -107,6 +116,8 @@ public:
     if(is_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
+    if(!was_roi)
+      read_again(v);
     return m_vertices.insert_control(v) && (was_roi ? constraints_changed() : region_changed());
   }
 
@@ -114,9 +125,7 @@ public:
   {
     if(is_in_a_run())
       return false;
-    auto* entry = m_vertices.find_control(v);
-    if(entry && m_rules.are_targets_and_rotations_kept)
-      entry->present = m_vertices.target(*entry);
+    keep_target(m_vertices.find_control(v));
     return m_vertices.erase_control(v) && constraints_changed();
   }
 
@@ -124,9 +133,7 @@ public:
   {
     if(is_in_a_run())
       return;
-    for(auto& entry : m_vertices.entries())
-      if(entry.is_control && m_rules.are_targets_and_rotations_kept)
-        entry.present = m_vertices.target(entry);
+    keep_targets();
     if(m_vertices.clear_control())
       constraints_changed();
   }
@@ -168,8 +175,7 @@ public:
 
   Outcome preprocess()
   {
-    Stages stages;
-    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, stages);
+    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
     if(prepared)
     {
       prepared.message +=
@@ -207,7 +213,8 @@ public:
     }
     std::vector<Point> points = copies(&Entry::rest), targets = points;
     for(const auto& entry : m_vertices.entries())
-      domain().set_point(entry.vertex, entry.rest);
+      if(entry.is_roi || !m_rules.are_erased_put_back)
+        domain().set_point(entry.vertex, entry.rest);
     move_to(&Entry::present, points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
@@ -236,7 +243,7 @@ public:
   // Moves what has left the region of interest back to the rest shape, where the rules want that.
   void put_back_erased()
   {
-    if(!m_rules.are_erased_put_back)
+    if(!m_rules.are_erased_put_back || m_is_region_written)
       return;
     for(Entry& entry : m_vertices.entries())
       if(is_put_back(entry))
@@ -300,6 +307,7 @@ private:
   bool region_changed()
   {
     m_prepared.region_changed();
+    m_is_region_written = false;
     m_energy = not_a_number;
     return true;
   }
@@ -323,8 +331,9 @@ private:
       return checked;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      if(Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, report.stages);
-         !prepared)
+      const Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
+      report.stages = std::exchange(m_stages, {});
+      if(!prepared)
         return prepared;
     }
     Deformation_core& core = m_prepared.core();
@@ -416,8 +425,41 @@ private:
 
   void note_region_as_written()
   {
-    for(Entry& entry : m_vertices.entries())
-      entry.was_roi = entry.is_roi;
+    if(!m_is_region_written)
+      for(Entry& entry : m_vertices.entries())
+        entry.was_roi = entry.is_roi;
+    m_is_region_written = true;
+  }
+
+  // Where targets outlive their control vertices, the vertex is from now on where its target is.
+  void keep_target(Entry* control)
+  {
+    if(!control || !m_rules.are_targets_and_rotations_kept)
+      return;
+    const Point& target = m_vertices.target(*control);
+    if(m_prepared.has_region())
+      if(const int v = m_prepared.region().find_vertex(domain(), control->vertex); v >= 0)
+        m_prepared.positions()[v] = Domain::coordinates(target);
+    control->present = target;
+  }
+
+  void keep_targets()
+  {
+    if(m_rules.are_targets_and_rotations_kept)
+      for(Entry& entry : m_vertices.entries())
+        if(entry.is_control)
+          keep_target(&entry);
+  }
+
+  // A vertex that was put back, and enters the region of interest again, is where the mesh has it.
+  void read_again(vertex_descriptor v)
+  {
+    Entry* entry = m_vertices.find(v);
+    if(!m_rules.are_erased_put_back || !entry || entry->is_roi || entry->was_roi)
+      return;
+    Point rest = domain().point(v), present = rest;
+    entry->rest = std::move(rest);
+    entry->present = std::move(present);
   }
 
   template <typename FindCell>
@@ -437,6 +479,8 @@ private:
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;
+  bool m_is_region_written = true; // whether note_region_as_written() was called since its change
+  Stages m_stages;                 // since the last run
   Prepared_region<Domain, Traits> m_prepared;
 };
 

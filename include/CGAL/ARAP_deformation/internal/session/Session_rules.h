@@ -32,8 +32,8 @@ struct Session_rules
   // used
   bool are_erased_put_back = false;
 
-  // whether a target outlives that its vertex is no control vertex, and rotations outlive a change
-  // of the region of interest
+  // whether targets survive erasing the control vertex, and rotations a change of the region of
+  // interest
   bool are_targets_and_rotations_kept = false;
 };
 

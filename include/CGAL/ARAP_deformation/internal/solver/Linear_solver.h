@@ -26,7 +26,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A model of ARAPSparseSolver as the numeric core calls it, which is no template.
+// A model of ARAPSparseSolver as the numeric core calls it, which is not a template.
 class Linear_solver
 {
 public:

@@ -54,9 +54,9 @@ inline std::vector<int> find_unconstrained_components(const Laplacian& laplacian
     for(Sparse_matrix::InnerIterator entry(laplacian.matrix, v); entry; ++entry)
       if(entry.value() != 0 && entry.row() != v)
         tie(static_cast<int>(entry.row()), v);
-  constraints.rows.for_each_entry([&](int i, int, double entry) {
-    if(entry != 0)
-      tie(i, fixed);
+  constraints.rows.for_each_row([&](auto begin, auto end, double sum, double weight) {
+    for(auto v = begin; v != end && weight != 0; ++v)
+      tie(*v, sum != 0 ? fixed : *begin); // a row that adds up to zero only ties its vertices
   });
   for(int v = 0; v < n; ++v)
     parent[v] = find(v);
