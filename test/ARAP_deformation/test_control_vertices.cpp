@@ -23,9 +23,13 @@
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
+#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <array>
@@ -1040,6 +1044,134 @@ void test_all()
 
 } // namespace changes
 
+// The system of the global step with rows of all kinds, against a dense one.
+namespace rows {
+
+using namespace CGAL::ARAP::internal;
+using CGAL::ARAP::Coordinates;
+
+// the matrix of the system, written down a second time
+Eigen::MatrixXd dense_matrix(const Eigen::MatrixXd& laplacian, const Eigen::MatrixXd& rows,
+                             const Eigen::VectorXd& weights, const std::vector<char>& is_fixed)
+{
+  Eigen::MatrixXd a = laplacian + rows.transpose() * weights.asDiagonal() * rows;
+  for(Eigen::Index v = 0; v < a.rows(); ++v)
+    if(is_fixed[static_cast<std::size_t>(v)])
+    {
+      a.row(v).setZero();
+      a.col(v).setZero();
+      a(v, v) = 1;
+    }
+  return a;
+}
+
+void test_all()
+{
+  constexpr int n = 60, width = 10;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  const auto add_edge = [&](int i, int j, double w) {
+    dense(i, i) += w;
+    dense(j, j) += w;
+    dense(i, j) -= w;
+    dense(j, i) -= w;
+  };
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> weight(0.5, 2), entry(-1, 1);
+  std::uniform_int_distribution<int> vertex(0, n - 1);
+  for(int v = 0; v < n; ++v)
+  {
+    if(v % width > 0) add_edge(v - 1, v, weight(generator));
+    if(v >= width) add_edge(v - width, v, weight(generator));
+  }
+  Laplacian laplacian;
+  const Eigen::SparseMatrix<double> whole = dense.sparseView();
+  laplacian.matrix = whole.triangularView<Eigen::Lower>();
+  laplacian.is_tied.assign(n, false);
+  using Solver = CGAL::ARAP::Multifrontal_cholesky_solver;
+  Constrained_system system(laplacian, std::make_unique<Linear_solver_of<Solver>>(Solver()));
+
+  bool was_border = false, was_factor = false, was_order = false;
+  for(int step = 0; step < 40; ++step)
+  {
+    test_case() = "rows, step " + std::to_string(step);
+    // a point in a triangle, a difference of two vertices that are no neighbours, positions
+    Constraints constraints;
+    constraints.is_fixed.assign(n, false);
+    constraints.is_fixed[0] = true;
+    for(int k = 0; k < step % 7; ++k)
+      constraints.is_fixed[vertex(generator)] = true;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(4, n);
+    Eigen::VectorXd weights = Eigen::VectorXd::Constant(4, 1);
+    weights[0] = 1 + step / 10;
+    const int free = step / 20 * 30 + 12;
+    rows(0, free) = 0.2, rows(0, free + 1) = 0.3, rows(0, free + width) = 0.5;
+    constraints.rows.append({free, free + 1, free + width}, {0.2, 0.3, 0.5}, weights[0]);
+    if(step % 3 == 0)
+    {
+      rows(1, 3) = 1, rows(1, 57) = -1;
+      constraints.rows.append({3, 57}, {1, -1}, 1);
+    }
+    for(int k = 0; k < 2; ++k)
+    {
+      const int v = vertex(generator);
+      rows(2 + k, v) = 1;
+      weights[2 + k] = weight(generator);
+      constraints.rows.append(v, weights[2 + k]);
+    }
+    Constrained_system::Work work;
+    CHECK(system.prepare(constraints, work));
+    was_border |= work.border;
+    was_factor |= work.factor && !work.order;
+    was_order |= work.order && step > 0;
+
+    std::vector<Coordinates> x(n, Coordinates{0, 0, 0});
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);
+    for(int v = 0; v < n; ++v)
+      for(int c = 0; c < 3 && !constraints.is_fixed[v]; ++c)
+        right(v, c) = x[v][c] = entry(generator);
+    CHECK(system.solve(x));
+    const Eigen::MatrixXd solution =
+      dense_matrix(dense, rows, weights, constraints.is_fixed).llt().solve(right);
+    double error = 0;
+    for(int v = 0; v < n; ++v)
+      for(int c = 0; c < 3; ++c)
+        error = larger(error, std::abs(x[v][c] - solution(v, c)));
+    CHECK_AT_MOST(error, 1e-10);
+    for(int v = 0; v < n; ++v)
+      CHECK(!constraints.is_fixed[v] || x[v] == (Coordinates{0, 0, 0}));
+    if(step == 25)
+      system.release_factor();
+  }
+  CHECK(was_border && was_order);
+
+  // a row whose coefficients add up to zero ties its vertices, and fixes none
+  Constraints loose;
+  loose.is_fixed.assign(n, false);
+  loose.rows.append({3, 57}, {1, -1}, 1);
+  CHECK(find_unconstrained_components(laplacian, loose)[5] == 0);
+  loose.rows.append({12, 13, 22}, {0.2, 0.3, 0.5}, 1);
+  CHECK(find_unconstrained_components(laplacian, loose)[5] == -1);
+
+  // the energy of rows and its forces, against differences of the energy
+  std::vector<Coordinates> x(n), force(n, Coordinates{0, 0, 0}), ignored = force;
+  for(Coordinates& p : x)
+    p = {entry(generator), entry(generator), entry(generator)};
+  const std::vector<Coordinates> targets = {{1, 2, 3}, {-1, 0, 1}};
+  loose.rows.pull(targets, x, force);
+  for(int v : {3, 12, 13, 22, 30, 57})
+    for(int c = 0; c < 3; ++c)
+    {
+      std::vector<Coordinates> y = x, z = x;
+      y[v][c] += 0.5;
+      z[v][c] -= 0.5;
+      const double difference =
+        loose.rows.pull(targets, y, ignored) - loose.rows.pull(targets, z, ignored);
+      CHECK_AT_MOST(std::abs(difference + 2 * force[v][c]), 1e-12);
+    }
+}
+
+} // namespace rows
+
 // What hangs on weights so small that rounding errors of the others hide them: of all that a matrix
 // knows of them nothing may be left, so that they could be flung anywhere. They stay near.
 namespace weak_ties {
@@ -1136,6 +1268,7 @@ int main()
 {
   soft_targets::test_all();
   changes::test_all();
+  rows::test_all();
   weak_ties::test_all();
   return checks_result();
 }

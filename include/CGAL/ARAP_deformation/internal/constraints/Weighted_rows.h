@@ -73,7 +73,8 @@ public:
   // whether each row has one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
-  // Calls f(begin, end, sum, weight) for each row, with its vertices and the sum of its coefficients.
+  // Calls f(begin, end, sum, weight) for each row, with its vertices and the sum of its
+  // coefficients.
   template <typename Function>
   void for_each_row(const Function& f) const
   {

@@ -26,8 +26,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A model of ARAPEdgeWeight as the numeric core calls it, which is not a template. Vertices are told
-// by their points and by their indices in the mesh.
+// A model of ARAPEdgeWeight as the numeric core calls it, which is not a template. Vertices are
+// told by their points and by their indices in the mesh.
 class Edge_weight_model
 {
 public:

@@ -71,9 +71,8 @@ Diagnosis Deformation_core::prepare(Cell_scheme cells)
   if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
     return {Status::non_finite_weight, v};
   m_rotations.assign(energy.number_of_cells(), identity_matrix());
-  Laplacian laplacian = laplacian_of(energy);
-  m_state.reset(new State{std::move(energy),
-                          Constrained_system(std::move(laplacian), m_models.solver->copy()), {}, {}});
+  Constrained_system system(laplacian_of(energy), m_models.solver->copy());
+  m_state.reset(new State{std::move(energy), std::move(system), {}, {}});
   m_is_isolated.assign(m_region.number_of_movable_vertices, true);
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
