@@ -20,10 +20,9 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_session.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_traits.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_weights.h>
-#include <CGAL/ARAP_deformation/internal/session/Session.h>
-#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/default_models.h>
 
 #include <CGAL/Default.h>
@@ -154,7 +153,7 @@ public:
     : m_mesh(mesh),
       m_weights(mesh, vertex_index_map, hedge_index_map, vertex_point_map, weight_calculator),
       m_session(Domain(mesh, vertex_point_map, vertex_index_map),
-                Traits(Solver(), m_weights, Rotation()), internal::cgal_rules())
+                Traits(Solver(), m_weights, Rotation()))
   {
     Options options;
     options.cells = TAG == SPOKES_AND_RIMS ? Cell_scheme::spokes_and_rims() : Cell_scheme::spokes();
@@ -217,7 +216,7 @@ public:
   /// sets the target of a control vertex. Ignores any other vertex.
   Outcome set_target_position(vertex_descriptor v, const Point& target_position)
   {
-    return change_target(v, [&](const Point&) { return target_position; });
+    return m_session.change_target(v, [&](const Point&) { return target_position; });
   }
 
   /// translates the target of a control vertex by `t`, whose type has `operator[]`. Ignores any
@@ -225,7 +224,7 @@ public:
   template <typename Vect>
   Outcome translate(vertex_descriptor v, const Vect& t)
   {
-    return change_target(v, [&t](const Point& p) {
+    return m_session.change_target(v, [&t](const Point& p) {
       return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
     });
   }
@@ -243,7 +242,7 @@ public:
   template <typename Quaternion, typename Vect>
   Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
   {
-    return change_target(v, [&](const Point& p) {
+    return m_session.change_target(v, [&](const Point& p) {
       const Vect& c = to_rotation_center;
       const Vect r = quat * Vect(CGAL::to_double(p[0]) - c[0], CGAL::to_double(p[1]) - c[1],
                                  CGAL::to_double(p[2]) - c[2]);
@@ -295,11 +294,7 @@ public:
   }
 
   /// moves the region of interest, targets included, back to the rest shape.
-  void reset()
-  {
-    m_session.put_back_erased();
-    m_session.reset();
-  }
+  void reset() { m_session.reset(); }
 
   /// makes the current points of the region of interest the rest shape, and recomputes the weights
   /// at its vertices.
@@ -373,13 +368,6 @@ private:
     return first;
   }
 
-  template <typename Function>
-  Outcome change_target(vertex_descriptor v, const Function& f)
-  {
-    m_session.put_back_erased();
-    return m_session.change_target(v, f);
-  }
-
   using Solver = typename internal::Select_sparse_solver<ST>::type;
   using Rotation = typename internal::Select_closest_rotation<CR>::type;
   using Weights = internal::Halfedge_weights<Triangle_mesh, Vertex_index_map, Hedge_index_map,
@@ -392,7 +380,7 @@ private:
 
   Triangle_mesh& m_mesh;
   Weights m_weights;
-  internal::Session<Domain, Traits> m_session;
+  internal::Drop_in_session<Domain, Traits> m_session;
   mutable Roi_vertex_range m_roi; // for roi_vertices()
   unsigned int m_iterations = 5;
   double m_tolerance = 1e-4;

@@ -57,8 +57,6 @@ public:
     : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_prepared(rules)
   {}
 
-  const Traits& traits() const { return m_traits; }
-
   const Options& options() const { return m_options; }
 
   Outcome set_options(const Options& options)
@@ -88,26 +86,17 @@ public:
 
   bool insert_roi(vertex_descriptor v)
   {
-    if(is_in_a_run())
-      return false;
-    read_again(v);
-    return m_vertices.insert_roi(v) && region_changed();
+    return !is_in_a_run() && m_vertices.insert_roi(v) && region_changed();
   }
 
   bool erase_roi(vertex_descriptor v)
   {
-    if(is_in_a_run())
-      return false;
-    keep_target(m_vertices.find_control(v));
-    return m_vertices.erase_roi(v) && region_changed();
+    return !is_in_a_run() && m_vertices.erase_roi(v) && region_changed();
   }
 
   void clear_roi()
   {
-    if(is_in_a_run())
-      return;
-    keep_targets();
-    if(m_vertices.clear_roi())
+    if(!is_in_a_run() && m_vertices.clear_roi())
       region_changed();
   }
 
@@ -116,25 +105,17 @@ public:
     if(is_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
-    if(!was_roi)
-      read_again(v);
     return m_vertices.insert_control(v) && (was_roi ? constraints_changed() : region_changed());
   }
 
   bool erase_control(vertex_descriptor v)
   {
-    if(is_in_a_run())
-      return false;
-    keep_target(m_vertices.find_control(v));
-    return m_vertices.erase_control(v) && constraints_changed();
+    return !is_in_a_run() && m_vertices.erase_control(v) && constraints_changed();
   }
 
   void clear_control()
   {
-    if(is_in_a_run())
-      return;
-    keep_targets();
-    if(m_vertices.clear_control())
+    if(!is_in_a_run() && m_vertices.clear_control())
       constraints_changed();
   }
 
@@ -177,11 +158,8 @@ public:
   {
     Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
     if(prepared)
-    {
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
-      put_back_erased();
-    }
     return prepared;
   }
 
@@ -240,21 +218,6 @@ public:
     move_to(&Entry::rest, rest);
   }
 
-  // Moves what has left the region of interest back to the rest shape, where the rules want that.
-  void put_back_erased()
-  {
-    if(!m_rules.are_erased_put_back || m_is_region_written)
-      return;
-    for(Entry& entry : m_vertices.entries())
-      if(is_put_back(entry))
-      {
-        Point point = entry.rest;
-        domain().set_point(entry.vertex, entry.rest);
-        entry.present = std::move(point);
-      }
-    note_region_as_written();
-  }
-
   double energy() const { return m_energy; }
 
   Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
@@ -270,7 +233,7 @@ public:
                             [&] { return m_prepared.region().find_simplex(domain(), s); });
   }
 
-private:
+protected:
   friend Iterate;
 
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -423,43 +386,14 @@ private:
     return m_rules.are_erased_put_back && entry.was_roi && !entry.is_roi;
   }
 
+  bool is_region_written() const { return m_is_region_written; }
+
   void note_region_as_written()
   {
     if(!m_is_region_written)
       for(Entry& entry : m_vertices.entries())
         entry.was_roi = entry.is_roi;
     m_is_region_written = true;
-  }
-
-  // Where targets outlive their control vertices, the vertex is from now on where its target is.
-  void keep_target(Entry* control)
-  {
-    if(!control || !m_rules.are_targets_and_rotations_kept)
-      return;
-    const Point& target = m_vertices.target(*control);
-    if(m_prepared.has_region())
-      if(const int v = m_prepared.region().find_vertex(domain(), control->vertex); v >= 0)
-        m_prepared.positions()[v] = Domain::coordinates(target);
-    control->present = target;
-  }
-
-  void keep_targets()
-  {
-    if(m_rules.are_targets_and_rotations_kept)
-      for(Entry& entry : m_vertices.entries())
-        if(entry.is_control)
-          keep_target(&entry);
-  }
-
-  // A vertex that was put back, and enters the region of interest again, is where the mesh has it.
-  void read_again(vertex_descriptor v)
-  {
-    Entry* entry = m_vertices.find(v);
-    if(!m_rules.are_erased_put_back || !entry || entry->is_roi || entry->was_roi)
-      return;
-    Point rest = domain().point(v), present = rest;
-    entry->rest = std::move(rest);
-    entry->present = std::move(present);
   }
 
   template <typename FindCell>

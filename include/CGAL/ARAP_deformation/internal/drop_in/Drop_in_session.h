@@ -1,0 +1,161 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_SESSION_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_SESSION_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/session/Session.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
+
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// A session with the rules of CGAL's Surface_mesh_deformation: what leaves the region of interest
+// returns to the rest shape when the region is next used, and targets survive erasing the control
+// vertex.
+template <typename Domain, typename Traits>
+class Drop_in_session : public Session<Domain, Traits>
+{
+  using Base = Session<Domain, Traits>;
+  using Base::m_prepared;
+  using Base::m_vertices;
+
+public:
+  using Entry = typename Base::Entry;
+  using Point = typename Base::Point;
+  using vertex_descriptor = typename Base::vertex_descriptor;
+
+  Drop_in_session(Domain domain, const Traits& traits)
+    : Base(std::move(domain), traits, cgal_rules())
+  {}
+
+  bool insert_roi(vertex_descriptor v)
+  {
+    read_again(v);
+    return Base::insert_roi(v);
+  }
+
+  bool insert_control(vertex_descriptor v)
+  {
+    read_again(v);
+    return Base::insert_control(v);
+  }
+
+  bool erase_roi(vertex_descriptor v)
+  {
+    keep_target(m_vertices.find_control(v));
+    return Base::erase_roi(v);
+  }
+
+  void clear_roi()
+  {
+    keep_targets();
+    Base::clear_roi();
+  }
+
+  bool erase_control(vertex_descriptor v)
+  {
+    keep_target(m_vertices.find_control(v));
+    return Base::erase_control(v);
+  }
+
+  void clear_control()
+  {
+    keep_targets();
+    Base::clear_control();
+  }
+
+  template <typename Function>
+  Outcome change_target(vertex_descriptor v, const Function& f)
+  {
+    put_back_erased();
+    return Base::change_target(v, f);
+  }
+
+  Outcome preprocess()
+  {
+    Outcome prepared = Base::preprocess();
+    if(prepared)
+      put_back_erased();
+    return prepared;
+  }
+
+  void reset()
+  {
+    put_back_erased();
+    Base::reset();
+  }
+
+  void overwrite_initial_geometry()
+  {
+    put_back_erased();
+    Base::overwrite_initial_geometry();
+  }
+
+  // moves what has left the region of interest back to the rest shape
+  void put_back_erased()
+  {
+    if(this->is_region_written())
+      return;
+    for(Entry& entry : m_vertices.entries())
+      if(this->is_put_back(entry))
+      {
+        Point point = entry.rest;
+        this->domain().set_point(entry.vertex, entry.rest);
+        entry.present = std::move(point);
+      }
+    this->note_region_as_written();
+  }
+
+private:
+  // An erased control vertex is where its target is, from now on.
+  void keep_target(Entry* control)
+  {
+    if(!control)
+      return;
+    const Point& target = m_vertices.target(*control);
+    if(m_prepared.has_region())
+      if(const int v = m_prepared.region().find_vertex(this->domain(), control->vertex); v >= 0)
+        m_prepared.positions()[v] = Domain::coordinates(target);
+    control->present = target;
+  }
+
+  void keep_targets()
+  {
+    for(Entry& entry : m_vertices.entries())
+      if(entry.is_control)
+        keep_target(&entry);
+  }
+
+  // A vertex that was put back, and enters the region of interest again, is where the mesh has it.
+  void read_again(vertex_descriptor v)
+  {
+    Entry* entry = m_vertices.find(v);
+    if(!entry || entry->is_roi || entry->was_roi)
+      return;
+    Point rest = this->domain().point(v), present = rest;
+    entry->rest = std::move(rest);
+    entry->present = std::move(present);
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DROP_IN_DROP_IN_SESSION_H
