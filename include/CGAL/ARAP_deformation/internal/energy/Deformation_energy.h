@@ -93,11 +93,11 @@ public:
     measure();
   }
 
-  // the bounding box of the points of all vertices in cells that count
+  // the bounding box of the points of all vertices that cells that count are at
   Bounding_box bounding_box(const std::vector<Coordinates>& points) const
   {
     Bounding_box box;
-    for(std::size_t v = 0; v < points.size(); ++v)
+    for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
       if(m_is_in_cell[v])
         box.include(points[v]);
     return box;
@@ -183,18 +183,14 @@ private:
   // of the cells that count, in the rest shape
   void measure()
   {
-    m_scale = m_sum_of_weights = 0;
-    m_is_in_cell.assign(m_rest.size(), false);
     std::visit([&](const auto& cells) {
-      cells.for_each_chosen_edge([&](int i, int j, double weight) {
-        const Double4 edge = m_rest[i] - m_rest[j], square = edge * edge;
-        m_sum_of_weights += std::abs(weight);
-        m_scale += std::abs(weight) * (square[0] + square[1] + square[2]);
-        m_is_in_cell[i] = m_is_in_cell[j] = true;
-      });
+      const Edge_sums sums = cells.edge_sums(m_rest.data());
+      m_sum_of_weights = sums.weights;
+      m_scale = sums.squares;
+      m_is_in_cell = cells.vertices_of(m_is_chosen);
     }, m_cells);
     Bounding_box box;
-    for(std::size_t v = 0; v < m_rest.size(); ++v)
+    for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
       if(m_is_in_cell[v])
         box.include(Coordinates{m_rest[v][0], m_rest[v][1], m_rest[v][2]});
     m_squared_length = box.squared_length();
@@ -228,7 +224,7 @@ private:
   int m_number_of_movable_vertices = 0;
   int m_number_of_free_vertices = 0;
   std::vector<char> m_is_chosen;  // for each cell whether it counts
-  std::vector<char> m_is_in_cell; // for each vertex whether it is in a cell that counts
+  std::vector<char> m_is_in_cell; // for each of the first vertices: is a cell that counts there
   Index_ranges m_batches;         // of the cells that count
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x;    // of the last evaluation

@@ -15,10 +15,12 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <CGAL/assertions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -92,6 +94,24 @@ private:
         for(int b = a + 1; b < self.corners.begin[s + 1]; ++b, ++w)
           f(s, self.corners.items[a], self.corners.items[b], *w);
     }
+  }
+};
+
+// The sums of |w| and of |w| ||e||^2 over edges e with weights w.
+struct Edge_sums
+{
+  double weights = 0, squares = 0;
+
+  void add(double weight, const Double4& edge)
+  {
+    const Double4 square = edge * edge;
+    weights += std::abs(weight);
+    squares += std::abs(weight) * (square[0] + square[1] + square[2]);
+  }
+
+  friend Edge_sums operator+(const Edge_sums& a, const Edge_sums& b)
+  {
+    return {a.weights + b.weights, a.squares + b.squares};
   }
 };
 

@@ -163,16 +163,46 @@ public:
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
-    for_each_edge(m_cells.stiffness, f);
+    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
+      f(i, j, total_stiffness(s, m_cells.stiffness) * w);
+    });
   }
 
-  // the same for the cells that count only
-  template <typename Function>
-  void for_each_chosen_edge(const Function& f) const
+  // over the cells that count
+  Edge_sums edge_sums(const Double4* rest) const
   {
-    for_each_edge(m_stiffness, [&f](int i, int j, double w) {
-      if(w != 0) f(i, j, w);
+    return m_chosen.sum([&](int begin, int end) {
+      Edge_sums sums;
+      for(int s = begin; s < end; ++s)
+      {
+        const double stiffness = total_stiffness(s, m_stiffness);
+        const double* w = m_simplices.weights.data() + m_simplices.first_weight[s];
+        for(int a = m_simplices.corners.begin[s]; a < m_simplices.corners.begin[s + 1]; ++a)
+          for(int b = a + 1; b < m_simplices.corners.begin[s + 1]; ++b, ++w)
+            sums.add(stiffness * *w, rest[m_simplices.corners.items[a]] -
+                                       rest[m_simplices.corners.items[b]]);
+      }
+      return sums;
     });
+  }
+
+  // for each vertex whether it is the centre of a cell that counts, or a corner of one that is a
+  // simplex
+  std::vector<char> vertices_of(const std::vector<char>& is_chosen) const
+  {
+    if(!m_is_each_a_cell)
+      return is_chosen;
+    std::vector<char> vertices;
+    for(int s = 0; s < m_cells.size(); ++s)
+      if(is_chosen[s])
+        for(int k = m_simplices.corners.begin[s]; k < m_simplices.corners.begin[s + 1]; ++k)
+        {
+          const auto v = static_cast<std::size_t>(m_simplices.corners.items[k]);
+          if(v >= vertices.size())
+            vertices.resize(v + 1, false);
+          vertices[v] = true;
+        }
+    return vertices;
   }
 
   const std::vector<double>& weights() const { return m_simplices.weights; }
@@ -253,15 +283,13 @@ public:
   }
 
 private:
-  template <typename Function>
-  void for_each_edge(const std::vector<double>& stiffness_of_cells, const Function& f) const
+  // the sum over the cells of simplex s
+  double total_stiffness(int s, const std::vector<double>& stiffness) const
   {
-    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
-      double stiffness = 0;
-      for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
-        stiffness += stiffness_of_cells[m_cells_of_simplices.items[k]];
-      f(i, j, stiffness * w);
-    });
+    double sum = 0;
+    for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
+      sum += stiffness[m_cells_of_simplices.items[k]];
+    return sum;
   }
 
   template <template <int> class Kernel, typename... Arguments>

@@ -136,21 +136,26 @@ public:
                                      begin + m_stars.neighbours.begin[i + 1], is_free);
   }
 
-  // calls f(i, j, w) for each edge of each cell that counts
-  template <typename Function>
-  void for_each_chosen_edge(const Function& f) const
+  // over the cells that count
+  Edge_sums edge_sums(const Double4* rest) const
   {
-    m_stars.for_each_edge([&](int i, int j, double w) {
-      if(m_is_chosen[i]) f(i, j, w);
+    return m_chosen.sum([&](int begin, int end) {
+      Edge_sums sums;
+      for(int i = begin; i < end; ++i)
+        for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+          sums.add(m_stars.weights[e], rest[i] - rest[m_stars.neighbours.items[e]]);
+      return sums;
     });
   }
+
+  // for each vertex whether it is the centre of a cell that counts
+  std::vector<char> vertices_of(const std::vector<char>& is_chosen) const { return is_chosen; }
 
   const std::vector<double>& weights() const { return m_stars.weights; }
 
   // the cells that count
   void choose_cells(const std::vector<char>& is_chosen)
   {
-    m_is_chosen = is_chosen;
     m_chosen.choose(number_of_cells(), [&](int i) { return is_chosen[i] != 0; },
                     static_cast<int>(default_block_size));
   }
@@ -209,7 +214,6 @@ private:
   Stars m_stars;
   std::vector<double> m_opposite_weights; // of the movable vertices; empty if they are the same
   int m_number_of_movable_vertices = 0;
-  std::vector<char> m_is_chosen; // for each cell
   Index_ranges m_chosen;
 };
 

@@ -63,16 +63,18 @@ public:
     });
   }
 
-  // the sum of f(begin, end) over all ranges, added up in their order
+  // the sum of f(begin, end) over all ranges, added up in their order; f returns numbers, or what
+  // can be added like numbers
   template <typename Function>
-  double sum(const Function& f) const
+  auto sum(const Function& f) const
   {
-    std::vector<double> sums(m_first_range.size() - 1, 0);
+    using Value = decltype(f(0, 0));
+    std::vector<Value> sums(m_first_range.size() - 1);
     for_each_task(sums.size(), [&](std::size_t task) {
       for(std::size_t r = m_first_range[task]; r < m_first_range[task + 1]; ++r)
-        sums[task] += f(m_ranges[r].begin, m_ranges[r].end);
+        sums[task] = sums[task] + f(m_ranges[r].begin, m_ranges[r].end);
     });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    return std::accumulate(sums.begin(), sums.end(), Value());
   }
 
 private:
