@@ -14,8 +14,9 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation/internal/session/default_models.h>
 #include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 
 #include <CGAL/Default.h>
@@ -50,14 +51,15 @@ class ARAP_deformation_traits
 {
 public:
   /// the type of the solver.
-  using Sparse_solver = typename Default::Get<SparseSolver, ARAP::internal::Default_solver>::type;
+  using Sparse_solver =
+    typename Default::Get<SparseSolver, ARAP::Multifrontal_cholesky_solver>::type;
 
   /// the type of the edge weights.
   using Edge_weight = typename Default::Get<EdgeWeight, ARAP::Safe_cotangent_weight>::type;
 
   /// the type of the rotation fitting.
   using Closest_rotation =
-    typename Default::Get<ClosestRotation, ARAP::internal::Default_closest_rotation>::type;
+    typename Default::Get<ClosestRotation, ARAP::Newton_closest_rotation>::type;
 
   /// the concurrency tag.
   using Concurrency_tag = ConcurrencyTag;
@@ -72,8 +74,8 @@ public:
 
   /// constructs the traits from the objects that they provide.
   explicit ARAP_deformation_traits(Sparse_solver solver = Sparse_solver(),
-                                     Edge_weight weight = Edge_weight(),
-                                     Closest_rotation rotation = Closest_rotation())
+                                   Edge_weight weight = Edge_weight(),
+                                   Closest_rotation rotation = Closest_rotation())
     : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
   {}
 

@@ -16,10 +16,10 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
-#include <CGAL/ARAP_deformation/internal/session/default_models.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -120,7 +120,7 @@ ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,
   auto weight = choose_parameter(get_parameter(np, internal_np::weight_calculator),
                                  ARAP::Safe_cotangent_weight());
   auto solver = choose_parameter(get_parameter(np, internal_np::sparse_linear_solver),
-                                 ARAP::internal::Default_solver());
+                                 ARAP::Multifrontal_cholesky_solver());
   using Traits = ARAP_deformation_traits<decltype(solver), decltype(weight)>;
   using Visitor = typename internal_np::Lookup_named_param_def<
     internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;

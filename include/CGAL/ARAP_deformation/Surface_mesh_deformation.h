@@ -17,13 +17,14 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_session.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_traits.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_weights.h>
-#include <CGAL/ARAP_deformation/internal/session/default_models.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Surface_mesh_deformation.h>
@@ -114,10 +115,10 @@ public:
   using Weight_calculator = typename Base_types::Weight_calculator; ///< the weights.
   using Vertex_point_map = typename Base_types::Vertex_point_map; ///< the points.
   /// the solver: `ST`, or its default.
-  using Sparse_linear_solver = typename Default::Get<ST, internal::Default_solver>::type;
+  using Sparse_linear_solver = typename Default::Get<ST, Multifrontal_cholesky_solver>::type;
   /// the rotation: `CR`, or its default.
   using Closest_rotation_traits =
-    typename Default::Get<CR, internal::Default_closest_rotation>::type;
+    typename Default::Get<CR, Newton_closest_rotation>::type;
   using vertex_descriptor = typename Base_types::vertex_descriptor; ///< a vertex.
   using halfedge_descriptor = typename Base_types::halfedge_descriptor; ///< a halfedge.
   using Point = typename Base_types::Point; ///< a point.

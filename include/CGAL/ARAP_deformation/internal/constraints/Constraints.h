@@ -14,14 +14,156 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/constraints/Weighted_rows.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// A sparse matrix B with a weight for each row, for the term  sum_r m_r || B_r x - t_r ||^2  of the
+// energy. A vertex that is pulled to a target is a row with one coefficient, 1.
+class Weighted_rows
+{
+public:
+  int size() const { return m_vertices.size(); }
+
+  // the vertex of a row that is the position of one vertex, or -1
+  int position(int r) const
+  {
+    const int k = m_vertices.begin[r];
+    return m_vertices.begin[r + 1] == k + 1 && m_coefficients[k] == 1 ? m_vertices.items[k] : -1;
+  }
+
+  // adds the row of one vertex
+  void append(int vertex, double weight) { append({vertex}, {1}, weight); }
+
+  // adds a row; its vertices differ
+  void append(const std::vector<int>& vertices, const std::vector<double>& coefficients,
+              double weight)
+  {
+    m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
+    m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+    m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
+    m_weights.push_back(weight);
+    m_is_diagonal &= vertices.size() == 1;
+  }
+
+  // Calls f(i, j, a) for each entry a of B^T M B with i >= j, one call for each row. There may be
+  // several calls for one entry, in the order of the rows.
+  template <typename Function>
+  void for_each_entry(const Function& f) const
+  {
+    for(int r = 0; r < size(); ++r)
+      for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+        for(int l = m_vertices.begin[r]; l < m_vertices.begin[r + 1]; ++l)
+          if(m_vertices.items[k] >= m_vertices.items[l])
+            f(m_vertices.items[k], m_vertices.items[l],
+              m_weights[r] * m_coefficients[k] * m_coefficients[l]);
+  }
+
+  // whether each row has one vertex, so that B^T M B is diagonal
+  bool is_diagonal() const { return m_is_diagonal; }
+
+  // Calls f(begin, end, sum, weight) for each row, with its vertices and the sum of its
+  // coefficients.
+  template <typename Function>
+  void for_each_row(const Function& f) const
+  {
+    for(int r = 0; r < size(); ++r)
+    {
+      const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
+      f(m_vertices.items.begin() + begin, m_vertices.items.begin() + end,
+        std::accumulate(m_coefficients.begin() + begin, m_coefficients.begin() + end, 0.0),
+        m_weights[r]);
+    }
+  }
+
+  // Calls f(v) for each vertex of a row that only one of the two has.
+  template <typename Function>
+  static void for_each_changed_vertex(const Weighted_rows& a, const Weighted_rows& b,
+                                      const Function& f)
+  {
+    const std::vector<int> a_order = a.order(), b_order = b.order();
+    const auto visit = [&f](const Weighted_rows& rows, int r) {
+      for(int k = rows.m_vertices.begin[r]; k < rows.m_vertices.begin[r + 1]; ++k)
+        f(rows.m_vertices.items[k]);
+    };
+    auto i = a_order.begin(), j = b_order.begin();
+    while(i != a_order.end() || j != b_order.end())
+      if(j == b_order.end() || (i != a_order.end() && is_less(a, *i, b, *j)))
+        visit(a, *i++);
+      else if(i == a_order.end() || is_less(b, *j, a, *i))
+        visit(b, *j++);
+      else
+        ++i, ++j;
+  }
+
+  // Returns the energy at x for these targets, one for each row, and adds minus half its gradient
+  // to the forces.
+  double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
+              std::vector<Coordinates>& force) const
+  {
+    std::vector<Coordinates> pulls(m_weights.size());
+    const double energy = sum_over_blocks(pulls.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for(std::size_t r = begin; r < end; ++r)
+      {
+        Coordinates residual = targets[r];
+        for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+          add(residual, -m_coefficients[k], x[m_vertices.items[k]]);
+        pulls[r] = scaled(residual, m_weights[r]);
+        sum += dot(pulls[r], residual);
+      }
+      return sum;
+    });
+    for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
+      for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+        add(force[m_vertices.items[k]], m_coefficients[k], pulls[r]);
+    return energy;
+  }
+
+private:
+  // the rows in an order by their contents
+  std::vector<int> order() const
+  {
+    std::vector<int> rows(m_weights.size());
+    for(int r = 0; r < size(); ++r)
+      rows[r] = r;
+    std::sort(rows.begin(), rows.end(),
+              [this](int r, int s) { return is_less(*this, r, *this, s); });
+    return rows;
+  }
+
+  static bool is_less(const Weighted_rows& a, int r, const Weighted_rows& b, int s)
+  {
+    const int a_begin = a.m_vertices.begin[r], a_end = a.m_vertices.begin[r + 1];
+    const int b_begin = b.m_vertices.begin[s], b_end = b.m_vertices.begin[s + 1];
+    if(a_end - a_begin != b_end - b_begin)
+      return a_end - a_begin < b_end - b_begin;
+    for(int k = a_begin, l = b_begin; k < a_end; ++k, ++l)
+    {
+      const auto left = std::tie(a.m_vertices.items[k], a.m_coefficients[k]);
+      const auto right = std::tie(b.m_vertices.items[l], b.m_coefficients[l]);
+      if(left != right)
+        return left < right;
+    }
+    return a.m_weights[r] < b.m_weights[s];
+  }
+
+  Index_lists m_vertices;             // of each row
+  std::vector<double> m_coefficients; // of each item of these lists
+  std::vector<double> m_weights;      // of each row
+  bool m_is_diagonal = true;
+};
 
 // What is prescribed for the movable vertices of a region: some are fixed, and rows pull others.
 // Targets are no part of it: they may change with each run.

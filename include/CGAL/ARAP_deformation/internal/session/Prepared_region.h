@@ -73,7 +73,7 @@ public:
                   Stages& stages)
   {
     if(m_are_constraints_stale)
-      m_outcome = prepare_anew(vertices, traits, options, stages);
+      m_outcome = update(vertices, traits, options, stages);
     return m_outcome;
   }
 
@@ -107,7 +107,7 @@ private:
     }
   };
 
-  Outcome prepare_anew(const Vertices& vertices, const Traits& traits, const Options& options,
+  Outcome update(const Vertices& vertices, const Traits& traits, const Options& options,
                        Stages& stages)
   {
     const auto& entries = vertices.entries();
@@ -155,6 +155,7 @@ private:
     m_is_region_stale = m_are_constraints_stale = false;
     return result;
   }
+
   // Movable is all of the region of interest, so that handles may change without another region.
   // But where most of it is fixed, these are the free vertices and their neighbours: the cost
   // follows what can move.

@@ -61,7 +61,7 @@ public:
 
   Outcome set_options(const Options& options)
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     Outcome checked = options.check();
     if(checked)
@@ -86,23 +86,23 @@ public:
 
   bool insert_roi(vertex_descriptor v)
   {
-    return !is_in_a_run() && m_vertices.insert_roi(v) && region_changed();
+    return !refuse_in_a_run() && m_vertices.insert_roi(v) && region_changed();
   }
 
   bool erase_roi(vertex_descriptor v)
   {
-    return !is_in_a_run() && m_vertices.erase_roi(v) && region_changed();
+    return !refuse_in_a_run() && m_vertices.erase_roi(v) && region_changed();
   }
 
   void clear_roi()
   {
-    if(!is_in_a_run() && m_vertices.clear_roi())
+    if(!refuse_in_a_run() && m_vertices.clear_roi())
       region_changed();
   }
 
   bool insert_control(vertex_descriptor v)
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
     return m_vertices.insert_control(v) && (was_roi ? constraints_changed() : region_changed());
@@ -110,12 +110,12 @@ public:
 
   bool erase_control(vertex_descriptor v)
   {
-    return !is_in_a_run() && m_vertices.erase_control(v) && constraints_changed();
+    return !refuse_in_a_run() && m_vertices.erase_control(v) && constraints_changed();
   }
 
   void clear_control()
   {
-    if(!is_in_a_run() && m_vertices.clear_control())
+    if(!refuse_in_a_run() && m_vertices.clear_control())
       constraints_changed();
   }
 
@@ -123,7 +123,7 @@ public:
   template <typename Function>
   Outcome change_target(vertex_descriptor v, const Function& f)
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     auto* entry = m_vertices.find_control(v);
     if(entry == nullptr)
@@ -141,7 +141,7 @@ public:
 
   Outcome set_weight(vertex_descriptor v, double weight)
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     auto* entry = m_vertices.find_control(v);
     if(entry == nullptr)
@@ -179,7 +179,7 @@ public:
 
   void reset()
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return;
     std::vector<Coordinates> positions;
     if(m_prepared.has_region())
@@ -205,7 +205,7 @@ public:
 
   void overwrite_initial_geometry()
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return;
     std::vector<Point> points = copies(&Entry::present);
     if(domain().is_in_place()) // the points may have been changed by others
@@ -259,7 +259,7 @@ protected:
   }
 
   // Whether a visitor has called: it works on what the run is working on.
-  bool is_in_a_run() const
+  bool refuse_in_a_run() const
   {
     CGAL_precondition(!m_is_in_a_run);
     return m_is_in_a_run;
@@ -285,7 +285,7 @@ protected:
   template <typename Visitor>
   Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report)
   {
-    if(is_in_a_run())
+    if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     Options options = m_options;
     options.iterations = iterations;
