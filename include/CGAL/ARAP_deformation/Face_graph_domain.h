@@ -18,6 +18,7 @@
 
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
