@@ -21,18 +21,41 @@
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
+#include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
 #include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
+#include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
+#include <CGAL/ARAP_deformation/parameters.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/assertions.h>
 
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
+
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationOptions
+/// what `ARAP_deformation::transform()` transforms.
+enum class Transformed
+{
+  targets,   ///< the current targets
+  rest_shape ///< the points of the rest shape
+};
+
+namespace internal {
+
+template <typename Quaternion, typename Vector>
+using Call_turn = Requires_convertible<
+  decltype(std::declval<const Quaternion&>() * std::declval<const Vector&>()), Vector>;
+
+} // namespace internal
+} // namespace ARAP
 
 /// \ingroup PkgARAPDeformationRef
 /// \brief deforms a shape as rigidly as possible \cgalCite{Sorkine2007AsRigidAs}: some vertices
@@ -45,8 +68,9 @@ namespace CGAL {
 ///
 /// Time and memory are proportional to the size of the region of interest, not of the mesh, if the
 /// mesh has, or is given, an index map. The mesh must outlive the object. While the object exists,
-/// the connectivity of the mesh must not change, and only the object may move its points.
-/// All computations are in `double`, whatever the type of the points.
+/// the connectivity of the mesh must not change. A run starts from the points that the mesh has
+/// then, also where others have moved them; the rest shape stays what it is. All computations are
+/// in `double`, whatever the type of the points.
 ///
 /// \tparam Mesh the type of the mesh, or of its domain
 /// \tparam Traits a model of `ARAPDeformationTraits`, default `ARAP_deformation_traits<>`
@@ -63,7 +87,11 @@ class ARAP_deformation
 {
   using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits<>>::type;
   using Domain_ =
-    typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
+    typename Default::Lazy_get<Domain,
+                               ARAP::internal::Default_domain<std::remove_const_t<Mesh>>>::type;
+
+  template <typename T>
+  using Enable_if_range = std::enable_if_t<ARAP::internal::is_range<T>>;
 
   static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
   static_assert(
@@ -104,6 +132,25 @@ public:
     : m_session(std::move(domain), traits)
   {}
 
+  /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
+  /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
+  ///
+  /// The named parameters are `vertex_point_map`, `vertex_index_map`, `weight_calculator` and
+  /// `sparse_linear_solver`, as in `arap_deform()`, and those of \ref PkgARAPDeformationParameters
+  /// but the weight of targets.
+  /// \pre The options are valid, see `ARAP::Options::check()`.
+  template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
+  ARAP_deformation(Mesh_& mesh, const CGAL_NP_CLASS& np)
+    : m_session(ARAP::internal::domain_from_parameters(mesh, np),
+                ARAP::internal::traits_from_parameters(np))
+  {
+    [[maybe_unused]] const ARAP::Outcome outcome =
+      set_options(ARAP::internal::options_from_parameters(np));
+    CGAL_precondition_msg(outcome, outcome.message.c_str());
+    if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
+      insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
+  }
+
   /// moves. A moved-from object can only be assigned to or destroyed.
   ARAP_deformation(ARAP_deformation&&) = default;
 
@@ -118,7 +165,7 @@ public:
 
   /// sets the options. Returns `ARAP::Status::invalid_option`, and changes nothing, if one of them
   /// is out of range.
-  ARAP::Outcome set_options(const ARAP::Options& options)
+  [[nodiscard]] ARAP::Outcome set_options(const ARAP::Options& options)
   {
     return m_session.set_options(options);
   }
@@ -142,6 +189,13 @@ public:
     for(; begin != end; ++begin) insert_roi_vertex(*begin);
   }
 
+  /// inserts the vertices of a range in the region of interest.
+  template <typename VertexRange>
+  void insert_roi_vertices(const VertexRange& vertices)
+  {
+    insert_roi_vertices(std::begin(vertices), std::end(vertices));
+  }
+
   /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
   /// the region. The vertex stays where it is; `reset()` moves it back to the rest shape.
   bool erase_roi_vertex(vertex_descriptor v)
@@ -160,6 +214,22 @@ public:
   bool insert_control_vertex(vertex_descriptor v)
   {
     return m_session.insert_control(v);
+  }
+
+  /// makes `v` a control vertex, if it is none, and sets its target. Returns `true` if it was not a
+  /// control vertex.
+  bool insert_control_vertex(vertex_descriptor v, const Point& target)
+  {
+    const bool is_new = m_session.insert_control(v);
+    m_session.change_target(v, [&target](const Point&) { return target; });
+    return is_new;
+  }
+
+  /// makes the vertices of a range control vertices.
+  template <typename VertexRange>
+  void insert_control_vertices(const VertexRange& vertices)
+  {
+    insert_control_vertices(std::begin(vertices), std::end(vertices));
   }
 
   /// makes the vertices of a range control vertices.
@@ -223,6 +293,13 @@ public:
   }
 
   /// translates the targets of the control vertices of a range.
+  template <typename VertexRange, typename Vector, typename = Enable_if_range<VertexRange>>
+  ARAP::Outcome translate(const VertexRange& vertices, const Vector& t)
+  {
+    return translate(std::begin(vertices), std::end(vertices), t);
+  }
+
+  /// translates the targets of the control vertices of a range.
   template <typename InputIterator, typename Vector>
   ARAP::Outcome translate(InputIterator begin, InputIterator end, const Vector& t)
   {
@@ -235,6 +312,10 @@ public:
   template <typename Vector, typename Quaternion>
   ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
   {
+    static_assert(std::is_constructible_v<Vector, double, double, double> &&
+                  ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>,
+                  "rotate() needs a quaternion or matrix q for which q * center is a vector of the "
+                  "type of center, as with Eigen; for a transformation of CGAL use transform()");
     return change_target(v, [&](const Point& point) {
       const ARAP::Coordinates p = Domain_::coordinates(point);
       const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
@@ -243,11 +324,33 @@ public:
   }
 
   /// rotates the targets of the control vertices of a range.
+  template <typename VertexRange, typename Vector, typename Quaternion,
+            typename = Enable_if_range<VertexRange>>
+  ARAP::Outcome rotate(const VertexRange& vertices, const Vector& center, const Quaternion& q)
+  {
+    return rotate(std::begin(vertices), std::end(vertices), center, q);
+  }
+
+  /// rotates the targets of the control vertices of a range.
   template <typename InputIterator, typename Vector, typename Quaternion>
   ARAP::Outcome rotate(InputIterator begin, InputIterator end, const Vector& center,
                        const Quaternion& q)
   {
     return for_each_until_refused(begin, end, [&](auto v) { return rotate(v, center, q); });
+  }
+
+  /// transforms the targets of the control vertices of a range, or puts them where the
+  /// transformation takes the points of the rest shape, which does not add up over the frames of a
+  /// drag. `t(point)` is a `Point`, as for `CGAL::Aff_transformation_3`.
+  template <typename VertexRange, typename Transformation>
+  ARAP::Outcome transform(const VertexRange& vertices, const Transformation& t,
+                          ARAP::Transformed transformed = ARAP::Transformed::targets)
+  {
+    return for_each_until_refused(std::begin(vertices), std::end(vertices), [&](auto v) {
+      return change_target(v, [&](const Point& p) -> Point {
+        return t(transformed == ARAP::Transformed::targets ? p : m_session.rest_point(v));
+      });
+    });
   }
 
   /// \brief sets the weight \f$m \geq 0\f$ of the target \f$t\f$ of the control vertex `v`.
@@ -261,15 +364,23 @@ public:
   ///
   /// A new weight requires preprocessing again, a new target does not. Returns
   /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
-  ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
+  [[nodiscard]] ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.set_weight(v, weight);
   }
 
   /// sets the weights of the targets of the control vertices of a range.
+  template <typename VertexRange, typename = Enable_if_range<VertexRange>>
+  [[nodiscard]] ARAP::Outcome set_target_weight(const VertexRange& vertices, double weight)
+  {
+    return set_target_weight(std::begin(vertices), std::end(vertices), weight);
+  }
+
+  /// sets the weights of the targets of the control vertices of a range.
   template <typename InputIterator>
-  ARAP::Outcome set_target_weight(InputIterator begin, InputIterator end, double weight)
+  [[nodiscard]] ARAP::Outcome set_target_weight(InputIterator begin, InputIterator end,
+                                                double weight)
   {
     return for_each_until_refused(begin, end, [&](auto v) { return set_target_weight(v, weight); });
   }
@@ -301,15 +412,15 @@ public:
   /// last factorization if few vertices have changed. Does nothing if all is up to date.
   /// `deform()` calls it where needed. `ARAP::Status` lists the failures. The message of a success
   /// names the unconstrained components, if there are any.
-  ARAP::Outcome preprocess() { return m_session.preprocess(); }
+  [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
   /// moves the control vertices to their targets, or towards soft ones, and the free vertices with
   /// them, using the iterations and the tolerance of the options.
-  ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
+  [[nodiscard]] ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
 
   /// deforms with a visitor, a model of `ARAPDeformationVisitor`, that is called at each iterate.
   template <typename Visitor>
-  ARAP::Report deform(Visitor&& visitor)
+  [[nodiscard]] ARAP::Report deform(Visitor&& visitor)
   {
     static_assert(std::is_invocable_r_v<ARAP::Visitor_action, Visitor&, const Iterate&>,
                   "the visitor must take an iterate and return an ARAP::Visitor_action; to set the "
@@ -318,14 +429,14 @@ public:
   }
 
   /// deforms with a number of iterations and a tolerance for this call only, see `ARAP::Options`.
-  ARAP::Report deform(unsigned int iterations, double tolerance)
+  [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance)
   {
     return deform(iterations, tolerance, ARAP::Default_visitor());
   }
 
   /// deforms with a number of iterations, a tolerance and a visitor for this call only.
   template <typename Visitor>
-  ARAP::Report deform(unsigned int iterations, double tolerance, Visitor&& visitor)
+  [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance, Visitor&& visitor)
   {
     return m_session.deform(iterations, tolerance, visitor);
   }
@@ -336,6 +447,23 @@ public:
 
   /// makes the current shape the rest shape. Keeps the targets and their weights.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
+
+#ifdef DOXYGEN_RUNNING
+  using State = unspecified_type; ///< what `state()` returns: a value, which can be copied.
+#else
+  using State = typename ARAP::internal::Session<Domain_, Traits_>::State;
+#endif
+
+  /// returns the region of interest, the control vertices, their targets and weights, the rest
+  /// shape and the positions, for undo and redo. Linear time and memory. The options are no part of
+  /// it.
+  State state() const { return m_session.state(); }
+
+  /// returns the object and the mesh to a state of this object, exactly: a run from it has the same
+  /// iterates again. What is prepared for the same region serves as it is. Linear time. Vertices
+  /// that have entered the region of interest since return to where they were before. Returns
+  /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another mesh.
+  [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
 
   /// \name Results
@@ -382,6 +510,19 @@ private:
 
   ARAP::internal::Session<Domain_, Traits_> m_session;
 };
+
+#ifndef DOXYGEN_RUNNING
+template <typename Mesh, typename CGAL_NP_TEMPLATE_PARAMETERS>
+ARAP_deformation(Mesh&, const CGAL_NP_CLASS&)
+  -> ARAP_deformation<
+    Mesh,
+    decltype(ARAP::internal::traits_from_parameters(std::declval<const CGAL_NP_CLASS&>())),
+    decltype(ARAP::internal::domain_from_parameters(std::declval<Mesh&>(),
+                                                    std::declval<const CGAL_NP_CLASS&>()))>;
+
+template <typename Mesh>
+ARAP_deformation(Mesh&) -> ARAP_deformation<Mesh>;
+#endif
 
 } // namespace CGAL
 

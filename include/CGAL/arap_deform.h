@@ -16,37 +16,65 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
-#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
-#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
-#include <CGAL/ARAP_deformation_traits.h>
+#include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
+#include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
+#include <CGAL/ARAP_deformation/parameters.h>
 
 #include <CGAL/Named_function_parameters.h>
 
+#include <iterator>
 #include <type_traits>
+#include <utility>
 
 namespace CGAL {
 
 namespace ARAP {
 namespace internal {
 
-// the domain of a shape that is a domain or a mesh; the named parameters apply to a FaceGraph
-template <typename Shape, typename NamedParameters>
-auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
+template <typename Range>
+using Pair_of = decltype(std::begin(std::declval<const Range&>())->second);
+
+template <typename T>
+constexpr bool is_named_parameters = false;
+template <typename T, typename Tag, typename Base>
+constexpr bool is_named_parameters<Named_function_parameters<T, Tag, Base>> = true;
+
+// `insert(deformation)` makes the control vertices
+template <typename Shape, typename NamedParameters, typename Function>
+Report deform_in_one_call(Shape& shape, const Options& options, const NamedParameters& np,
+                          const Function& insert)
 {
-  using Domain = typename Default_domain<std::remove_const_t<Shape>>::type;
-  if constexpr(std::is_same_v<Domain, Face_graph_domain<std::remove_const_t<Shape>>>)
-  {
-    static_assert(!std::is_const_v<Shape>,
-                  "arap_deform: a const mesh cannot be deformed; pass a domain with an output "
-                  "point map instead");
-    return make_face_graph_domain(shape, np);
-  }
-  else if constexpr(Is_domain<std::remove_const_t<Shape>>::value)
-    return std::remove_const_t<Shape>(shape);
+  using parameters::get_parameter;
+  using Visitor =
+    typename internal_np::Lookup_named_param_def<internal_np::visitor_t, NamedParameters,
+                                                 Default_visitor>::reference;
+  const auto domain = domain_from_parameters(shape, np);
+  const auto traits = traits_from_parameters(np);
+  ARAP_deformation<std::remove_const_t<decltype(domain)>, std::remove_const_t<decltype(traits)>>
+    deformation(domain, traits);
+  Report report;
+  static_cast<Outcome&>(report) = deformation.set_options(options);
+  if(!report)
+    return report;
+  if constexpr(has_parameter<NamedParameters, internal_np::region_of_interest_t>)
+    deformation.insert_roi_vertices(get_parameter(np, internal_np::region_of_interest));
   else
-    return make_domain<Domain>(shape);
+    deformation.insert_roi_vertices(domain.vertices());
+  if constexpr(has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>)
+    for(auto v : domain.vertices())
+      with_value(get_parameter(np, internal_np::vertex_is_constrained), v, domain.index(v),
+                 [&](bool is_constrained) {
+                   if(is_constrained) deformation.insert_control_vertex(v);
+                 });
+  static_cast<Outcome&>(report) = insert(deformation);
+  if(!report)
+    return report;
+  Default_visitor default_visitor;
+  Visitor visitor = parameters::choose_parameter(
+    parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);
+  return deformation.deform(visitor);
 }
 
 } // namespace internal
@@ -55,22 +83,27 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \ingroup PkgARAPDeformationRef
 /// \brief deforms a shape as rigidly as possible, in one call.
 ///
-/// Moves the constrained vertices to their targets, and all others with them. To deform part of a
-/// mesh, to move the targets repeatedly, or to have soft targets, use the class `ARAP_deformation`.
+/// Moves some vertices to their targets, and all others with them:
+/// `arap_deform(mesh, std::map{std::pair{v, p}, {w, q}})`. To move the targets repeatedly use the
+/// class `ARAP_deformation`.
 ///
 /// \tparam Shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
 ///         `ARAPDomain`
-/// \tparam VertexConstrainedMap a model of `ReadablePropertyMap` from vertices to `bool`
-/// \tparam VertexTargetMap a model of `ReadablePropertyMap` from vertices to points
+/// \tparam TargetRange a range of pairs of a vertex and a point, such as a `std::map`
 /// \tparam NamedParameters a sequence of named parameters
 ///
 /// \param shape the shape; as passed, it is the rest shape
-/// \param constrained tells which vertices are constrained to their targets
-/// \param targets the target of each constrained vertex; for one that stays, its own point
-/// \param options the run-time options
-/// \param np an optional sequence of named parameters among those below
+/// \param targets the targets
+/// \param np an optional sequence of named parameters among those below, and of those of
+///        \ref PkgARAPDeformationParameters
 ///
 /// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_is_constrained_map}
+///     \cgalParamDescription{tells which other vertices stay where they are: a property map, a
+///                          function object, a map, or a vector by the indices of the vertices}
+///     \cgalParamType{a map from vertices to `bool`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_point_map}
 ///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; ignored
 ///                          for other shapes, whose domain defines the points}
@@ -86,7 +119,7 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 ///   \cgalParamNBegin{number_of_iterations}
 ///     \cgalParamDescription{the maximum number of iterations}
 ///     \cgalParamType{unsigned int}
-///     \cgalParamDefault{`options.iterations`}
+///     \cgalParamDefault{that of the options}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{visitor}
 ///     \cgalParamDescription{is called at each iterate and may stop or cancel the run; copied
@@ -107,59 +140,79 @@ auto make_domain_with_parameters(Shape& shape, const NamedParameters& np)
 /// \cgalNamedParamsEnd
 ///
 /// \returns a report. If the call fails, the shape is unchanged.
-template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
-          typename CGAL_NP_TEMPLATE_PARAMETERS>
-ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained,
-                         VertexTargetMap targets, const ARAP::Options& options,
-                         const CGAL_NP_CLASS& np = parameters::default_values())
+template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
+[[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
+                                       const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  using parameters::choose_parameter;
+  static_assert(ARAP::internal::is_valid<ARAP::internal::Pair_of, TargetRange>,
+                "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
+                "as a std::map");
   using parameters::get_parameter;
-  using parameters::get_parameter_reference;
-
-  auto weight = choose_parameter(get_parameter(np, internal_np::weight_calculator),
-                                 ARAP::Safe_cotangent_weight());
-  auto solver = choose_parameter(get_parameter(np, internal_np::sparse_linear_solver),
-                                 ARAP::Multifrontal_cholesky_solver());
-  using Traits = ARAP_deformation_traits<decltype(solver), decltype(weight)>;
-  using Visitor = typename internal_np::Lookup_named_param_def<
-    internal_np::visitor_t, CGAL_NP_CLASS, ARAP::Default_visitor>::reference;
-
-  const auto domain = ARAP::internal::make_domain_with_parameters(shape, np);
-  using Domain = std::remove_const_t<decltype(domain)>;
-  ARAP_deformation<Domain, Traits> deformation(domain, Traits(solver, weight));
-  if(ARAP::Outcome checked = deformation.set_options(options); !checked)
-  {
-    ARAP::Report report;
-    static_cast<ARAP::Outcome&>(report) = checked;
-    return report;
-  }
-  for(auto v : domain.vertices())
-  {
-    deformation.insert_roi_vertex(v);
-    if(!get(constrained, v))
-      continue;
-    deformation.insert_control_vertex(v);
-    deformation.set_target_position(v, get(targets, v));
-  }
-  ARAP::Default_visitor default_visitor;
-  Visitor visitor =
-    choose_parameter(get_parameter_reference(np, internal_np::visitor), default_visitor);
-  return deformation.deform(choose_parameter(get_parameter(np, internal_np::number_of_iterations),
-                                             options.iterations),
-                            options.tolerance, visitor);
+  const ARAP::Options options = ARAP::internal::options_from_parameters(np);
+  return ARAP::internal::deform_in_one_call(shape, options, np, [&](auto& deformation) {
+    ARAP::Outcome outcome(ARAP::Status::success, "");
+    for(const auto& [v, target] : targets)
+    {
+      deformation.insert_control_vertex(v, target);
+      if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>)
+        outcome = deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
+      if(!outcome)
+        break;
+    }
+    return outcome;
+  });
 }
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a shape as rigidly as possible, in one call, with the default options.
+/// \brief deforms a shape as rigidly as possible, in one call, with a map that tells which vertices
+/// are constrained and one of their targets.
+///
+/// \param shape the shape; as passed, it is the rest shape
+/// \param constrained tells which vertices are constrained to their targets
+/// \param targets the target of each constrained vertex; for one that stays, its own point. Where
+///        an associative container has none, the vertex stays.
+/// \param options the options
+/// \param np an optional sequence of named parameters, as above
+///
+/// Both maps may be property maps, function objects, associative containers or vectors by the
+/// indices of the vertices.
+template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
+          typename CGAL_NP_TEMPLATE_PARAMETERS>
+[[nodiscard]] ARAP::Report
+arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const VertexTargetMap& targets,
+            const ARAP::Options& options, const CGAL_NP_CLASS& np = parameters::default_values())
+{
+  using ARAP::internal::with_value;
+  ARAP::Options all_options = options;
+  all_options.iterations = parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
+  return ARAP::internal::deform_in_one_call(shape, all_options, np, [&](auto& deformation) {
+    const auto& domain = deformation.domain();
+    for(auto v : domain.vertices())
+      with_value(constrained, v, domain.index(v), [&](bool is_constrained) {
+        if(!is_constrained)
+          return;
+        deformation.insert_control_vertex(v);
+        with_value(targets, v, domain.index(v), [&](const auto& target) {
+          deformation.set_target_position(v, target);
+        });
+      });
+    return ARAP::Outcome(ARAP::Status::success, "");
+  });
+}
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief deforms a shape as rigidly as possible, in one call, with two maps and default options.
 ///
 /// The parameters are those of the overload with `options`.
 template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMap,
-          typename CGAL_NP_TEMPLATE_PARAMETERS>
-ARAP::Report arap_deform(Shape&& shape, VertexConstrainedMap constrained, VertexTargetMap targets,
-                         const CGAL_NP_CLASS& np = parameters::default_values())
+          typename CGAL_NP_TEMPLATE_PARAMETERS,
+          typename = std::enable_if_t<!ARAP::internal::is_named_parameters<VertexTargetMap>>>
+[[nodiscard]] ARAP::Report
+arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const VertexTargetMap& targets,
+            const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  return arap_deform(shape, constrained, targets, ARAP::Options(), np);
+  return arap_deform(shape, constrained, targets, ARAP::internal::options_from_parameters(np), np);
 }
 
 } // namespace CGAL

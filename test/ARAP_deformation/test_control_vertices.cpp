@@ -266,7 +266,7 @@ void test_tolerance()
       if(is_in_one_piece(shape))
         CHECK_AT_MOST(report.energy.back(), minimum * (1 + 2e-3));
       else
-        CHECK_AT_MOST(report.energy.back(), 1e-20 * report.energy_scale);
+        CHECK_AT_MOST(report.energy.back(), 1e-12 * report.energy_scale); // the minimum is zero
     }
 }
 
@@ -1088,7 +1088,8 @@ void test_all()
   laplacian.matrix = whole.triangularView<Eigen::Lower>();
   laplacian.is_tied.assign(n, false);
   using Solver = CGAL::ARAP::Multifrontal_cholesky_solver;
-  Constrained_system system(laplacian, std::make_unique<Linear_solver_of<Solver>>(Solver()));
+  Constrained_system system(std::make_unique<Linear_solver_of<Solver>>(Solver()));
+  system.set_laplacian(laplacian);
 
   bool was_border = false, was_factor = false, was_order = false;
   for(int step = 0; step < 40; ++step)

@@ -705,14 +705,16 @@ void test_checks()
 void test_gap()
 {
   using CGAL::ARAP::internal::Gap_estimate;
+  CGAL::ARAP::Report report; // no scale, no rounding
+  report.energy = {1000};
   for(const double ratio : {0.3, 0.8, 0.99})
   {
     Gap_estimate estimate;
-    CHECK(std::isinf(estimate(3)));
+    CHECK(std::isinf(estimate(3, report)));
     for(int k = 1; k < 300 && std::pow(ratio, k) > 1e-12; ++k)
     {
-      estimate.add(std::pow(ratio, k - 1) - std::pow(ratio, k));
-      const double gap = std::pow(ratio, k), estimated = estimate(2 + gap);
+      estimate.add(std::pow(ratio, k - 1) - std::pow(ratio, k), report);
+      const double gap = std::pow(ratio, k), estimated = estimate(2 + gap, report);
       if(k < 10)
         CHECK(std::isinf(estimated));
       else if(k >= 15)
@@ -725,28 +727,29 @@ void test_gap()
     }
   }
 
-  Gap_estimate estimate(1e-19);
-  CHECK(estimate(1e-20) == 0); // nothing but rounding is left
+  report.rounding_level = 1e-19;
+  Gap_estimate estimate;
+  CHECK(estimate(1e-20, report) == 0); // nothing but rounding is left
   for(int k = 0; k < 50; ++k)
-    estimate.add(1);
-  CHECK(std::isinf(estimate(1000))); // no end in sight
-  estimate.add(0);
-  CHECK(estimate(1000) == 0);
+    estimate.add(1, report);
+  CHECK(std::isinf(estimate(1000, report))); // no end in sight
+  estimate.add(0, report);
+  CHECK(estimate(1000, report) == 0);
 
   Gap_estimate rising; // weights that are negative, or rounding
   for(int k = 0; k < 20; ++k)
-    rising.add(-1);
-  CHECK(std::isinf(rising(1000)));
+    rising.add(-1, report);
+  CHECK(std::isinf(rising(1000, report)));
 
   Gap_estimate pausing;
   for(int k = 0; k < 20; ++k)
-    pausing.add(std::pow(0.5, k));
-  CHECK(pausing(100) < 1e-4);
+    pausing.add(std::pow(0.5, k), report);
+  CHECK(pausing(100, report) < 1e-4);
   for(int k = 0; k < 3; ++k)
-    pausing.add(1);
+    pausing.add(1, report);
   for(int k = 0; k < 4; ++k)
-    pausing.add(1e-9);
-  CHECK(pausing(100) > 1e-2);
+    pausing.add(1e-9, report);
+  CHECK(pausing(100, report) > 1e-2);
 }
 
 void test_all()
@@ -1040,8 +1043,8 @@ void test_solver()
   }
 }
 
-// A solver whose solutions are too large, so that the energy rises, is found out before anything is
-// written.
+// A solver whose solutions are too large: steps are shortened, so that the energy never rises.
+// Where they point the wrong way that is found out before anything is written.
 struct Overshooting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
 {
   static double factor;
@@ -1069,7 +1072,17 @@ void test_rising_energy()
     options.minimizer = minimizer;
     d.set_options(options);
     prepare(d, scenario(sheet()), all_vertices(mesh));
-    Overshooting_solver::factor = 10;
+    for(const double factor : {2.005, 10.0})
+    {
+      Overshooting_solver::factor = factor;
+      const CGAL::ARAP::Report report = d.deform(30, 0);
+      CHECK(report);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      CHECK(report.final_energy() < 0.9 * report.energy[0]);
+      d.reset();
+      prepare(d, scenario(sheet()), all_vertices(mesh));
+    }
+    Overshooting_solver::factor = -1;
     check_failure(mesh, d, Status::solver_failed, "the solver failed",
                   [] { Overshooting_solver::factor = 1; });
   }

@@ -26,7 +26,8 @@ Weights in stars are needed for the cells `CGAL::ARAP::Cell_scheme::spokes()`, a
 `CGAL::ARAP::Initial_guess::laplacian` with any cells.
 
 A model may have state. `CGAL::ARAP_deformation` works on a copy of the object that its traits
-provide. In programs linked with TBB several threads call it concurrently: a call must not change
+provide. If copies share their state, and it may change, the model tells so by `version()`. In
+programs linked with TBB several threads call it concurrently: a call must not change
 the state. `CGAL::ARAP::check_edge_weight()` tests a model.
 
 \cgalRefines{CopyConstructible,Assignable}
@@ -72,4 +73,9 @@ public:
   /// Preprocessing fails with `CGAL::ARAP::Status::singular_matrix` if the sum of the weights at a
   /// free vertex is not positive and finite.
   double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const;
+
+  /// returns a number that changes when weights do: the next `deform()` computes all weights again.
+  ///
+  /// Optional: without it the weights of a rest shape must not change.
+  std::size_t version() const;
 };

@@ -41,7 +41,7 @@ namespace ARAP {
 /// An edge has the same weight in every edge set that it belongs to: in the stars of both its
 /// vertices, or in each incident simplex. Edges without a weight, and the diagonals of polygons,
 /// have weight 0. If no weight is negative, no cell has a negative energy. Copies share the
-/// weights.
+/// weights: those that are set later count from the next `deform()` on.
 ///
 /// \cgalModels{ARAPEdgeWeight}
 ///
@@ -53,8 +53,12 @@ public:
   /// `j` in the domain.
   void set_weight(std::size_t i, std::size_t j, double weight)
   {
-    (*m_weights)[std::minmax(i, j)] = weight;
+    m_weights->of_edge[std::minmax(i, j)] = weight;
+    ++m_weights->version;
   }
+
+  /// returns a number that changes with each call of `set_weight()`, for this object or a copy.
+  std::size_t version() const { return m_weights->version; }
 
   /// returns zeros.
   std::array<double, 3> simplex_weights(const std::array<Coordinates, 3>&) const { return {}; }
@@ -65,13 +69,18 @@ public:
   /// returns the weight that was set for the edge, or 0.
   double edge_weight(Edge_set, std::size_t i, std::size_t j, double) const
   {
-    const auto found = m_weights->find(std::minmax(i, j));
-    return found == m_weights->end() ? 0 : found->second;
+    const auto found = m_weights->of_edge.find(std::minmax(i, j));
+    return found == m_weights->of_edge.end() ? 0 : found->second;
   }
 
 private:
   using Edge = std::pair<std::size_t, std::size_t>; // the smaller index first
-  using Weights = std::unordered_map<Edge, double, boost::hash<Edge>>;
+
+  struct Weights
+  {
+    std::unordered_map<Edge, double, boost::hash<Edge>> of_edge;
+    std::size_t version = 0;
+  };
 
   std::shared_ptr<Weights> m_weights = std::make_shared<Weights>();
 };

@@ -28,21 +28,24 @@ namespace ARAP {
 struct Phase_seconds
 {
   double preprocess = 0;    ///< region, weights, matrix and factorization; 0 if all was up to date
+  double transfer = 0;      ///< targets and points read, and points written
   double initial_guess = 0; ///< factorization (once per preprocessing) and solve of the guess
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
   double global_steps = 0;  ///< solves with the factor, over all iterations
-  double total = 0;         ///< the whole call
+  double visitor = 0;       ///< in the visitor
+  double total = 0;         ///< the whole call: the sum, up to a few microseconds
 };
 
 /// \ingroup PkgARAPDeformationRun
 /// \brief tells which stages a call had to do again; all others served as they were.
 ///
-/// Time: `region` and `order` are linear in the region, up to the ordering; `factor` is that of a
-/// sparse Cholesky factorization; `border` follows the part of the factor that the changed vertices
-/// reach in the elimination tree, after a pass over the region.
+/// Time: `region`, `weights` and `order` are linear in the region, up to the ordering; `factor` is
+/// that of a sparse Cholesky factorization; `border` follows the part of the factor that the
+/// changed vertices reach in the elimination tree, after a pass over the region.
 struct Stages
 {
-  bool region = false;        ///< its vertices, simplices, weights and cells
+  bool region = false;        ///< its vertices, simplices and cells
+  bool weights = false;       ///< the weights of its edges
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
   bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed
@@ -56,6 +59,12 @@ struct Stages
 struct Report : Outcome
 {
   unsigned int iterations = 0; ///< the number of iterations, each with one global step
+
+  /// returns the last of the energies below; not a number if the call failed before the first one.
+  double final_energy() const
+  {
+    return energy.empty() ? std::numeric_limits<double>::quiet_NaN() : energy.back();
+  }
 
   /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes

@@ -32,6 +32,7 @@ enum class Status
   cancelled,            ///< a visitor cancelled the run; nothing was changed
   invalid_option,       ///< an option is out of range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
+  foreign_state,        ///< the state to restore is of an object with other vertices
   not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
   invalid_weight,       ///< the weight of a target is negative or not a number
   not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron
@@ -69,6 +70,7 @@ inline const char* to_string(Status status)
   case Status::cancelled: return "cancelled";
   case Status::invalid_option: return "invalid_option";
   case Status::in_a_run: return "in_a_run";
+  case Status::foreign_state: return "foreign_state";
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::invalid_weight: return "invalid_weight";
   case Status::not_a_simplex: return "not_a_simplex";

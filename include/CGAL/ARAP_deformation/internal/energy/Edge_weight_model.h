@@ -39,7 +39,13 @@ public:
                                          const std::array<std::size_t, 3>& indices) const = 0;
   virtual std::array<double, 6> tetrahedron(const Tetrahedron& points) const = 0;
   virtual double edge(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const = 0;
+
+  // changes when the weights do
+  virtual std::size_t version() const = 0;
 };
+
+template <typename Weight>
+using Call_version = decltype(std::declval<const Weight&>().version());
 
 template <typename Weight>
 using Call_triangle_weights_of_vertices =
@@ -76,6 +82,14 @@ public:
   double edge(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const override
   {
     return m_weight.edge_weight(edge_set, i, j, sum);
+  }
+
+  std::size_t version() const override
+  {
+    if constexpr(is_valid<Call_version, Weight>)
+      return m_weight.version();
+    else
+      return 0;
   }
 
 private:

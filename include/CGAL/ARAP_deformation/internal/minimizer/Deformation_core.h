@@ -72,6 +72,13 @@ public:
   // what is wrong with the region, if anything: then nothing else may be called
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
+  // whether the weights have changed since they were computed
+  bool are_weights_stale() const { return m_models.weight->version() != m_weights_version; }
+
+  // Computes the weights again, and all that depends on them. The order of the factor is kept;
+  // set_constraints() must be called before another run.
+  void update_weights(unsigned int number_of_threads);
+
   const Region& region() const { return m_region; }
 
   // whether a movable vertex is not in any simplex
@@ -112,7 +119,7 @@ public:
 private:
   struct State; // energy and system: what only the implementation knows
 
-  Diagnosis prepare(Cell_scheme cells);
+  Diagnosis prepare();
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
   Diagnosis run_in_arena(const Options& options, const Observer& observe,
@@ -122,9 +129,12 @@ private:
 
   Core_models m_models;
   Region m_region;
+  Cell_scheme m_cells;
   Minimization_order m_order;
+  std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;
   std::vector<char> m_is_isolated; // for each movable vertex
+  std::vector<char> m_is_untied;   // whether it is isolated or in an unconstrained component
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
   std::vector<Matrix_3x3> m_rotations;

@@ -25,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_global_local.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_local_global.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_quasi_newton.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
@@ -50,33 +51,43 @@ struct Deformation_core::State
 CGAL_ARAP_INLINE_FUNCTION
 Deformation_core::Deformation_core(const Core_models& models, Region region, Cell_scheme cells,
                                    Minimization_order order, unsigned int number_of_threads)
-  : m_models(models), m_region(std::move(region)), m_order(order)
+  : m_models(models), m_region(std::move(region)), m_cells(cells), m_order(order)
 {
-  run_with_threads(threads(number_of_threads), [&] { m_diagnosis = prepare(cells); });
+  m_is_isolated.assign(m_region.number_of_movable_vertices, true);
+  for(int v : m_region.corners)
+    if(v < m_region.number_of_movable_vertices)
+      m_is_isolated[v] = false;
+  update_weights(number_of_threads);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::update_weights(unsigned int number_of_threads)
+{
+  run_with_threads(threads(number_of_threads), [&] { m_diagnosis = prepare(); });
 }
 
 CGAL_ARAP_INLINE_FUNCTION
 Deformation_core::~Deformation_core() = default;
 
 CGAL_ARAP_INLINE_FUNCTION
-Diagnosis Deformation_core::prepare(Cell_scheme cells)
+Diagnosis Deformation_core::prepare()
 {
+  m_weights_version = m_models.weight->version();
   if(const int v = find_non_finite(m_region.rest); v >= 0)
     return {Status::non_finite_point, v};
   Simplices simplices = weighted_simplices(*m_models.weight, m_region);
   if(const int s = find_non_finite_simplex(simplices); s >= 0)
     return {Status::non_finite_weight, -1, s};
   Deformation_energy energy =
-    make_deformation_energy(*m_models.weight, std::move(simplices), cells, m_region);
+    make_deformation_energy(*m_models.weight, std::move(simplices), m_cells, m_region);
   if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
     return {Status::non_finite_weight, v};
-  m_rotations.assign(energy.number_of_cells(), identity_matrix());
-  Constrained_system system(laplacian_of(energy), m_models.solver->copy());
+  m_rotations.resize(energy.number_of_cells(), identity_matrix());
+  Laplacian laplacian = laplacian_of(energy);
+  Constrained_system system =
+    m_state ? std::move(m_state->system) : Constrained_system(m_models.solver->copy());
+  system.set_laplacian(std::move(laplacian));
   m_state.reset(new State{std::move(energy), std::move(system), {}, {}});
-  m_is_isolated.assign(m_region.number_of_movable_vertices, true);
-  for(int v : m_region.corners)
-    if(v < m_region.number_of_movable_vertices)
-      m_is_isolated[v] = false;
   return {};
 }
 
@@ -135,6 +146,9 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     return {Status::singular_matrix};
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
+  m_is_untied = m_is_isolated;
+  for(std::size_t v = 0; v < components.size(); ++v)
+    m_is_untied[v] |= components[v] >= 0;
   m_constraints = std::move(constraints);
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
@@ -189,6 +203,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(!(*guess)(targets, x))
       return {Status::solver_failed};
   }
+  if(options.initial_guess == Initial_guess::previous &&
+     m_order == Minimization_order::local_first &&
+     m_constraints.number_of_free_vertices() > 0)
+    start_rigidly(m_region, m_constraints, m_is_untied, targets, x);
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   if(m_order == Minimization_order::global_first)

@@ -46,8 +46,8 @@ public:
   const std::size_t number_of_vertices; // that are movable
   Report& report;
   const Options& options;
-  double force_error; // the rounding error of the force at a vertex
-  double diameter;    // of positions and targets
+  double force_error = 0; // the rounding error of the force at a vertex
+  double diameter = 0;    // of positions and targets
 
   // there is a target for each row of the constraints
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
@@ -61,12 +61,7 @@ public:
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
         m_fixed_vertices.push_back(static_cast<int>(v));
-    Bounding_box box = energy.bounding_box(x);
-    box.include(targets);
-    report.energy_scale = energy.scale(box);
-    report.rounding_level = energy.rounding_level(box);
-    diameter = std::sqrt(box.squared_length());
-    force_error = energy.rounding_error_of_force(box);
+    measure();
   }
 
   // the energy at x with the rotations fitted to x
@@ -107,39 +102,41 @@ public:
          ? difference : force_before() + force_after();
   }
 
-  // whether the energy last evaluated is not above that of the last iterate
-  bool is_not_higher() const
+  // whether the energy last evaluated is above that of the last iterate; not if it has overflowed,
+  // by which a run ends
+  bool is_higher() const
   {
     const double before = report.energy.back();
-    return m_value <= before + energy_resolution(before, report);
+    return std::isfinite(m_value) && m_value > before + energy_resolution(before, report);
   }
 
   // Makes x the next iterate, reached by the given decrease of the energy, or the first one.
   // Returns a status if the run is over.
   std::optional<Status> next_iterate(double decrease = 0)
   {
-    if(report.energy.empty())
-      m_gap = Gap_estimate(report.rounding_level);
-    else
+    if(!report.energy.empty())
     {
       ++report.iterations;
-      m_gap.add(decrease);
+      m_gap.add(decrease, report);
     }
     report.energy.push_back(m_value);
     if(!std::isfinite(m_value))
       return Status::non_finite_energy;
-    if(is_far_higher())
-      return Status::solver_failed;
-    report.estimated_relative_gap = is_nothing_free() ? 0 : m_gap(m_value);
-
-    switch(m_observe(report.iterations, m_value))
+    estimate_gap();
+    const bool is_power_of_two = (report.iterations & (report.iterations - 1)) == 0;
+    if(is_within_tolerance() || (report.iterations > 0 && is_power_of_two))
     {
-    case Visitor_action::stop: return Status::stopped;
-    case Visitor_action::cancel: return Status::cancelled;
-    case Visitor_action::proceed: break;
+      measure(); // the run may have come from far away
+      estimate_gap();
     }
-    if(is_nothing_free() || (options.tolerance > 0 &&
-                             report.estimated_relative_gap <= options.tolerance))
+
+    const Visitor_action action = [this] {
+      Scoped_seconds visitor(report.seconds.visitor);
+      return m_observe(report.iterations, m_value);
+    }();
+    if(action != Visitor_action::proceed)
+      return action == Visitor_action::stop ? Status::stopped : Status::cancelled;
+    if(is_within_tolerance())
       return Status::converged;
     if(report.iterations == options.iterations)
       return Status::iteration_limit;
@@ -156,14 +153,27 @@ private:
     return m_value;
   }
 
-  // Whether the last iterate's energy has risen by far more than rounding errors: what the solver
-  // returns is nothing like the solution, which lowers it.
-  bool is_far_higher() const
+  // the scales that rounding is judged by, at the present positions
+  void measure()
   {
-    if(report.iterations == 0)
-      return false;
-    const double before = report.energy[report.iterations - 1];
-    return m_value > before + 1e-2 * std::abs(before) + 1e4 * energy_resolution(before, report);
+    Scoped_seconds local(report.seconds.local_steps);
+    Bounding_box box = m_energy.bounding_box(x);
+    box.include(m_targets);
+    report.energy_scale = m_energy.scale(box);
+    report.rounding_level = m_energy.rounding_level(box);
+    diameter = std::sqrt(box.squared_length());
+    force_error = m_energy.rounding_error_of_force(box);
+  }
+
+  void estimate_gap()
+  {
+    report.estimated_relative_gap = is_nothing_free() ? 0 : m_gap(m_value, report);
+  }
+
+  bool is_within_tolerance() const
+  {
+    return is_nothing_free() ||
+           (options.tolerance > 0 && report.estimated_relative_gap <= options.tolerance);
   }
 
   Deformation_energy& m_energy;

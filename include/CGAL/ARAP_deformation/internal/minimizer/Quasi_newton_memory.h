@@ -29,11 +29,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What the quasi-Newton method L-BFGS remembers of its last steps, and the step that it makes of
-// it. With f minus half the gradient, L the Laplacian and d = L^-1 f the step of local/global, a
-// step s changes f by some -y and d by some -z, and z = L^-1 y: L-BFGS with a multiple of L^-1 for
-// its initial inverse Hessian needs no solution of a system but the d of each iterate. All dot
-// products are of an s or a z with an f; one with a y is the difference of two.
+// The last steps of the quasi-Newton method L-BFGS, and the next step that follows from them. With
+// f minus half the gradient, L the Laplacian and d = L^-1 f the step of local/global, a step s
+// changes f by some -y and d by some -z, and z = L^-1 y: L-BFGS with a multiple of L^-1 for its
+// initial inverse Hessian needs no solution of a system but the d of each iterate. All dot products
+// are of an s or a z with an f; one with a y is the difference of two.
 //
 // The pairs (s, z) are kept in single precision, in a unit that no mesh can make too small or too
 // large for it. This disturbs the step a little, which need not be exact, and saves half the memory
@@ -44,10 +44,7 @@ public:
   // the number of pairs: more save few iterations, and cost time and memory
   static constexpr int capacity = 6;
 
-  // `diameter` is that of all positions, `force_error` the rounding error of the force at a vertex
-  Quasi_newton_memory(std::size_t number_of_vertices, double diameter, double force_error)
-    : m_length(3 * number_of_vertices), m_diameter(diameter), m_force_error(force_error)
-  {}
+  explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
 
   bool is_empty() const { return m_number_of_pairs == 0; }
 
@@ -99,9 +96,9 @@ public:
     return sums.fp;
   }
 
-  // Whether the last move() went further than any has to: the model does not ask where that goes
-  // which has hardly any weight.
-  bool went_too_far() const { return !(m_longest_shift <= m_diameter); }
+  // Whether the last move() went further than any has to, given the diameter of all positions: the
+  // model does not see where a part goes that has hardly any weight.
+  bool went_too_far(double diameter) const { return !(m_longest_shift <= diameter); }
 
   // Instead of the last move(), makes the one by p = d, and forgets all pairs.
   double move_by(const std::vector<Coordinates>& d, const std::vector<Coordinates>& before,
@@ -133,9 +130,10 @@ public:
   }
 
   // Remembers the last move, which was shortened to t p, led to the given force, and changed d to
-  // `new_d`; not if the energy is not convex along it, or rounding has made the change of force.
+  // `new_d`; not if the energy is not convex along it, or rounding has made the change of force:
+  // `force_error` is the rounding error of the force at a vertex.
   void remember(double t, const std::vector<Coordinates>& force, const std::vector<Coordinates>& d,
-                const std::vector<Coordinates>& new_d)
+                const std::vector<Coordinates>& new_d, double diameter, double force_error)
   {
     Slot& next = m_slots[m_next];
     next.z.resize(m_length);
@@ -172,11 +170,11 @@ public:
       slot.fz = sums.fz[i];
     }
     // Where the energy is convex and its rotations are free, L bounds its curvature, and s y is at
-    // least z y. Much less than that is rounding, or not convex. Along a step of some length that
-    // changes the force by rounding errors only, what almost nothing holds would be flung away, to
-    // where these errors happen to vanish.
-    const double least = t * m_longest_shift > 1e-8 * m_diameter
-                       ? m_force_error / m_unit * std::sqrt(sums.ss) : 0;
+    // least z y. Much less than that is rounding, or not convex. A long step may change the force
+    // by rounding errors only: a part that almost nothing ties would then move far away, to where
+    // these errors happen to vanish.
+    const double least = t * m_longest_shift > 1e-8 * diameter
+                       ? force_error / m_unit * std::sqrt(sums.ss) : 0;
     if(next.zy[m_next] > 0 && next.sy[m_next] > (std::max)(0.1 * next.zy[m_next], least))
       ++m_number_of_pairs;
   }
@@ -297,7 +295,6 @@ private:
   }
 
   std::size_t m_length; // of the vectors
-  double m_diameter, m_force_error;
   double m_unit = 0;    // 0: not yet known
   std::array<Slot, capacity> m_slots;
   std::array<int, capacity> m_order{}; // the slots of the pairs, from the oldest to the newest

@@ -40,30 +40,36 @@ inline double energy_resolution(double energy, const Report& report)
 // terms of a geometric series, which is summed to its end. Two things keep the estimate from being
 // too small, which is worse than too large: terms are not believed to shrink to less than half, and
 // what counts is the largest of the sums that were found lately. A run often seems to be at its end
-// when it has only taken in what is local, or when it passes a saddle.
+// when it has only moved what is local, or when it passes a saddle.
+//
+// No minimum is below zero, up to cells of negative energy. Where it is zero, or next to it, the
+// gap is compared with a share of the energy's scale, below which nothing is left to be gained. For
+// small motions that is a share of the energy at the start.
 class Gap_estimate
 {
 public:
-  // An energy of at most `zero`, its rounding error, is at its minimum.
-  explicit Gap_estimate(double zero = 0) : m_zero(zero) {}
-
-  void add(double decrease)
+  void add(double decrease, const Report& report)
   {
     m_decreases.push_back(decrease);
-    m_gaps.push_back(extrapolated_gap());
+    m_gaps.push_back(extrapolated_gap(report));
   }
 
   // infinity where too little is known, or where the decreases do not shrink
-  double operator()(double energy) const
+  double operator()(double energy, const Report& report) const
   {
-    if(std::abs(energy) <= m_zero || (!m_decreases.empty() && m_decreases.back() == 0))
+    const double zero = (std::max)(report.rounding_level,
+                                   (std::min)(1e-9 * report.energy_scale, 1e-6 * report.energy[0]));
+    if(std::abs(energy) <= report.rounding_level ||
+       (!m_decreases.empty() && m_decreases.back() == 0))
       return 0;
+    if(0 < energy && energy <= zero) // the gap is at most the energy
+      return energy / zero;
     const std::size_t n = share(15);
     if(m_gaps.size() < n)
       return infinity;
     const double gap = *std::max_element(m_gaps.end() - n, m_gaps.end());
     const double minimum = energy - gap;
-    return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), m_zero);
+    return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), zero);
   }
 
 private:
@@ -75,20 +81,19 @@ private:
     return (std::max)(std::size_t(5), m_decreases.size() * percent / 100);
   }
 
-  double extrapolated_gap() const
+  double extrapolated_gap(const Report& report) const
   {
     const std::size_t n = share(10);
     if(m_decreases.size() < 2 * n)
       return infinity;
     const double last = std::accumulate(m_decreases.end() - n, m_decreases.end(), 0.0);
     const double earlier = std::accumulate(m_decreases.end() - 2 * n, m_decreases.end() - n, 0.0);
-    if(std::abs(last) <= m_zero) // nothing but rounding is left
+    if(std::abs(last) <= report.rounding_level) // nothing but rounding is left
       return 0;
     const double ratio = (std::max)(last / earlier, 0.5);
     return 0 < last && 0 < earlier && ratio < 1 ? last * ratio / (1 - ratio) : infinity;
   }
 
-  double m_zero;
   std::vector<double> m_decreases;
   std::vector<double> m_gaps; // after each of them
 };

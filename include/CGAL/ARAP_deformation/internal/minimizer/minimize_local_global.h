@@ -31,7 +31,8 @@ namespace internal {
 // The iteration of the paper (Section 3): fit the rotations to the positions, then solve for the
 // free positions that minimize the energy with these rotations. Instead of L x = b the equation
 // L dx = b - L x is solved, whose right-hand side is minus half the gradient, so that the fixed
-// point does not depend on the accuracy of the factor.
+// point does not depend on the accuracy of the factor. The energy never rises, whatever the solver
+// returns: a step by which it would is shortened, or the run fails.
 inline Status minimize_local_global(Minimization& run)
 {
   std::vector<Coordinates> step;
@@ -41,6 +42,12 @@ inline Status minimize_local_global(Minimization& run)
       for(std::size_t v = begin; v < end; ++v)
         sum += dot(run.force()[v], step[v]);
       return sum;
+    });
+  };
+  const auto add_step = [&](double factor) {
+    for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        add(run.x[v], factor, step[v]);
     });
   };
   run.evaluate();
@@ -54,13 +61,18 @@ inline Status minimize_local_global(Minimization& run)
       if(!run.solve(step))
         return Status::solver_failed;
       force_before = force_along_step();
-      for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
-        for(std::size_t v = begin; v < end; ++v)
-          add(run.x[v], 1, step[v]);
-      });
+      add_step(1);
     }
-    run.evaluate();
-    status = run.next_iterate(run.decrease([&] { return force_before; }, force_along_step));
+    double t = 1; // the share of the step that is taken; less only if the solver is a bad one
+    for(run.evaluate(); run.is_higher(); run.evaluate())
+    {
+      if(t < 0.05 || !(force_before > 0))
+        return Status::solver_failed;
+      t *= 0.5;
+      add_step(-t);
+    }
+    status = run.next_iterate(run.decrease([&] { return t * force_before; },
+                                           [&] { return t * force_along_step(); }));
   }
 }
 

@@ -43,11 +43,11 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 // L-BFGS with a multiple of the inverse Laplacian for the initial inverse Hessian (Liu, Bouaziz and
 // Kavan 2017). An iteration costs what one of local/global does, one local step and one solution,
 // unless its step has to be shortened, which costs a local step each time and is rare. Where
-// shortening does not help, or the model is of no use, the local/global step is taken, by which the
-// energy never rises, and the memory starts afresh.
+// shortening does not help, or the model is of no use, the local/global step is taken, and the
+// memory starts afresh. That step lowers the energy, or the solver has failed.
 inline Status minimize_quasi_newton(Minimization& run)
 {
-  Quasi_newton_memory memory(run.number_of_vertices, run.diameter, run.force_error);
+  Quasi_newton_memory memory(run.number_of_vertices);
   std::vector<Coordinates> d, next_d, before(run.number_of_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
@@ -63,7 +63,7 @@ inline Status minimize_quasi_newton(Minimization& run)
       if(!run.solve(next_d))
         return Status::solver_failed;
       if(t > 0)
-        memory.remember(t, run.force(), d, next_d);
+        memory.remember(t, run.force(), d, next_d, run.diameter, run.force_error);
       d.swap(next_d);
       is_safe = memory.is_empty();
       slope = memory.move(run.force(), d, run.x, before);
@@ -78,20 +78,22 @@ inline Status minimize_quasi_newton(Minimization& run)
       const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
       const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
       t *= ratio;
-      if(t < 0.05)
+      if(t < 0.05 && !is_safe)
         return replace();
       shorten(ratio, before, run.x);
     };
     t = 1;
-    if(!is_safe && (!(slope > 0) || memory.went_too_far()))
+    if(!is_safe && (!(slope > 0) || memory.went_too_far(run.diameter)))
       replace();
     for(;;)
     {
       run.evaluate();
       decrease = run.decrease([&] { return t * slope; },
                               [&] { return t * memory.slope(run.force()); });
-      if(is_safe || (run.is_not_higher() && decrease >= 2e-4 * t * slope)) // the Armijo condition
+      if(!run.is_higher() && (is_safe || decrease >= 2e-4 * t * slope)) // the Armijo condition
         break;
+      if(is_safe && (t < 0.05 || !(slope > 0)))
+        return Status::solver_failed;
       shorten_or_replace();
     }
     status = run.next_iterate(decrease);

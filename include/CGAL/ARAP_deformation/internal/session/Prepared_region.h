@@ -46,10 +46,17 @@ public:
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
 
+  // Of the sets of vertices, with all that the stages depend on: what has the same version is the
+  // same.
+  struct Versions
+  {
+    std::size_t region, constraints;
+  };
+
   explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
 
   // Whether there is a region for the present region of interest, cells and rest shape.
-  bool has_region() const { return m_prepared && !m_is_region_stale; }
+  bool has_region() const { return m_prepared && m_ready.region == m_present.region; }
 
   // These need has_region().
   const Domain_region<Domain>& region() const { return m_prepared->region; }
@@ -58,21 +65,63 @@ public:
 
   // of the vertices of the region
   std::vector<Coordinates>& positions() { return m_prepared->positions; }
+  const std::vector<Coordinates>& positions() const { return m_prepared->positions; }
+
+  // Takes the points of some entries, which others have changed, and reads those around the region
+  // of interest again, which have no entries.
+  Outcome take_points(const Vertices& vertices,
+                      const std::vector<std::pair<std::size_t, Point>>& changed)
+  {
+    const Domain& domain = vertices.domain();
+    for(const auto& [k, point] : changed)
+      if(const int v = region().find_vertex(domain, vertices.entries()[k].vertex); v >= 0)
+        m_prepared->positions[v] = Domain::coordinates(point);
+    for(int v = core().region().number_of_movable_vertices;
+        v < core().region().number_of_vertices(); ++v)
+      if(!vertices.find(region().vertices[v]))
+      {
+        m_prepared->positions[v] = Domain::coordinates(domain.point(region().vertices[v]));
+        if(!is_finite(m_prepared->positions[v]))
+          return outcome(Status::non_finite_point,
+                         vertex_name(domain.index(region().vertices[v])));
+      }
+    return outcome(Status::success);
+  }
+
+  // how many vertices are controls, and those of them that have no incident simplex, by index
+  std::size_t number_of_controls() const { return m_number_of_controls; }
+  const std::vector<std::size_t>& isolated_controls() const { return m_isolated_controls; }
 
   // for each row of the constraints the number of its vertex in the region
   const std::vector<int>& soft_vertices() const { return m_soft_vertices; }
 
   // To be called when vertices were fixed or freed, or the weight of a target was changed.
-  void constraints_changed() { m_are_constraints_stale = true; }
+  void constraints_changed() { m_present.constraints = ++m_last_version; }
 
   // To be called when the region of interest, the cells or the rest shape were changed.
-  void region_changed() { m_is_region_stale = m_are_constraints_stale = true; }
+  void region_changed()
+  {
+    m_present.region = ++m_last_version;
+    constraints_changed();
+  }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
   Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options,
                   Stages& stages)
   {
-    if(m_are_constraints_stale)
+    if(has_region() && core().are_weights_stale())
+    {
+      stages.weights = true;
+      m_ready.constraints = none;
+      core().update_weights(options.threads);
+      if(core().diagnosis().status != Status::success)
+      {
+        m_outcome = explain(core().diagnosis(), vertices.domain());
+        m_ready.region = none;
+        return m_outcome;
+      }
+    }
+    if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
       m_outcome = update(vertices, traits, options, stages);
     return m_outcome;
   }
@@ -87,6 +136,40 @@ public:
       m_prepared->core->reset_rotations();
   }
 
+  // What is needed to return to the present sets, positions and rotations, bit by bit.
+  struct State
+  {
+    Versions present;
+    std::size_t numbering; // of the vertices and cells that these are of
+    std::vector<Coordinates> positions;
+    std::vector<Matrix_3x3> rotations;
+  };
+
+  State state() const
+  {
+    if(!has_region())
+      return {m_present, none, {}, {}};
+    return {m_present, m_prepared->numbering, m_prepared->positions, core().rotations()};
+  }
+
+  // The entries of the vertices have been restored before. Stages that are the same stay ready.
+  void restore(State state, const Vertices& vertices)
+  {
+    m_present = state.present;
+    if(!has_region())
+      return;
+    if(m_prepared->numbering == state.numbering)
+    {
+      m_prepared->positions.swap(state.positions);
+      core().set_rotations(std::move(state.rotations));
+      return;
+    }
+    core().reset_rotations();
+    for(std::size_t k = 0; k < m_prepared->positions.size(); ++k)
+      if(const auto* entry = vertices.find(region().vertices[k]))
+        m_prepared->positions[k] = Domain::coordinates(entry->present);
+  }
+
   // a sentence on what the core found
   Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
   {
@@ -94,8 +177,11 @@ public:
   }
 
 private:
+  static constexpr std::size_t none = 0; // no version
+
   struct Prepared
   {
+    std::size_t numbering;
     Domain_region<Domain> region; // without its flat part, which the core owns
     std::vector<Coordinates> positions;
     std::unique_ptr<Deformation_core> core;
@@ -111,11 +197,12 @@ private:
                        Stages& stages)
   {
     const auto& entries = vertices.entries();
-    std::size_t roi_size = 0, number_of_fixed = 0;
+    std::size_t roi_size = 0, number_of_fixed = 0, number_of_controls = 0;
     for(const auto& entry : entries)
     {
       roi_size += entry.is_roi;
       number_of_fixed += vertices.is_hard_control(entry);
+      number_of_controls += entry.is_control;
     }
     if(roi_size > 0 && std::all_of(entries.begin(), entries.end(), [&](const auto& e) {
          return !e.is_roi || vertices.domain().is_isolated(e.vertex);
@@ -125,18 +212,20 @@ private:
     std::optional<Prepared> next;
     if(needs_region(vertices, roi_size, number_of_fixed))
     {
-      stages.region = true;
+      stages.region = stages.weights = true;
       if(m_prepared)
         m_prepared->core->release_factor(); // there are never two
       next.emplace();
+      next->numbering = ++m_last_numbering;
       next->is_whole = is_whole(roi_size, number_of_fixed);
       if(Outcome made = make_region(vertices, traits, options, *next); !made)
         return made;
     }
     Prepared& prepared = next ? *next : *m_prepared;
     std::vector<int> soft_vertices;
+    std::vector<std::size_t> isolated_controls;
     const Diagnosis diagnosis = prepared.core->set_constraints(
-      collect_constraints(vertices, prepared, soft_vertices),
+      collect_constraints(vertices, prepared, soft_vertices, isolated_controls),
       m_rules.are_unconstrained_refused ? Unconstrained_components::refused
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
@@ -147,12 +236,14 @@ private:
     if(next)
     {
       if(m_prepared && options.cells.has_vertex_cells() &&
-         (m_rules.are_targets_and_rotations_kept || !m_is_region_stale))
+         (m_rules.are_targets_and_rotations_kept || has_region()))
         take_over_rotations(vertices.domain(), *next);
       m_prepared = std::move(next);
     }
     m_soft_vertices = std::move(soft_vertices);
-    m_is_region_stale = m_are_constraints_stale = false;
+    m_isolated_controls = std::move(isolated_controls);
+    m_number_of_controls = number_of_controls;
+    m_ready = m_present;
     return result;
   }
 
@@ -238,7 +329,8 @@ private:
   }
 
   Constraints collect_constraints(const Vertices& vertices, const Prepared& prepared,
-                                  std::vector<int>& soft_vertices) const
+                                  std::vector<int>& soft_vertices,
+                                  std::vector<std::size_t>& isolated_controls) const
   {
     Constraints constraints;
     constraints.is_fixed.assign(prepared.core->region().number_of_movable_vertices, false);
@@ -246,7 +338,11 @@ private:
     {
       const int v =
         entry.is_roi ? prepared.region.find_vertex(vertices.domain(), entry.vertex) : -1;
-      if(!prepared.is_movable(v))
+      const bool is_movable = prepared.is_movable(v);
+      if(entry.is_control && (is_movable ? prepared.core->is_isolated(v)
+                                         : vertices.domain().is_isolated(entry.vertex)))
+        isolated_controls.push_back(vertices.domain().index(entry.vertex));
+      if(!is_movable)
         continue;
       if(vertices.is_hard_control(entry))
         constraints.is_fixed[v] = true;
@@ -286,7 +382,10 @@ private:
   Outcome m_outcome;
   std::optional<Prepared> m_prepared; // what was last prepared with success
   std::vector<int> m_soft_vertices;
-  bool m_is_region_stale = true, m_are_constraints_stale = true;
+  std::vector<std::size_t> m_isolated_controls;
+  std::size_t m_number_of_controls = 0;
+  Versions m_present = {1, 1}, m_ready = {none, none};
+  std::size_t m_last_version = 1, m_last_numbering = none;
 };
 
 } // namespace internal

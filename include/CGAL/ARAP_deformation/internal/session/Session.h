@@ -82,6 +82,9 @@ public:
                                     : m_vertices.present(v);
   }
 
+  // the point of a vertex of the region of interest in the rest shape
+  const Point& rest_point(vertex_descriptor v) const { return m_vertices.find(v)->rest; }
+
   // The functions that change the sets of vertices return whether they did.
 
   bool insert_roi(vertex_descriptor v)
@@ -207,6 +210,7 @@ public:
   {
     if(refuse_in_a_run())
       return;
+    m_vertices.keep_first_points();
     std::vector<Point> points = copies(&Entry::present);
     if(domain().is_in_place()) // the points may have been changed by others
       for(std::size_t k = 0; k < points.size(); ++k)
@@ -216,6 +220,34 @@ public:
     region_changed();
     move_to(&Entry::present, points);
     move_to(&Entry::rest, rest);
+  }
+
+  // sets of vertices, targets, rest shape and positions, as a value
+  struct State
+  {
+    typename Vertices::State vertices;
+    typename Prepared_region<Domain, Traits>::State prepared;
+    double energy;
+  };
+
+  State state() const { return {m_vertices.state(), m_prepared.state(), m_energy}; }
+
+  Outcome restore(State state)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    if(!m_vertices.has_vertices_of(state.vertices))
+      return outcome(Status::foreign_state);
+    const std::vector<Entry>& before = m_vertices.entries();
+    const std::vector<Entry>& after = state.vertices.entries;
+    for(const Entry& entry : after)
+      domain().set_point(entry.vertex, entry.present);
+    for(std::size_t k = after.size(); k < before.size(); ++k)
+      domain().set_point(before[k].vertex, m_vertices.first_point(k));
+    m_vertices.restore(std::move(state.vertices));
+    m_prepared.restore(std::move(state.prepared), m_vertices);
+    m_energy = state.energy;
+    return Outcome(Status::success, std::string());
   }
 
   double energy() const { return m_energy; }
@@ -292,6 +324,8 @@ protected:
     options.tolerance = tolerance;
     if(Outcome checked = options.check(); !checked)
       return checked;
+    if(Outcome taken = take_points_of_others(report); !taken)
+      return taken;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
       const Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
@@ -300,29 +334,13 @@ protected:
         return prepared;
     }
     Deformation_core& core = m_prepared.core();
-    const auto& region = m_prepared.region();
     report.free_vertices = core.constraints().number_of_free_vertices();
     report.simplices = core.region().number_of_simplices();
     report.unconstrained_components = core.unconstrained_components();
 
-    std::vector<Coordinates> positions = m_prepared.positions();
-    for(const auto& entry : m_vertices.entries())
-    {
-      if(!entry.is_control)
-        continue;
-      const Coordinates target = Domain::coordinates(m_vertices.target(entry));
-      if(!is_finite(target))
-        return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
-      const int v = region.find_vertex(domain(), entry.vertex);
-      if(v >= 0 && m_vertices.is_hard_control(entry))
-        positions[v] = target;
-    }
-    std::vector<Coordinates> targets; // of the rows of the constraints
-    targets.reserve(m_prepared.soft_vertices().size());
-    for(int v : m_prepared.soft_vertices())
-      targets.push_back(
-        Domain::coordinates(m_vertices.target(*m_vertices.find(region.vertices[v]))));
-
+    std::vector<Coordinates> positions, targets; // targets of the rows of the constraints
+    if(Outcome read = read_targets(positions, targets, report); !read)
+      return read;
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, positions, iteration, energy));
     };
@@ -336,19 +354,87 @@ protected:
     {
       if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
         result.message = "the energy changed by less than the tolerance in an iteration";
-      result.message += about_unconstrained_components(report.unconstrained_components);
-      std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
-      for(const auto& [k, point] : points)
-        domain().set_point(m_vertices.entries()[k].vertex, point);
-      for(auto& [k, point] : points)
-        m_vertices.entries()[k].present = std::move(point);
-      note_region_as_written();
-      m_prepared.positions().swap(positions);
+      describe(result, report);
+      Scoped_seconds seconds(report.seconds.transfer);
+      write_points(positions);
       core.set_rotations(std::move(rotations));
       m_energy = report.energy.back();
       report.inverted_simplices = core.number_of_inverted_simplices(m_prepared.positions());
     }
     return result;
+  }
+
+  // Points that others have moved are where the run starts, or fixed there: undo by writing back
+  // old points, for example. CGAL's class does not look at them.
+  Outcome take_points_of_others(Report& report)
+  {
+    Scoped_seconds seconds(report.seconds.transfer);
+    if(m_rules.order == Minimization_order::global_first || !domain().is_in_place())
+      return outcome(Status::success);
+    const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
+    for(const auto& [k, point] : changed)
+      if(!is_finite(Domain::coordinates(point)))
+        return outcome(Status::non_finite_point, name(m_vertices.entries()[k].vertex));
+    for(const auto& [k, point] : changed)
+    {
+      Entry& entry = m_vertices.entries()[k];
+      entry.present = point;
+      if(!is_finite(Domain::coordinates(entry.rest))) // it has been mended
+      {
+        entry.rest = point;
+        region_changed();
+      }
+    }
+    return m_prepared.has_region() ? m_prepared.take_points(m_vertices, changed)
+                                   : outcome(Status::success);
+  }
+
+  // The positions at which a run starts, with the hard control vertices at their targets, and the
+  // targets of the others.
+  Outcome read_targets(std::vector<Coordinates>& positions, std::vector<Coordinates>& targets,
+                       Report& report) const
+  {
+    Scoped_seconds seconds(report.seconds.transfer);
+    const auto& region = m_prepared.region();
+    positions = m_prepared.positions();
+    for(const auto& entry : m_vertices.entries())
+    {
+      if(!entry.is_control)
+        continue;
+      const Coordinates target = Domain::coordinates(m_vertices.target(entry));
+      if(!is_finite(target))
+        return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
+      const int v = region.find_vertex(domain(), entry.vertex);
+      if(v >= 0 && m_vertices.is_hard_control(entry))
+        positions[v] = target;
+    }
+    targets.reserve(m_prepared.soft_vertices().size());
+    for(int v : m_prepared.soft_vertices())
+      targets.push_back(
+        Domain::coordinates(m_vertices.target(*m_vertices.find(region.vertices[v]))));
+    return outcome(Status::success);
+  }
+
+  // adds to the message what a user would not expect
+  void describe(Outcome& result, const Report& report) const
+  {
+    if(report.free_vertices == 0)
+      result.message = about_nothing_free(report.simplices == 0);
+    else if(m_prepared.number_of_controls() == 0)
+      result.message += "; there is no control vertex";
+    result.message += about_isolated_controls(m_prepared.isolated_controls());
+    result.message += about_unconstrained_components(report.unconstrained_components);
+  }
+
+  void write_points(std::vector<Coordinates>& positions)
+  {
+    std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
+    for(const auto& [k, point] : points)
+      domain().set_point(m_vertices.entries()[k].vertex, point);
+    for(auto& [k, point] : points)
+      m_vertices.entries()[k].present = std::move(point);
+    note_region_as_written();
+    m_prepared.positions().swap(positions);
   }
 
   // The new points of the region of interest: of the free vertices at their positions, of the hard

@@ -195,13 +195,68 @@ public:
     return selected;
   }
 
-private:
+  // The vertices whose points others have changed, by the places of their entries, and these
+  // points.
+  std::vector<std::pair<std::size_t, Point>> changed_points() const
+  {
+    std::vector<std::pair<std::size_t, Point>> changed;
+    for(std::size_t k = 0; k < m_entries.size(); ++k)
+      if(auto&& point = m_domain.point(m_entries[k].vertex);
+         Domain::coordinates(point) != Domain::coordinates(m_entries[k].present))
+        changed.emplace_back(k, point);
+    return changed;
+  }
+
   struct Target
   {
     Point point;
     double weight;
   };
 
+  // all of it, as a value
+  struct State
+  {
+    std::vector<Entry> entries;
+    std::vector<Target> targets;
+    std::vector<Point> first_points;
+  };
+
+  State state() const { return {m_entries, m_targets, m_first_points}; }
+
+  // whether a state has the same vertices, in the same order, as far as both go
+  bool has_vertices_of(const State& state) const
+  {
+    const std::size_t n = (std::min)(m_entries.size(), state.entries.size());
+    return std::equal(m_entries.begin(), m_entries.begin() + n, state.entries.begin(),
+                      [](const Entry& a, const Entry& b) { return a.vertex == b.vertex; });
+  }
+
+  // Returns to a state with the same vertices. Those that have entered since leave.
+  void restore(State state)
+  {
+    for(std::size_t k = m_entries.size(); k < state.entries.size(); ++k)
+      m_slots.set(m_domain.index(state.entries[k].vertex), static_cast<int>(k));
+    for(std::size_t k = state.entries.size(); k < m_entries.size(); ++k)
+      m_slots.set(m_domain.index(m_entries[k].vertex), Paged_index_map::none);
+    m_entries.swap(state.entries);
+    m_targets.swap(state.targets);
+    m_first_points.swap(state.first_points);
+  }
+
+  // to be called before the rest shape is overwritten
+  void keep_first_points()
+  {
+    for(std::size_t k = m_first_points.size(); k < m_entries.size(); ++k)
+      m_first_points.push_back(m_entries[k].rest);
+  }
+
+  // the point of a vertex when its entry was made
+  const Point& first_point(std::size_t k) const
+  {
+    return k < m_first_points.size() ? m_first_points[k] : m_entries[k].rest;
+  }
+
+private:
   static constexpr int no_target = -1;
 
   bool enter_roi(Entry& entry)
@@ -232,6 +287,7 @@ private:
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   std::vector<Entry> m_entries;
   std::vector<Target> m_targets;
+  std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::size_t m_number_of_insertions = 0;
 };
 

@@ -51,6 +51,24 @@ inline std::string about_unconstrained_components(const std::vector<std::size_t>
          " of " + vertex_name(parts.front());
 }
 
+inline std::string about_nothing_free(bool is_region_empty)
+{
+  return std::string("nothing is free to move: ") +
+         (is_region_empty ? "the region of interest is empty"
+                          : "every vertex of the region of interest is fixed");
+}
+
+// the end of a message if there are control vertices without incident simplices
+inline std::string about_isolated_controls(const std::vector<std::size_t>& vertices)
+{
+  if(vertices.empty())
+    return std::string();
+  return "; " + vertex_name(vertices.front()) +
+         (vertices.size() == 1 ? std::string()
+                               : " and " + std::to_string(vertices.size() - 1) + " more") +
+         ": a control vertex without an incident simplex moves nothing else";
+}
+
 // The outcome for a status; `what` names the vertex or the simplex concerned, or is empty.
 inline Outcome outcome(Status status, const std::string& what = std::string())
 {
@@ -69,6 +87,8 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::invalid_option: return about("an option is out of range");
   case Status::in_a_run:
     return about("a visitor must not change the object that it is visiting");
+  case Status::foreign_state:
+    return about("the state is of an object with other vertices; nothing was changed");
   case Status::not_a_control_vertex:
     return about(" is not a control vertex and has no target; insert it as a control vertex first");
   case Status::invalid_weight:

@@ -51,13 +51,24 @@ public:
     bool order = false, factor = false, border = false;
   };
 
-  Constrained_system(Laplacian laplacian, std::unique_ptr<Linear_solver> prototype)
-    : m_laplacian(std::move(laplacian)), m_prototype(std::move(prototype))
+  explicit Constrained_system(std::unique_ptr<Linear_solver> prototype)
+    : m_prototype(std::move(prototype))
   {}
+
+  // Any other Laplacian must have the pattern of the first one, whose order is kept.
+  void set_laplacian(Laplacian laplacian)
+  {
+    m_laplacian = std::move(laplacian);
+    m_has_factor = false;
+  }
 
   const Laplacian& laplacian() const { return m_laplacian; }
 
-  void release_factor() { m_solver.reset(); }
+  void release_factor()
+  {
+    m_solver.reset();
+    m_has_factor = false;
+  }
 
   // Whether the solver could factorize the system with these constraints, or can do without; if
   // not there is no factor. A vertex that makes the system singular by itself is found before, by
@@ -78,7 +89,8 @@ private:
 
   Laplacian m_laplacian;
   std::unique_ptr<Linear_solver> m_prototype; // nothing is analyzed
-  std::unique_ptr<Linear_solver> m_solver;    // has a factor, if there is one
+  std::unique_ptr<Linear_solver> m_solver;    // has an order, if there is one
+  bool m_has_factor = false;
   Constraints m_factorized;                   // the constraints of the factor
   Eigen::Index m_analyzed_nonzeros = 0;       // of the pattern that the solver knows
   // the vertices whose unknowns are in the border, and those that it keeps where they are

@@ -66,7 +66,7 @@ bool Constrained_system::prepare(const Constraints& constraints, Work& work)
   work = Work();
   if(constraints.number_of_free_vertices() == 0)
     return true;
-  if(m_solver && m_prototype->can_have_border() && set_border(constraints))
+  if(m_has_factor && m_prototype->can_have_border() && set_border(constraints))
   {
     work.border = !m_further_unknowns.empty() || !m_multipliers.empty();
     return true;
@@ -94,6 +94,7 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
   m_multipliers.clear();
   // no factor where something fails, and never two
   std::unique_ptr<Linear_solver> solver = std::move(m_solver);
+  m_has_factor = false;
   const bool is_analyzed = solver && matrix.nonZeros() == m_analyzed_nonzeros &&
                            matrix.nonZeros() == m_laplacian.matrix.nonZeros();
   if(!is_analyzed)
@@ -108,6 +109,7 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
     return false;
   m_factorized = constraints;
   m_solver = std::move(solver);
+  m_has_factor = true;
   return true;
 }
 

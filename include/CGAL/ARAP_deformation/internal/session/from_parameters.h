@@ -1,0 +1,96 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_FROM_PARAMETERS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_FROM_PARAMETERS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/parameters.h>
+#include <CGAL/ARAP_deformation_traits.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename NamedParameters, typename Tag>
+constexpr bool has_parameter = !std::is_same_v<
+  std::decay_t<decltype(parameters::get_parameter(std::declval<const NamedParameters&>(), Tag()))>,
+  internal_np::Param_not_found>;
+
+// The domain of a shape that is a domain or a mesh. Maps apply to a FaceGraph only.
+template <typename Shape, typename NamedParameters>
+auto domain_from_parameters(Shape& shape, const NamedParameters& np)
+{
+  using Mesh = std::remove_const_t<Shape>;
+  using Domain = typename Default_domain<Mesh>::type;
+  if constexpr(std::is_same_v<Domain, Face_graph_domain<Mesh>>)
+  {
+    constexpr bool has_output = has_parameter<NamedParameters, internal_np::output_point_map_t>;
+    static_assert(has_output || !std::is_const_v<Shape>,
+                  "a const mesh cannot be deformed; give its new points a place by the named "
+                  "parameter output_point_map");
+    if constexpr(has_output)
+    {
+      auto point_map =
+        parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                     get_const_property_map(vertex_point, shape));
+      auto index_map = get_initialized_vertex_index_map(std::as_const(shape), np);
+      auto output_map = parameters::get_parameter(np, internal_np::output_point_map);
+      return Face_graph_domain<const Mesh, decltype(point_map), decltype(index_map),
+                               decltype(output_map)>(shape, point_map, index_map, output_map);
+    }
+    else if constexpr(!std::is_const_v<Shape>)
+      return make_face_graph_domain(shape, np);
+  }
+  else if constexpr(Is_domain<Mesh>::value)
+    return Mesh(shape);
+  else
+    return make_domain<Domain>(shape);
+}
+
+template <typename NamedParameters>
+auto traits_from_parameters(const NamedParameters& np)
+{
+  if constexpr(has_parameter<NamedParameters, internal_np::deformation_traits_t>)
+    return parameters::get_parameter(np, internal_np::deformation_traits);
+  else
+  {
+    auto weight = parameters::choose_parameter(
+      parameters::get_parameter(np, internal_np::weight_calculator), Safe_cotangent_weight());
+    auto solver = parameters::choose_parameter(
+      parameters::get_parameter(np, internal_np::sparse_linear_solver),
+      Multifrontal_cholesky_solver());
+    return ARAP_deformation_traits<decltype(solver), decltype(weight)>(solver, weight);
+  }
+}
+
+template <typename NamedParameters>
+Options options_from_parameters(const NamedParameters& np)
+{
+  Options options = parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::deformation_options), Options());
+  options.iterations = parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
+  return options;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_FROM_PARAMETERS_H

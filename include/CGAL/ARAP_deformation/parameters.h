@@ -1,0 +1,97 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_PARAMETERS_H
+#define CGAL_ARAP_DEFORMATION_PARAMETERS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Options.h>
+
+#include <CGAL/Named_function_parameters.h>
+
+namespace CGAL {
+
+namespace internal_np {
+
+enum deformation_options_t { deformation_options };
+enum deformation_traits_t { deformation_traits };
+enum region_of_interest_t { region_of_interest };
+enum target_weight_t { target_weight };
+enum output_point_map_t { output_point_map };
+
+template <typename Tag, typename T>
+Named_function_parameters<T, Tag> prepend(const T& value)
+{
+  return value;
+}
+
+template <typename Tag, typename T, typename Base>
+Named_function_parameters<T, Tag, Base> prepend(const T& value, const Base& base)
+{
+  return {value, base};
+}
+
+} // namespace internal_np
+
+namespace parameters {
+
+/// \addtogroup PkgARAPDeformationParameters
+/// Named parameters of `CGAL::arap_deform()` and of the constructors of `CGAL::ARAP_deformation`,
+/// beside those of \cgal. They begin a sequence, `parameters::deformation_options(o).visitor(v)`,
+/// or have the rest of it as their second argument:
+/// `parameters::region_of_interest(r, parameters::deformation_options(o))`.
+/// @{
+
+/// the options, default `ARAP::Options()`.
+template <typename... NP>
+auto deformation_options(const ARAP::Options& options, const NP&... np)
+{
+  return internal_np::prepend<internal_np::deformation_options_t>(options, np...);
+}
+
+/// the traits, a model of `ARAPDeformationTraits`; then `weight_calculator` and
+/// `sparse_linear_solver` are ignored.
+template <typename DeformationTraits, typename... NP>
+auto deformation_traits(const DeformationTraits& traits, const NP&... np)
+{
+  return internal_np::prepend<internal_np::deformation_traits_t>(traits, np...);
+}
+
+/// the region of interest, a range of vertices; default all vertices. Constrained vertices are in
+/// it anyway.
+template <typename VertexRange, typename... NP>
+auto region_of_interest(const VertexRange& vertices, const NP&... np)
+{
+  return internal_np::prepend<internal_np::region_of_interest_t>(vertices, np...);
+}
+
+/// the weight of each target, a number, see `ARAP_deformation::set_target_weight()`; default
+/// infinite.
+template <typename... NP>
+auto target_weight(double weight, const NP&... np)
+{
+  return internal_np::prepend<internal_np::target_weight_t>(weight, np...);
+}
+
+/// where the new points of a `FaceGraph` are written, a model of `WritablePropertyMap`; default the
+/// vertex point map. The mesh may then be `const`.
+template <typename OutputPointMap, typename... NP>
+auto output_point_map(const OutputPointMap& points, const NP&... np)
+{
+  return internal_np::prepend<internal_np::output_point_map_t>(points, np...);
+}
+/// @}
+
+} // namespace parameters
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_PARAMETERS_H
