@@ -31,8 +31,7 @@ enum class Initial_guess
   laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
             ///< where they are, and the control vertices, soft ones of positive weight included, at
             ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and
-            ///< \f$p\f$ the rest shape. Its first use after preprocessing costs a second
-            ///< factorization, of \f$L^T L\f$.
+            ///< \f$p\f$ the rest shape. Costs about as much as some tens of iterations.
 };
 
 /// \ingroup PkgARAPDeformationOptions

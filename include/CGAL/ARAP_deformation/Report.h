@@ -29,7 +29,7 @@ struct Phase_seconds
 {
   double preprocess = 0;    ///< region, weights, matrix and factorization; 0 if all was up to date
   double transfer = 0;      ///< targets and points read, and points written
-  double initial_guess = 0; ///< factorization (once per preprocessing) and solve of the guess
+  double initial_guess = 0; ///< the initial guess
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
   double global_steps = 0;  ///< solves with the factor, over all iterations
   double visitor = 0;       ///< in the visitor
@@ -49,7 +49,6 @@ struct Stages
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
   bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed
-  bool initial_guess = false; ///< the factorization for the initial guess
 };
 
 /// \ingroup PkgARAPDeformationRun

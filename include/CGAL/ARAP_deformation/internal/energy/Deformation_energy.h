@@ -136,6 +136,12 @@ public:
     std::visit([&f](const auto& cells) { cells.for_each_edge(f); }, m_cells);
   }
 
+  // whether no edge set has a negative energy, up to rounding
+  bool is_sum_of_squares() const
+  {
+    return std::visit([](const auto& cells) { return cells.is_sum_of_squares(); }, m_cells);
+  }
+
   // a vertex with an edge whose weight is not finite, or -1
   int find_vertex_of_non_finite_weight() const
   {

@@ -20,6 +20,7 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -47,6 +48,12 @@ struct Stars
     return static_cast<int>(found - neighbours.items.begin());
   }
 
+  // whether no star has a negative energy
+  bool are_sums_of_squares() const
+  {
+    return std::all_of(weights.begin(), weights.end(), [](double w) { return w >= 0; });
+  }
+
   // calls f(i, j, w) for each edge (i, j) of the star of i with its weight w
   template <typename Function>
   void for_each_edge(const Function& f) const
@@ -64,6 +71,7 @@ struct Simplices
   Index_lists corners;
   std::vector<int> first_weight;
   std::vector<double> weights;
+  bool is_sum_of_squares = true; // weights that come from the shapes of simplices count as such
 
   int size() const { return corners.size(); }
   int number_of_corners(int s) const { return corners.begin[s + 1] - corners.begin[s]; }
@@ -76,6 +84,21 @@ struct Simplices
     return weights[first_weight[s] + a * (2 * n - a - 1) / 2 + b - a - 1];
   }
 
+  // Whether no triangle or tetrahedron has a negative energy, up to rounding, whatever its edges.
+  // Larger polygons are not looked at.
+  bool are_sums_of_squares() const
+  {
+    for(int s = 0; s < size(); ++s)
+    {
+      const double* const w = weights.data() + first_weight[s];
+      const int n = number_of_corners(s);
+      if(n <= 4 && std::any_of(w, w + n * (n - 1) / 2, [](double weight) { return weight < 0; }) &&
+         !has_no_negative_energy(n, w))
+        return false;
+    }
+    return true;
+  }
+
   // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may
   // change
   template <typename Function>
@@ -84,6 +107,36 @@ struct Simplices
   void for_each_edge(const Function& f) { visit_edges(*this, f); }
 
 private:
+  // Eliminates one corner after the other from the matrix of a simplex: no pivot may be negative.
+  static bool has_no_negative_energy(int n, const double* w)
+  {
+    std::array<std::array<double, 4>, 4> matrix{};
+    double largest = 0;
+    for(int a = 0; a < n; ++a)
+      for(int b = a + 1; b < n; ++b, ++w)
+      {
+        matrix[a][b] = matrix[b][a] = -*w;
+        matrix[a][a] += *w;
+        matrix[b][b] += *w;
+        largest = (std::max)(largest, std::abs(*w));
+      }
+    const double rounding = 1e-9 * largest;
+    for(int k = 0; k + 1 < n; ++k)
+    {
+      const double pivot = matrix[k][k];
+      if(pivot < -rounding)
+        return false;
+      for(int a = k + 1; a < n; ++a)
+      {
+        if(pivot <= rounding && std::abs(matrix[a][k]) > std::sqrt(1e-9) * largest)
+          return false;
+        for(int b = k + 1; b < n && pivot > rounding; ++b)
+          matrix[a][b] -= matrix[a][k] * matrix[k][b] / pivot;
+      }
+    }
+    return true;
+  }
+
   template <typename Self, typename Function>
   static void visit_edges(Self& self, const Function& f)
   {

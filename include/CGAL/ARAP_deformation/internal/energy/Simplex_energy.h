@@ -206,6 +206,7 @@ public:
   }
 
   const std::vector<double>& weights() const { return m_simplices.weights; }
+  bool is_sum_of_squares() const { return m_simplices.is_sum_of_squares; }
 
   // whether a vertex of cell c moves; is_free(v) tells for all vertices
   template <typename Predicate>

@@ -152,6 +152,7 @@ public:
   std::vector<char> vertices_of(const std::vector<char>& is_chosen) const { return is_chosen; }
 
   const std::vector<double>& weights() const { return m_stars.weights; }
+  bool is_sum_of_squares() const { return m_stars.are_sums_of_squares(); }
 
   // the cells that count
   void choose_cells(const std::vector<char>& is_chosen)

@@ -36,6 +36,7 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
   using Entry = std::pair<int, double>;
   Laplacian laplacian;
   laplacian.is_tied.assign(n, false);
+  laplacian.is_sum_of_squares = energy.is_sum_of_squares();
   std::vector<int> first(n + 1, 0);
   std::vector<double> diagonal(n, 0);
   energy.for_each_edge([&](int i, int j, double w) {

@@ -159,9 +159,13 @@ inline int find_non_finite_simplex(const Simplices& simplices)
 inline Simplices simplex_edge_sets(const Edge_weight_model& model, Simplices simplices,
                                    const Region& region)
 {
+  bool are_of_shapes = true;
   simplices.for_each_edge([&](int, int i, int j, double& w) {
-    w = model.edge(Edge_set::simplex, region.indices[i], region.indices[j], w);
+    const double sum = w;
+    w = model.edge(Edge_set::simplex, region.indices[i], region.indices[j], sum);
+    are_of_shapes &= w == sum;
   });
+  simplices.is_sum_of_squares = are_of_shapes || simplices.are_sums_of_squares();
   return simplices;
 }
 

@@ -44,8 +44,7 @@ struct Deformation_core::State
 {
   Deformation_energy energy;
   Constrained_system system;
-  std::optional<Stars> stars;           // of the guess, if there was one
-  std::optional<Laplacian_guess> guess; // for the constraints
+  std::optional<Stars> stars; // of the Laplacian guess, if there was one
 };
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -87,7 +86,7 @@ Diagnosis Deformation_core::prepare()
   Constrained_system system =
     m_state ? std::move(m_state->system) : Constrained_system(m_models.solver->copy());
   system.set_laplacian(std::move(laplacian));
-  m_state.reset(new State{std::move(energy), std::move(system), {}, {}});
+  m_state.reset(new State{std::move(energy), std::move(system), {}});
   return {};
 }
 
@@ -107,7 +106,6 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::release_factor()
 {
   m_state->system.release_factor();
-  m_state->guess.reset();
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -137,7 +135,6 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
     return {Status::singular_matrix, v};
   Constrained_system::Work work;
-  m_state->guess.reset();
   const bool is_ready = m_state->system.prepare(constraints, work);
   stages.order |= work.order;
   stages.factor |= work.factor;
@@ -186,21 +183,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
      m_constraints.number_of_free_vertices() > 0)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    auto& guess = m_state->guess;
-    if(!guess)
-    {
-      if(!m_state->stars)
-        m_state->stars = star_edge_sets(*m_models.weight,
-                                        weighted_simplices(*m_models.weight, m_region), m_region);
-      guess.emplace(*m_state->stars, m_region, m_constraints, m_models.solver->copy());
-      report.stages.initial_guess = true;
-    }
-    if(!guess->is_factorized())
-    {
-      guess.reset();
-      return {Status::singular_matrix};
-    }
-    if(!(*guess)(targets, x))
+    if(!m_state->stars)
+      m_state->stars = star_edge_sets(*m_models.weight,
+                                      weighted_simplices(*m_models.weight, m_region), m_region);
+    if(!Laplacian_guess(*m_state->stars, m_region, m_constraints, m_state->system)(targets, x))
       return {Status::solver_failed};
   }
   if(options.initial_guess == Initial_guess::previous &&

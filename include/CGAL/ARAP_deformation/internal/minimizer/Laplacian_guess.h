@@ -19,16 +19,11 @@
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-#include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
-#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
-
-#include <Eigen/SparseCore>
+#include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -39,73 +34,69 @@ namespace internal {
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
 // are constant. Vertices that are pulled to targets are put there; other rows are not considered.
+//
+// L^T L is not formed: it has far more entries than L, and its condition number is the square of
+// that of L. The normal equations are solved by conjugate gradients, preconditioned by A^-1 A^-1,
+// with A the system of the global step, whose factor is there anyway.
 class Laplacian_guess
 {
 public:
   Laplacian_guess(const Stars& stars, const Region& region, const Constraints& constraints,
-                  std::unique_ptr<Linear_solver> solver)
-    : m_stars(stars), m_rest_laplacian(laplacian(region.rest)),
-      m_row(region.number_of_vertices(), none), m_solver(std::move(solver))
+                  Constrained_system& system)
+    : m_stars(stars), m_region(region), m_constraints(constraints), m_system(system),
+      m_is_solved_for(region.rest.size(), false), m_bound(region.rest.size(), 0)
   {
-    for(int v = 0; v < region.number_of_movable_vertices; ++v)
-      if(!constraints.is_fixed[v])
-        m_row[v] = 0;
-    for(int r = 0; r < constraints.rows.size(); ++r)
-      if(const int v = constraints.rows.position(r); v >= 0 && m_row[v] == 0)
-      {
-        m_soft_positions.push_back({v, r});
-        m_row[v] = none;
-      }
-    int number_of_rows = 0;
-    for(int& row : m_row)
-      if(row != none)
-        row = number_of_rows++;
-    m_step.resize(number_of_rows);
-
-    std::vector<Eigen::Triplet<double, int>> entries;
-    m_stars.for_each_edge([&](int i, int j, double w) {
-      if(is_free(i)) entries.emplace_back(i, m_row[i], w);
-      if(is_free(j)) entries.emplace_back(i, m_row[j], -w);
+    // Where an equation with large weights has a small one, its rounding error may be anything
+    // compared to that: the vertex of the small weight must not move far away to make up for it.
+    std::vector<double> sums(stars.size(), 0); // of the weights of each equation
+    stars.for_each_edge([&](int i, int, double w) { sums[i] += std::abs(w); });
+    for(int i = 0; i < stars.size(); ++i)
+      m_bound[i] += rounding_of_a_sum * sums[i] * sums[i];
+    stars.for_each_edge([&](int i, int j, double w) {
+      const double error = rounding_of_a_sum * sums[i];
+      m_bound[i] += error * error;
+      m_bound[j] += error * error + rounding_of_a_sum * w * w;
     });
-    Sparse_matrix columns(m_stars.size(), number_of_rows); // of L, of the free vertices
-    columns.setFromTriplets(entries.begin(), entries.end());
-    Sparse_matrix normal =
-      (Sparse_matrix(columns.transpose()) * columns).triangularView<Eigen::Lower>();
-    raise_diagonal(normal);
-    bound_steps(normal);
-    m_is_factorized =
-      number_of_rows == 0 || (m_solver->analyze(normal) && m_solver->factorize(normal));
   }
 
-  bool is_factorized() const { return m_is_factorized; }
-
-  // Moves the free vertices of x; there is a target for each row of the constraints. Returns false
-  // if the solver failed.
+  // Moves the free vertices of x; there is a target for each row of the constraints. Where they are
+  // before makes no difference. Returns false if the solver failed.
   bool operator()(const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
   {
-    for(const auto& [v, row] : m_soft_positions)
-      x[v] = targets[row];
-    if(m_step.empty())
-      return true;
-    // The condition number of L^T L is the square of that of L: further passes refine the first
-    // one, until they move nothing any more, or gain nothing.
-    double first = 0, last = 0;
-    for(int pass = 0; pass < 8; ++pass)
+    const std::size_t n = m_constraints.is_fixed.size();
+    for(std::size_t v = 0; v < n; ++v)
+      if(!m_constraints.is_fixed[v])
+      {
+        m_is_solved_for[v] = true;
+        x[v] = m_region.rest[v];
+      }
+    for(int r = 0; r < m_constraints.rows.size(); ++r)
+      if(const int v = m_constraints.rows.position(r); v >= 0 && m_is_solved_for[v])
+      {
+        m_is_solved_for[v] = false;
+        x[v] = targets[r];
+      }
+
+    // What is raised in the matrix is made up for by further passes, until they gain nothing.
+    Coordinates last = {0, 0, 0};
+    double first = 0;
+    for(int pass = 0; pass < 4; ++pass)
     {
-      compute_right_hand_side(x);
-      if(!m_solver->solve(m_step.size(), m_step.data()))
+      std::vector<Coordinates> from_x(x.size());
+      std::transform(m_region.rest.begin(), m_region.rest.end(), x.begin(), from_x.begin(),
+                     difference);
+      std::vector<Coordinates> correction;
+      if(!solve(normal_product(from_x, false), correction))
         return false;
-      double size = 0;
-      for(std::size_t v = 0; v < m_row.size(); ++v)
-        if(is_free(v))
-        {
-          const Coordinates& step = m_step[m_row[v]];
-          add(x[v], 1, step);
-          size += dot(step, step);
-        }
+      const Coordinates size = products(correction, correction);
+      for(int c = 0; c < 3; ++c)
+        if(pass == 0 || size[c] < 0.25 * last[c])
+          for(std::size_t v = 0; v < n; ++v)
+            x[v][c] += correction[v][c];
+      const double total = size[0] + size[1] + size[2];
       if(pass == 0)
-        first = size;
-      else if(size <= 1e-20 * first || (pass > 1 && size > 0.25 * last))
+        first = total;
+      else if(total <= 1e-8 * first || total >= 0.25 * (last[0] + last[1] + last[2]))
         break;
       last = size;
     }
@@ -113,53 +104,92 @@ public:
   }
 
 private:
-  // Where an equation with large weights has a small one, its rounding error may be anything
-  // compared to that: the vertex of the small weight must not be flung away to make up for it.
-  void bound_steps(Sparse_matrix& normal) const
+  // The solution for a right-hand side, for each coordinate a system of its own. Returns false if
+  // the solver failed.
+  bool solve(std::vector<Coordinates> residual, std::vector<Coordinates>& x)
   {
-    std::vector<double> sums(m_stars.size(), 0); // of the weights of each equation
-    m_stars.for_each_edge([&](int i, int, double w) { sums[i] += std::abs(w); });
-    m_stars.for_each_edge([&](int i, int j, double) {
-      const double error = rounding_of_a_sum * sums[i];
-      for(int v : {i, j})
-        if(is_free(v))
-          diagonal_entry(normal, m_row[v]) += error * error;
-    });
+    const std::size_t n = residual.size();
+    x.assign(n, Coordinates{0, 0, 0});
+    std::vector<Coordinates> direction = x;
+    Coordinates last = {0, 0, 0}, first = last;
+    for(int iteration = 0; iteration < 300; ++iteration)
+    {
+      std::vector<Coordinates> preconditioned = residual;
+      for(int factor = 0; factor < 2; ++factor)
+        if(!m_system.solve(preconditioned))
+          return false;
+      leave_out_others(preconditioned);
+      const Coordinates size = products(residual, preconditioned);
+      if(iteration == 0)
+        first = size;
+      bool is_done = true;
+      for(int c = 0; c < 3; ++c)
+        is_done &= !(size[c] > 1e-14 * first[c]);
+      if(is_done)
+        break;
+      for(std::size_t v = 0; v < n; ++v)
+        for(int c = 0; c < 3; ++c)
+          direction[v][c] = preconditioned[v][c] +
+                            (last[c] > 0 ? size[c] / last[c] * direction[v][c] : 0);
+      last = size;
+      const std::vector<Coordinates> image = normal_product(direction, true);
+      const Coordinates curvature = products(direction, image);
+      for(int c = 0; c < 3; ++c)
+      {
+        const double step = curvature[c] > 0 ? size[c] / curvature[c] : 0;
+        for(std::size_t v = 0; v < n; ++v)
+        {
+          x[v][c] += step * direction[v][c];
+          residual[v][c] -= step * image[v][c];
+        }
+      }
+    }
+    return true;
   }
 
-  // L x
-  std::vector<Coordinates> laplacian(const std::vector<Coordinates>& x) const
+  // L^T L x, of the vertices that are solved for; zero for the other movable ones
+  std::vector<Coordinates> normal_product(std::vector<Coordinates> x, bool is_raised) const
   {
-    std::vector<Coordinates> result(m_stars.size(), Coordinates{0, 0, 0});
+    x.resize(m_region.rest.size(), Coordinates{0, 0, 0});
+    std::vector<Coordinates> image(m_stars.size(), Coordinates{0, 0, 0});
     m_stars.for_each_edge([&](int i, int j, double w) {
-      add(result[i], w, difference(x[i], x[j]));
+      add(image[i], w, difference(x[i], x[j]));
     });
+    std::vector<Coordinates> result(x.size(), Coordinates{0, 0, 0});
+    m_stars.for_each_edge([&](int i, int j, double w) {
+      add(result[i], w, image[i]);
+      add(result[j], -w, image[i]);
+    });
+    result.resize(m_constraints.is_fixed.size());
+    if(is_raised)
+      for(std::size_t v = 0; v < result.size(); ++v)
+        add(result[v], m_bound[v], x[v]);
+    leave_out_others(result);
     return result;
   }
 
-  // L^T (L p - L x)
-  void compute_right_hand_side(const std::vector<Coordinates>& x)
+  void leave_out_others(std::vector<Coordinates>& x) const
   {
-    const std::vector<Coordinates> present = laplacian(x);
-    m_step.assign(m_step.size(), Coordinates{0, 0, 0});
-    m_stars.for_each_edge([&](int i, int j, double w) {
-      const Coordinates residual = difference(m_rest_laplacian[i], present[i]);
-      if(is_free(i)) add(m_step[m_row[i]], w, residual);
-      if(is_free(j)) add(m_step[m_row[j]], -w, residual);
-    });
+    for(std::size_t v = 0; v < x.size(); ++v)
+      if(!m_is_solved_for[v])
+        x[v] = {0, 0, 0};
   }
 
-  bool is_free(std::size_t v) const { return m_row[v] != none; }
-
-  static constexpr int none = -1;
+  static Coordinates products(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
+  {
+    Coordinates sums = {0, 0, 0};
+    for(std::size_t v = 0; v < a.size(); ++v)
+      for(int c = 0; c < 3; ++c)
+        sums[c] += a[v][c] * b[v][c];
+    return sums;
+  }
 
   const Stars& m_stars;
-  std::vector<Coordinates> m_rest_laplacian; // L p, for each star
-  std::vector<std::pair<int, int>> m_soft_positions; // vertices and the rows that pull them
-  std::vector<int> m_row;          // for each vertex its row in the system, if it has one
-  std::vector<Coordinates> m_step; // for each row
-  std::unique_ptr<Linear_solver> m_solver;
-  bool m_is_factorized = false;
+  const Region& m_region;
+  const Constraints& m_constraints;
+  Constrained_system& m_system;
+  std::vector<char> m_is_solved_for; // for each vertex
+  std::vector<double> m_bound;       // for each vertex, what is added to the diagonal of L^T L
 };
 
 } // namespace internal

@@ -88,7 +88,8 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
       if(entry.row() != v && (is_fixed[v] || is_fixed[entry.row()]))
         entry.valueRef() = 0;
   }
-  raise_diagonal(matrix);
+  for(int v = 0; v < matrix.cols(); ++v)
+    diagonal_entry(matrix, v) *= diagonal_factor(m_laplacian);
 
   m_further_unknowns.clear();
   m_multipliers.clear();
@@ -153,7 +154,7 @@ bool Constrained_system::set_border(const Constraints& constraints)
         if(k < 0 && l < 0)
           continue;
         if(k >= 0 && l >= 0)
-          corner(k, l) = corner(l, k) = entry.value() * (k == l ? 1 + rounding_of_a_sum : 1);
+          corner(k, l) = corner(l, k) = entry.value() * (k == l ? diagonal_factor(m_laplacian) : 1);
         else if(k >= 0 && is_kept[entry.row()])
           entries.emplace_back(entry.row(), k, entry.value());
         else if(l >= 0 && is_kept[v])

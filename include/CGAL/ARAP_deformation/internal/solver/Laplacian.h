@@ -29,6 +29,7 @@ struct Laplacian
 {
   Sparse_matrix matrix;      // the lower triangle, every diagonal entry stored
   std::vector<char> is_tied; // for each vertex whether an edge ties it to one that is not movable
+  bool is_sum_of_squares = true; // whether no edge set has a negative energy, up to rounding
 
   int size() const { return static_cast<int>(matrix.cols()); }
 };
@@ -47,15 +48,15 @@ inline double& diagonal_entry(Sparse_matrix& matrix, int column)
 // a bound of the rounding error of a sum, as a share of the sum of the absolute values
 constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon();
 
-// Raises the diagonal of a positive definite matrix that is to be factorized, given by its lower
-// triangle, by some units in the last place. Rounding changes each pivot by about that much of the
-// diagonal entry; where large weights are next to small ones nothing else may be left of it. A
-// pivot that is too small flings away what depends on it. One that is too large only makes the
-// steps of local/global shorter: they still have the same fixed points, and never raise the energy.
-inline void raise_diagonal(Sparse_matrix& matrix)
+// The factor by which the diagonal of a matrix is multiplied that is to be factorized. Rounding
+// changes each pivot by some units in the last place of the diagonal entry; where large weights are
+// next to small ones nothing else may be left of it. A sum of squares is positive semidefinite, and
+// is raised by as much: a pivot that is too small would throw vertices far away, and one that is
+// too large only makes the steps of local/global shorter, which still have the same fixed points.
+// Any other matrix is lowered: what is singular up to rounding is refused.
+inline double diagonal_factor(const Laplacian& laplacian)
 {
-  for(int v = 0; v < matrix.cols(); ++v)
-    diagonal_entry(matrix, v) *= 1 + rounding_of_a_sum;
+  return laplacian.is_sum_of_squares ? 1 + rounding_of_a_sum : 1 - rounding_of_a_sum;
 }
 
 } // namespace internal
