@@ -139,7 +139,7 @@ private:
     const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
     const bool is_end = words.begin() == m_text.size();
     const auto word = std::string_view(m_text).substr(words.begin(), words.end() - words.begin());
-    throw bad_line(m_name, static_cast<int>(line),
+    throw bad_line(m_name, static_cast<std::size_t>(line),
                    expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
   }
 

@@ -105,6 +105,14 @@ inline bool is_same_file(const std::string& a, const std::string& b)
   return !place.empty() && place == internal::location(b);
 }
 
+// Whether an output is written directly: a descriptor, such as /dev/stdout, a pipe or a device.
+inline bool is_written_directly(const std::string& file)
+{
+  std::error_code error;
+  return internal::is_descriptor(internal::followed(file)) ||
+         std::filesystem::is_other(file, error);
+}
+
 // A file that is written under a temporary name in the same folder and renamed by commit(): no
 // other program ever sees half of it, and nothing is left without commit(). Follows links and keeps
 // permissions. Files that are not regular, such as pipes, and descriptors, such as /dev/stdout, are

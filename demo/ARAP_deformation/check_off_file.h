@@ -12,6 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 
+#include "shape_files.h"
+
 #include <CGAL/IO/OFF/File_header_OFF.h>
 #include <CGAL/IO/io.h>
 
@@ -19,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <istream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -33,8 +36,9 @@ namespace internal {
 class Off_rows
 {
 public:
-  Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header)
-    : m_in(in), m_file(file), m_header(header)
+  Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header,
+           std::set<std::string>& dropped)
+    : m_in(in), m_file(file), m_header(header), m_dropped(dropped)
   {}
 
   void check_vertices()
@@ -48,9 +52,13 @@ public:
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
       find_row("vertex", v);
-      if(is_plain)
+      if(is_plain && v > 0)
         continue;
       read_numbers();
+      if(is_plain && m_row.size() > plain + texture)
+        m_dropped.insert("colours");
+      if(is_plain)
+        continue;
       if(m_row.size() < plain + texture)
         refuse("vertex", v, "has too few numbers");
       if(h == 1 && m_row[3] == 0)
@@ -76,6 +84,8 @@ public:
           refuse("face", f, "has a vertex that does not exist");
       if(m_header.has_colors())
         check_colour("face", f, end, m_row.size(), has_colours);
+      else if(m_row.size() > end)
+        m_dropped.insert("colours");
     }
   }
 
@@ -130,6 +140,7 @@ private:
   std::istream& m_in;
   const std::string& m_file;
   const File_header_OFF& m_header;
+  std::set<std::string>& m_dropped;
   std::string m_line;
   std::istringstream m_numbers;
   std::vector<double> m_row;
@@ -138,8 +149,10 @@ private:
 } // namespace internal
 
 // Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
-// rows, and rows that are too short. Files without an .off header are left to the reader.
-inline void check_off_file(std::istream& in, const std::string& file)
+// rows, rows that are too short, and rows that the header does not announce. Files without an .off
+// header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`.
+inline void check_off_file(std::istream& in, const std::string& file,
+                           std::set<std::string>& dropped)
 {
   File_header_OFF header(false);
   if(!(in >> header))
@@ -148,9 +161,14 @@ inline void check_off_file(std::istream& in, const std::string& file)
     throw std::runtime_error(file + ": is binary; only .off files in text can be read");
   if(header.has_textures() && !header.has_colors())
     throw std::runtime_error(file + ": has texture coordinates, which are not supported");
-  internal::Off_rows rows(in, file, header);
+  if(header.has_normals())
+    dropped.insert("normals");
+  if(header.has_textures())
+    dropped.insert("texture coordinates");
+  internal::Off_rows rows(in, file, header, dropped);
   rows.check_vertices();
   rows.check_faces();
+  check_end(in, file);
 }
 
 } // namespace CGAL::ARAP::demo

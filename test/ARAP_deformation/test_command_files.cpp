@@ -126,13 +126,13 @@ void test_ply()
   for(const std::string size : {"uint", "int"})
   {
     refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n2000000000 0 2 3\n",
-               "announces more entries of vertex_indices than fit into its ");
+               "announces more entries of 'vertex_indices' than fit into its ");
     refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n99999999999 0 2 3\n",
                "ends before all its elements, or holds something that is not a number");
     for(const std::string format : {"binary_little_endian", "binary_big_endian"})
       refuse_ply(ply(format, "float", "1", size + " int") + std::string(12, '\0') +
                    std::string(12, '\177'),
-                 "announces more entries of vertex_indices than fit into its ");
+                 "announces more entries of 'vertex_indices' than fit into its ");
   }
   refuse_ply(ply("ascii", "float", "4", "char int") + square + "3 0 1 2\n-1 0 2 3\n",
              "cannot be read");
