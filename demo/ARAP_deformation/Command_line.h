@@ -114,7 +114,8 @@ inline boost::program_options::options_description described_options()
        ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
      "stop when the estimated relative gap of the energy to its minimum is at most T; 0: run all "
      "N iterations")
-    ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))->value_name("N"),
+    ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
+       ->value_name("N"),
      "use at most N threads; 0: one per processor. One if built without TBB. Does not change the "
      "result");
   other.add_options()

@@ -127,7 +127,7 @@ public:
   void done(const std::string& what)
   {
     if(m_is_shown)
-      std::cerr << '\\r' << what << " in " << std::setprecision(3) << m_timer.time() << " s\033[K\n" << std::flush;
+      std::cerr << '\r' << what << " in " << m_timer.time() << " s\033[K\n" << std::flush;
   }
 
 private:

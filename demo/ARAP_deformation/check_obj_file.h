@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <istream>
-#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -68,14 +67,12 @@ inline bool get_obj_line(std::istream& in, std::string& line, std::size_t& lines
   return !line.empty() || !is_continued;
 }
 
-// the vertex of a corner, such as 3, 3/1, 3//2 or 3/1/2, or -1 for the last vertex; 0 if it is wrong
-inline int obj_corner(const std::string& word)
+// the vertex of a corner, such as 3, 3/1, 3//2 or 3/1/2, or -1 for the last one; 0 if it is wrong
+inline long long obj_corner(const std::string& word)
 {
   char* end = nullptr;
-  const long long value = std::strtoll(word.c_str(), &end, 10);
-  const long long largest = (std::numeric_limits<int>::max)();
-  const bool is_valid = (*end == '\0' || *end == '/') && std::abs(value) <= largest;
-  return is_valid ? static_cast<int>(value) : 0;
+  const long long value = std::strtoll(word.c_str(), &end, 10); // saturates
+  return *end == '\0' || *end == '/' ? value : 0;
 }
 
 } // namespace internal
@@ -83,12 +80,16 @@ inline int obj_corner(const std::string& word)
 // The vertices and the faces of an .obj file, as CGAL's reader can read them: that knows neither
 // all statements, nor continued lines, and takes what it cannot read of a face for its end. Throws
 // a std::runtime_error for what is wrong. Inserts what else there is into `dropped`.
-inline std::istringstream check_obj_file(std::istream& in, const std::string& file,
-                                         std::set<std::string>& dropped)
+inline std::stringstream check_obj_file(std::istream& in, const std::string& file,
+                                        std::set<std::string>& dropped)
 {
-  std::ostringstream out;
+  std::stringstream out;
   std::string line, keyword;
-  bool has_faces = false;
+  long long vertices = 0, largest = 0; // the number of vertices, and the largest in a face
+  std::size_t line_of_largest = 0;
+  const auto missing = [&file](std::size_t in_line, const std::string& vertex) {
+    return bad_line(file, in_line, "a face has the vertex " + vertex + ", which does not exist");
+  };
   for(std::size_t lines = 0, number = 1; internal::get_obj_line(in, line, lines);
       number = lines + 1)
   {
@@ -111,6 +112,7 @@ inline std::istringstream check_obj_file(std::istream& in, const std::string& fi
         out << ' ' << words[k];
       }
       out << '\n';
+      ++vertices;
       if(words.size() > 4) // coordinates and a weight, or coordinates and a colour
         dropped.insert("colours");
     }
@@ -121,15 +123,22 @@ inline std::istringstream check_obj_file(std::istream& in, const std::string& fi
       out << 'f';
       for(const std::string& word : words)
       {
-        const int corner = internal::obj_corner(word);
+        long long corner = internal::obj_corner(word);
         if(corner == 0)
           throw bad_line(file, number, in_quotes(word) + " is not a corner of a face: the number "
                                        "of a vertex, from 1 or backwards from -1, and maybe "
                                        "others after slashes");
+        if(corner < -vertices)
+          throw missing(number, in_quotes(word));
+        corner += corner < 0 ? vertices + 1 : 0;
+        if(corner > largest)
+        {
+          largest = corner;
+          line_of_largest = number;
+        }
         out << ' ' << corner;
       }
       out << '\n';
-      has_faces = true;
     }
     else if(const std::string kind = internal::told_by_obj_statement(keyword); !kind.empty())
       dropped.insert(kind);
@@ -137,9 +146,11 @@ inline std::istringstream check_obj_file(std::istream& in, const std::string& fi
       throw bad_line(file, number, in_quotes(keyword) + " is not a statement of .obj files that "
                                    "can be read");
   }
-  if(!has_faces)
+  if(largest > vertices)
+    throw missing(line_of_largest, std::to_string(largest));
+  if(largest == 0)
     throw std::runtime_error(file + ": has no faces");
-  return std::istringstream(out.str());
+  return out;
 }
 
 } // namespace CGAL::ARAP::demo

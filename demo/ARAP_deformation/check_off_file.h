@@ -168,7 +168,9 @@ inline void check_off_file(std::istream& in, const std::string& file,
   internal::Off_rows rows(in, file, header, dropped);
   rows.check_vertices();
   rows.check_faces();
-  check_end(in, file);
+  check_end(in, file, "the " + std::to_string(header.size_of_vertices()) + " vertices and " +
+                        std::to_string(header.size_of_facets()) + " faces that the header "
+                        "announces");
 }
 
 } // namespace CGAL::ARAP::demo

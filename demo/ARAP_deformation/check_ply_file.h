@@ -66,6 +66,8 @@ public:
     refuse("has no end of its header");
   }
 
+  bool is_binary() const { return m_format != "ascii"; }
+
   void check_types() const
   {
     for(const Element& element : m_elements)
@@ -260,7 +262,7 @@ private:
   double read()
   {
     Binary value{};
-    if(m_format == "ascii")
+    if(!is_binary())
     {
       Text number{};
       if constexpr(std::is_floating_point_v<Text>)
@@ -295,16 +297,18 @@ private:
 // Throws a std::runtime_error for errors that CGAL's reader of .ply files does not detect: counts
 // that are impossible, and properties of unexpected types. Files without a .ply header are left to
 // the reader. Inserts what a mesh of points and polygons does not have of the file into `dropped`.
-inline void check_ply_file(std::istream& in, const std::string& file, std::size_t bytes,
+// Returns whether the file is binary.
+inline bool check_ply_file(std::istream& in, const std::string& file, std::size_t bytes,
                            std::set<std::string>& dropped)
 {
   internal::Ply_layout layout(in, file, bytes);
   if(!layout.read_header())
-    return;
+    return false;
   layout.check_types();
   dropped.merge(layout.unread());
   if(layout.has_lists_of_any_size())
     layout.check_lists();
+  return layout.is_binary();
 }
 
 } // namespace CGAL::ARAP::demo

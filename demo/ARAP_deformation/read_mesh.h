@@ -104,24 +104,25 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
     mesh.clear(); // read it again, to find the wrong face
     rewind();
   }
+  bool is_binary = false;
   if(extension == ".ply")
   {
-    check_ply_file(in, file, bytes, dropped);
+    is_binary = check_ply_file(in, file, bytes, dropped);
     rewind();
   }
-  std::istringstream plain_obj;
+  std::stringstream obj;
   if(extension == ".obj")
-    plain_obj = check_obj_file(in, file, dropped);
+    obj = check_obj_file(in, file, dropped);
   std::vector<Kernel::Point_3> points;
   Polygons polygons;
   const auto quiet = CGAL::parameters::verbose(false);
   const bool is_read = extension == ".off"   ? CGAL::IO::read_OFF(in, points, polygons, quiet)
-                       : extension == ".obj" ? CGAL::IO::read_OBJ(plain_obj, points, polygons, quiet)
+                       : extension == ".obj" ? CGAL::IO::read_OBJ(obj, points, polygons, quiet)
                        : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
                        : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
                                              : false;
   if(is_read && extension == ".ply")
-    check_end(in, file);
+    check_end(in, file, "the elements that the header announces", is_binary);
   if(is_read)
     build_mesh(file, points, polygons, mesh);
   return is_read && mesh.is_valid(false);

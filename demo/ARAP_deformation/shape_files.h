@@ -171,9 +171,9 @@ inline std::string in_quotes(std::string_view word)
   return "'" + text + "'";
 }
 
-// Throws if white space and comments are not all that is left of a text in which all that its header
-// announces has been read.
-inline void check_end(std::istream& in, const std::string& file)
+// Throws if more than white space and comments is left of a file in which `contents` was read.
+inline void check_end(std::istream& in, const std::string& file, const std::string& contents,
+                      bool is_binary = false)
 {
   in.clear();
   char c = 0;
@@ -181,12 +181,14 @@ inline void check_end(std::istream& in, const std::string& file)
     in.ignore((std::numeric_limits<std::streamsize>::max)(), '\n');
   if(!in)
     return;
+  if(is_binary)
+    throw std::runtime_error(file + ": has more than " + contents);
   std::size_t line = 1;
   const std::streamoff end = in.tellg();
   in.seekg(0);
   for(std::streamoff i = 0; i < end; ++i)
     line += in.get() == '\n';
-  throw bad_line(file, line, "there is more here than the header of the file announces");
+  throw bad_line(file, line, "there is more than " + contents);
 }
 
 // One status per line and vertex: 0 fixed, 1 free, 2 handle.

@@ -406,7 +406,7 @@ void test_refusals()
   check_refused(good_call, 2, "output");
   check_refused("in.off -o new.off --transform in.def", 2, "selection");
   check_refused("in.off -o new.off --selection in.sel", 2, "transform");
-  check_refused("in.off in.off" + rest, 2, "positional");
+  check_refused("in.off in.off" + rest, 2, "more than one mesh is given");
   check_refused("in.off --frobnicate" + rest, 2, "frobnicate");
   check_refused("in.off --cells dinner" + rest, 2, "spokes, spokes_and_rims, elements");
   check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
