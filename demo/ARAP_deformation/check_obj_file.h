@@ -14,6 +14,8 @@
 
 #include "shape_files.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -23,6 +25,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
@@ -50,29 +53,31 @@ inline std::string told_by_obj_statement(const std::string& keyword)
   return found == kinds.end() ? std::string() : found->second;
 }
 
-// Reads a line without its comment, and the next lines while they continue it.
-inline bool get_obj_line(std::istream& in, std::string& line, std::size_t& lines)
+// Reads a line without its comment, and the next lines while they continue it. Returns how many.
+inline std::size_t get_obj_line(std::istream& in, std::string& line)
 {
+  std::size_t lines = 0;
   line.clear();
   bool is_continued = true;
   for(std::string part; is_continued && std::getline(in, part); ++lines)
   {
-    part = part.substr(0, part.find('#'));
+    part.resize((std::min)(part.find('#'), part.size()));
     part.resize(part.find_last_not_of(" \t\r") + 1);
     is_continued = !part.empty() && part.back() == '\\';
     if(is_continued)
       part.back() = ' ';
     line += part;
   }
-  return !line.empty() || !is_continued;
+  return lines;
 }
 
 // the vertex of a corner, such as 3, 3/1, 3//2 or 3/1/2, or -1 for the last one; 0 if it is wrong
-inline long long obj_corner(const std::string& word)
+inline long long obj_corner(const char* word)
 {
   char* end = nullptr;
-  const long long value = std::strtoll(word.c_str(), &end, 10); // saturates
-  return *end == '\0' || *end == '/' ? value : 0;
+  const long long value = std::strtoll(word, &end, 10); // saturates
+  const bool is_end = *end == '\0' || *end == '/' || std::isspace(static_cast<unsigned char>(*end));
+  return is_end ? value : 0;
 }
 
 } // namespace internal
@@ -84,46 +89,44 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
                                         std::set<std::string>& dropped)
 {
   std::stringstream out;
-  std::string line, keyword;
+  std::string line;
   long long vertices = 0, largest = 0; // the number of vertices, and the largest in a face
   std::size_t line_of_largest = 0;
-  const auto missing = [&file](std::size_t in_line, const std::string& vertex) {
-    return bad_line(file, in_line, "a face has the vertex " + vertex + ", which does not exist");
+  const auto missing = [&file](std::size_t number, const std::string& vertex) {
+    return bad_line(file, number, "a face has the vertex " + vertex + ", which does not exist");
   };
-  for(std::size_t lines = 0, number = 1; internal::get_obj_line(in, line, lines);
-      number = lines + 1)
+  std::size_t lines = 0;
+  for(std::size_t number = 1; (lines = internal::get_obj_line(in, line)) > 0; number += lines)
   {
-    std::istringstream text(line);
-    if(!(text >> keyword))
-      continue;
-    std::vector<std::string> words;
-    for(std::string word; text >> word;)
-      words.push_back(word);
+    Words words(line);
+    const std::string keyword(words.next());
+    std::string_view word = words.next();
+    std::size_t size = 0; // the number of words after the keyword
     if(keyword == "v")
     {
-      if(words.size() < 3)
-        throw bad_line(file, number, "a vertex has three coordinates");
       out << 'v';
-      for(int k = 0; k < 3; ++k)
+      for(; !word.empty(); word = words.next(), ++size)
       {
+        if(size >= 3)
+          continue; // a weight, or a colour
         char* end = nullptr;
-        if(!std::isfinite(std::strtod(words[k].c_str(), &end)) || *end != '\0')
-          throw bad_line(file, number, in_quotes(words[k]) + " is not a finite number");
-        out << ' ' << words[k];
+        if(!std::isfinite(std::strtod(word.data(), &end)) || end != word.data() + word.size())
+          throw bad_line(file, number, in_quotes(word) + " is not a finite number");
+        out << ' ' << word;
       }
+      if(size < 3)
+        throw bad_line(file, number, "a vertex has three coordinates");
+      if(size > 4)
+        dropped.insert("colours");
       out << '\n';
       ++vertices;
-      if(words.size() > 4) // coordinates and a weight, or coordinates and a colour
-        dropped.insert("colours");
     }
     else if(keyword == "f")
     {
-      if(words.size() < 3)
-        throw bad_line(file, number, "a face has at least three vertices");
       out << 'f';
-      for(const std::string& word : words)
+      for(; !word.empty(); word = words.next(), ++size)
       {
-        long long corner = internal::obj_corner(word);
+        long long corner = internal::obj_corner(word.data());
         if(corner == 0)
           throw bad_line(file, number, in_quotes(word) + " is not a corner of a face: the number "
                                        "of a vertex, from 1 or backwards from -1, and maybe "
@@ -138,11 +141,13 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
         }
         out << ' ' << corner;
       }
+      if(size < 3)
+        throw bad_line(file, number, "a face has at least three vertices");
       out << '\n';
     }
     else if(const std::string kind = internal::told_by_obj_statement(keyword); !kind.empty())
       dropped.insert(kind);
-    else
+    else if(!keyword.empty())
       throw bad_line(file, number, in_quotes(keyword) + " is not a statement of .obj files that "
                                    "can be read");
   }

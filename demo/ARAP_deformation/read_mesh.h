@@ -123,6 +123,8 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
                                              : false;
   if(is_read && extension == ".ply")
     check_end(in, file, "the elements that the header announces", is_binary);
+  if(is_read && extension == ".stl") // CGAL reads a text to its end
+    check_end(in, file, "the triangles that the header announces", true);
   if(is_read)
     build_mesh(file, points, polygons, mesh);
   return is_read && mesh.is_valid(false);

@@ -107,9 +107,9 @@ inline std::ifstream open_for_reading(const std::string& file)
   std::ifstream in(file, std::ios::binary);
   if(!in)
     throw std::runtime_error(file + ": cannot be opened for reading");
+  skip_byte_order_mark(in, file);
   if(in.peek() == std::ifstream::traits_type::eof())
     throw std::runtime_error(file + ": is empty");
-  skip_byte_order_mark(in, file);
   return in;
 }
 
@@ -141,6 +141,35 @@ inline std::string output_format(const std::string& output, const std::string& i
   return is_mesh_format(format) || !is_written_directly(output) ? format
                                                                 : lower_case_extension(input);
 }
+
+// The words of a text. White space separates them; # starts a comment.
+class Words
+{
+public:
+  explicit Words(std::string_view text, std::size_t position = 0)
+    : m_text(text), m_begin(position), m_end(position)
+  {}
+
+  // the next word; empty at the end of the text
+  std::string_view next()
+  {
+    const auto or_end = [this](std::size_t place) { return (std::min)(place, m_text.size()); };
+    m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v", m_end));
+    while(m_begin < m_text.size() && m_text[m_begin] == '#')
+      m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v",
+                                                or_end(m_text.find('\n', m_begin))));
+    m_end = or_end(m_text.find_first_of(" \t\r\n\f\v#", m_begin));
+    return m_text.substr(m_begin, m_end - m_begin);
+  }
+
+  // the positions of the last word and of its end
+  std::size_t begin() const { return m_begin; }
+  std::size_t end() const { return m_end; }
+
+private:
+  std::string_view m_text;
+  std::size_t m_begin, m_end;
+};
 
 // Calls f(line, line number) for each line of a file that has more than a comment.
 template <typename Function>

@@ -207,6 +207,9 @@ void test_stl()
   refuse("stl", std::string(80, 'x') + std::string(4, '\377') + std::string(50, '\0'),
          "cannot be read");
   refuse("stl", std::string(80, 'x'), "");
+  const std::string one(std::string(80, 'x') + std::string("\1\0\0\0", 4) +
+                        std::string(50, '\0'));
+  refuse("stl", one + std::string(50, '\1'), "has more than the triangles that the header");
 }
 
 void test_text_files()
@@ -224,7 +227,7 @@ void test_text_files()
   };
   refuse_option("--iterations %value%", "--iterations '%value%' is not a whole number from 0 to 2");
   refuse_option("--tolerance 1%", "--tolerance '1%' is not a number");
-  refuse_option("--iterations 9999999999", "--iterations '9999999999' is not a whole number from 0 to");
+  refuse_option("--iterations 9999999999", "--iterations '9999999999' is not a whole number from");
   for(const std::string option : {"--%canonical_option%", "-%option%", "--x%=3"})
     refuse_option(option, "the option '" + option + "' is not known");
   refuse_option("--quiet=%canonical_option%", "option '--quiet' does not take any arguments");
@@ -253,6 +256,8 @@ void test_byte_order_marks()
         0);
   CHECK(content(folder / "new.mesh").rfind("MeshVersionFormatted 1\n", 0) == 0);
   fs::remove(folder / "new.mesh");
+  for(const std::string extension : {"off", "obj", "ply", "stl"})
+    refuse(extension, mark, "is empty");
   write("wide.sel", std::string("\xFF\xFE" "0\0\n\0", 6));
   check_refused("good.off --selection wide.sel --transform in.def -o new.off", 1,
                 "wide.sel: is a text in UTF-16; save it in UTF-8");
@@ -548,7 +553,8 @@ public:
   {
     static const std::vector<std::string> words = {
       "-1", "0", "3", "4294967295", "2147483648", "99999999999999999999", "1e308", "1e-400", "nan",
-      "-", "--", "=", "x", "# ", "OFF", "End", "vertex", "element face 7", "uint", " "};
+      "-", "--", "=", "x", "# ", "OFF", "End", "vertex", "element face 7", "uint", " ",
+      "%canonical_option%", "f 1 2\\\n", "\xEF\xBB\xBF"};
     const std::size_t begin = below(text.size()), n = below((std::min)(text.size() - begin,
                                                                        std::size_t(20)));
     switch(below(7))
