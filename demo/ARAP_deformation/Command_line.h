@@ -131,14 +131,14 @@ inline void print_help(std::ostream& out)
          "transformed, fixed vertices stay, and free vertices follow so that every small\n"
          "part of the shape only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface of triangles or polygons in an .off, .obj, .ply or .stl file,\n"
-         "or a volume of tetrahedra in a .mesh file (Medit, text). OUT is of the same kind;\n"
-         "if it is a pipe or a device, such as /dev/stdout, and its name does not tell the\n"
-         "format, the format is that of MESH.\n"
+         "or a volume of tetrahedra in a .mesh file (Medit, text). OUT is of the same kind.\n"
+         "A pipe or a device whose name does not tell the format, such as /dev/stdout, gets\n"
+         "the format of MESH.\n\n"
          "In a .mesh file only the coordinates change: references, comments and all\n"
          "sections are kept. For a surface, OUT has the points and the faces, and the\n"
          "colours of an .off file if OUT is an .off or .ply file. Everything else in MESH,\n"
          "such as normals, texture coordinates, materials and comments, is dropped; a note\n"
-         "says so. .ply and .stl files are written in binary.\n\n"
+         "says what, except for comments. .ply and .stl files are written in binary.\n\n"
          "S.sel lists the vertices in the order of MESH (.stl: of their first appearance).\n"
          "Messages count them from 0. Free vertices without a face or tetrahedron stay\n"
          "where they are.\n\n"
@@ -154,8 +154,8 @@ inline void print_help(std::ostream& out)
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
          "is written, and existing files are unchanged. Outputs that are not regular\n"
          "files, such as pipes, are written to directly, /dev/stdout and the like as the\n"
-         "shell has opened them. The summary goes to the standard output, or to the standard\n"
-         "error if the standard output is OUT or PICTURE.png.\n";
+         "shell has opened them. The summary goes to the standard output, or to the\n"
+         "standard error if the standard output is OUT or PICTURE.png.\n";
 }
 
 // Outputs must be different files and must not be inputs; only the mesh may be deformed in place.

@@ -210,7 +210,7 @@ void flush_output()
     throw std::runtime_error("the standard output could not be written to the end");
 }
 
-// Where the summary goes, unless there is an output.
+// Where the summary goes: not into an output.
 std::ostream& summary_stream(const Command_line& line)
 {
   const std::string standard_output = "/dev/stdout";

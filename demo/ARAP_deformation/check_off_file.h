@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <istream>
 #include <set>
 #include <sstream>
@@ -47,18 +48,22 @@ public:
     const std::size_t h = m_header.is_homogeneous() ? 1 : 0;
     const std::size_t plain = 3 + h + (m_header.has_normals() ? 3 + h : 0);
     const std::size_t texture = m_header.has_textures() ? 2 + h : 0;
-    const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL checks the length of such rows
+    const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL reads only coordinates
     bool has_colours = false;
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
       find_row("vertex", v);
-      if(is_plain && v > 0)
+      if(is_plain)
+        check_coordinates(v);
+      if(is_plain && v > 0) // the first row tells whether there are colours
         continue;
       read_numbers();
-      if(is_plain && m_row.size() > plain + texture)
-        m_dropped.insert("colours");
       if(is_plain)
+      {
+        if(m_row.size() > plain + texture)
+          m_dropped.insert("colours");
         continue;
+      }
       if(m_row.size() < plain + texture)
         refuse("vertex", v, "has too few numbers");
       if(h == 1 && m_row[3] == 0)
@@ -101,6 +106,18 @@ private:
     m_in >> skip_comment_OFF;
     if(!std::getline(m_in, m_line))
       refuse(what, number, "is missing");
+  }
+
+  void check_coordinates(std::size_t v) const
+  {
+    const char* place = m_line.c_str();
+    for(int k = 0; k < 3; ++k)
+    {
+      char* end = nullptr;
+      if(!std::isfinite(std::strtod(place, &end)) || end == place)
+        refuse("vertex", v, "does not have three finite coordinates");
+      place = end;
+    }
   }
 
   void read_numbers()

@@ -297,16 +297,16 @@ private:
 // Throws a std::runtime_error for errors that CGAL's reader of .ply files does not detect: counts
 // that are impossible, and properties of unexpected types. Files without a .ply header are left to
 // the reader. Inserts what a mesh of points and polygons does not have of the file into `dropped`.
-// Returns whether the file is binary.
+// Returns whether the file is binary. `is_thorough` after the reader has failed, to find out why.
 inline bool check_ply_file(std::istream& in, const std::string& file, std::size_t bytes,
-                           std::set<std::string>& dropped)
+                           std::set<std::string>& dropped, bool is_thorough = false)
 {
   internal::Ply_layout layout(in, file, bytes);
   if(!layout.read_header())
     return false;
   layout.check_types();
   dropped.merge(layout.unread());
-  if(layout.has_lists_of_any_size())
+  if(is_thorough || layout.has_lists_of_any_size())
     layout.check_lists();
   return layout.is_binary();
 }

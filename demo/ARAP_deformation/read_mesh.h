@@ -121,6 +121,11 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
                        : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
                        : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
                                              : false;
+  if(!is_read && extension == ".ply")
+  {
+    rewind();
+    check_ply_file(in, file, bytes, dropped, true);
+  }
   if(is_read && extension == ".ply")
     check_end(in, file, "the elements that the header announces", is_binary);
   if(is_read && extension == ".stl") // CGAL reads a text to its end

@@ -69,6 +69,9 @@ void test_off()
   accept("comment.off", good + "\n # a comment");
   refuse("off", "OFF\n2147483647 2 0\n" + square, "vertex 4 is missing");
   refuse("off", "OFF\n4 2147483647 0\n" + square + "3 0 1 2\n", "face 1 is missing");
+  for(const std::string row : {"1 nan 0", "1 x 0", "1 0", "1,5 0 0", "1e999 0 0"})
+    refuse("off", "OFF\n4 1 0\n0 0 0\n" + row + "\n1 1 0\n0 1 0\n3 0 2 3\n",
+           "vertex 1 does not have three finite coordinates");
   for(const std::string corners : {"4000000000", "1e18", "1e300", "-1", "-1e300", "4", "x"})
     refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n" + corners + " 0 2 3\n",
            "face 1 has fewer vertices than it announces");
@@ -171,6 +174,9 @@ void test_ply()
              "announces more elements");
 
   // rows
+  for(const std::string end : {"", "3 0 1\n", "3 0 2 x\n"})
+    refuse_ply(ply("ascii", "float", "4", "uchar int") + square + "3 0 1 2\n" + end,
+               "ends before all its elements, or holds something that is not a number");
   const std::string good = ply("ascii", "float", "4", "uchar int") + square + faces;
   const std::string surplus = "more than the elements that the header announces";
   refuse_at(16, "ply", good + "3 0 1 3\n", "there is " + surplus);
