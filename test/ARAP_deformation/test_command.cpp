@@ -330,7 +330,8 @@ void test_refusals()
     write("empty." + extension, "");
     mesh("empty." + extension, "is empty");
     write("garbage." + extension, "this is no mesh\n1 2 3\n");
-    mesh("garbage." + extension, "garbage." + extension + (extension == "obj" ? ", line 1: " : ": "));
+    mesh("garbage." + extension, "garbage." + extension +
+                                   (extension == "obj" ? ", line 1: 'this' is not a" : ": "));
   }
   const std::string text = off(shape);
   write("half.off", text.substr(0, text.size() / 2));
@@ -651,6 +652,9 @@ void test_text()
   CHECK(run(odd_call + "--transform identity.def").exit_code == 0);
   CHECK(content(folder / "new.mesh") == odd);
   CHECK(report()["energy"].back() == 0);
+#if defined(__unix__) || defined(__APPLE__)
+  CHECK(run("odd.mesh --selection all.sel --transform identity.def -o /dev/stdout").out == odd);
+#endif
   write("fixed.sel", "0\n0\n0\n0\n0\n0\n");
   CHECK(run("odd.mesh --selection fixed.sel -o new.mesh --transform identity.def").exit_code == 0);
   CHECK(content(folder / "new.mesh") == odd);
