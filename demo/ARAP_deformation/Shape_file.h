@@ -54,14 +54,14 @@ public:
     check_format(file, format, m_mesh);
   }
 
-  // what the file has and an output of this format has not
+  // what an output of this format does not keep
   std::set<std::string> dropped(const std::string& format) const
   {
     std::set<std::string> result = m_dropped;
     if((format == ".obj" || format == ".stl") && has_colours(m_mesh))
       result.insert("colours");
     if(format == ".stl" && m_format != ".stl")
-      result.insert("coordinates in double precision");
+      result.insert("double precision");
     if(format == ".stl" && has_isolated_vertices(m_mesh))
       result.insert("vertices without a face");
     return result;

@@ -115,6 +115,8 @@ public:
 
   ~Progress() { show(""); }
 
+  bool is_shown() const { return m_is_shown; }
+
   void show(const std::string& what)
   {
     m_timer.reset();
@@ -189,10 +191,13 @@ Report deform(const Command_line& line, const Domain& domain, const std::vector<
   Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
     if(iterate.iteration() == 0)
       progress.done("preprocessed");
-    std::ostringstream text;
-    text << "iteration " << iterate.iteration() << " of at most " << line.options.iterations
-         << ", energy " << iterate.energy();
-    progress.show(text.str());
+    if(progress.is_shown())
+    {
+      std::ostringstream text;
+      text << "iteration " << iterate.iteration() << " of at most " << line.options.iterations
+           << ", energy " << iterate.energy();
+      progress.show(text.str());
+    }
     return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
                           : CGAL::ARAP::Visitor_action::proceed;
   });
@@ -241,15 +246,14 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
   flush_output();
 }
 
-// Says what the input has and the output has not.
+// Says what of the input the output does not keep.
 void print_note(const Command_line& line, const std::set<std::string>& dropped)
 {
   std::string list;
   for(const std::string& what : dropped)
     list += (list.empty() ? "" : ", ") + what;
   if(!dropped.empty())
-    std::cerr << "note: " << line.mesh << " has what " << line.output << " does not keep: " << list
-              << '\n';
+    std::cerr << "note: " << line.output << " does not keep: " << list << '\n';
 }
 
 // Throws if the mesh or the output is not a mesh file, or if they are of different kinds.

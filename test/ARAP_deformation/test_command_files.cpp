@@ -276,17 +276,16 @@ void test_notes()
                              const std::string& list) {
     test_case() = file + " to " + output;
     const std::string call = file + " --selection in.sel --transform in.def -o " + output;
-    CHECK(run(call).err == (list.empty() ? "" : "note: " + file + " has what " + output +
-                                                  " does not keep: " + list + "\n"));
+    CHECK(run(call).err == (list.empty() ? "" : "note: " + output + " does not keep: " + list +
+                                                  '\n'));
     CHECK(run(call + " --quiet").err.empty());
     fs::remove(folder / output);
   };
   const auto faces = [](const std::string& colour) {
     return "3 0 1 2" + colour + "\n3 0 2 3" + colour + '\n';
   };
-  const std::string double_precision = "coordinates in double precision";
   check_note("good.off", "new.obj", "");
-  check_note("good.off", "new.stl", double_precision);
+  check_note("good.off", "new.stl", "double precision");
   write("colours.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n" +
                          faces(" 1 2 3"));
   check_note("colours.off", "new.off", "");
@@ -301,7 +300,7 @@ void test_notes()
                          faces(""));
   check_note("normals.off", "new.off", "normals");
   write("isolated.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 2 3\n");
-  check_note("isolated.off", "new.stl", double_precision + ", vertices without a face");
+  check_note("isolated.off", "new.stl", "double precision, vertices without a face");
   check_note("statements.obj", "new.off", "curves and free-form surfaces, groups, lines, "
                                           "materials, normals, points, texture coordinates");
   write("colours.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"
