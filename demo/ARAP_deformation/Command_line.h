@@ -16,14 +16,16 @@
 
 #include <CGAL/ARAP_deformation/Options.h>
 
+#include <boost/lexical_cast.hpp>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <boost/program_options.hpp>
 
-#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,6 +64,20 @@ Value chosen(const std::string& option, const std::string& name,
   throw Usage_error("--" + option + " '" + name + "' is not known; use one of " + names);
 }
 
+// the value of an option that is a number
+template <typename Number>
+Number number(const std::string& option, const std::string& text)
+{
+  Number value = 0;
+  const bool is_number = boost::conversion::try_lexical_convert(text, value);
+  if(std::is_integral_v<Number> && (!is_number || value < 0))
+    throw Usage_error("--" + option + " '" + text + "' is not a whole number from 0 to " +
+                      std::to_string((std::numeric_limits<Number>::max)()));
+  if(!is_number)
+    throw Usage_error("--" + option + " '" + text + "' is not a number");
+  return value;
+}
+
 inline boost::program_options::options_description described_options()
 {
   using boost::program_options::value;
@@ -92,16 +108,18 @@ inline boost::program_options::options_description described_options()
      "iterations to the minimum; or automatic: quasi_newton unless the tolerance is 0")
     ("initial_guess", value<std::string>()->default_value("previous")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), laplacian")
-    ("iterations", value<int>()->default_value(static_cast<int>(defaults.iterations))
+    ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
-    ("tolerance", value<double>()->default_value(defaults.tolerance, "0.001")->value_name("T"),
+    ("tolerance", value<std::string>()->value_name("T")
+       ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
      "stop when the estimated relative gap of the energy to its minimum is at most T; 0: run all "
      "N iterations")
-    ("threads", value<int>()->default_value(static_cast<int>(defaults.threads))->value_name("N"),
+    ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
+       ->value_name("N"),
      "use at most N threads; 0: one per processor. One if built without TBB. Does not change the "
      "result");
   other.add_options()
-    ("quiet", "print only errors")
+    ("quiet", "print only errors: no summary, no notes, no progress")
     ("help,h", "print this and exit");
   return input.add(run).add(other);
 }
@@ -114,11 +132,13 @@ inline void print_help(std::ostream& out)
          "part of the shape only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface of triangles or polygons in an .off, .obj, .ply or .stl file,\n"
          "or a volume of tetrahedra in a .mesh file (Medit, text). OUT is of the same kind.\n"
+         "A pipe or a device whose name does not tell the format, such as /dev/stdout, gets\n"
+         "the format of MESH.\n\n"
          "In a .mesh file only the coordinates change: references, comments and all\n"
          "sections are kept. For a surface, OUT has the points and the faces, and the\n"
          "colours of an .off file if OUT is an .off or .ply file. Everything else in MESH,\n"
-         "such as normals, texture coordinates, materials and comments, is dropped. .ply\n"
-         "and .stl files are written in binary.\n\n"
+         "such as normals, texture coordinates, materials and comments, is dropped; a note\n"
+         "says what, except for comments. .ply and .stl files are written in binary.\n\n"
          "S.sel lists the vertices in the order of MESH (.stl: of their first appearance).\n"
          "Messages count them from 0. Free vertices without a face or tetrahedron stay\n"
          "where they are.\n\n"
@@ -134,7 +154,8 @@ inline void print_help(std::ostream& out)
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
          "is written, and existing files are unchanged. Outputs that are not regular\n"
          "files, such as pipes, are written to directly, /dev/stdout and the like as the\n"
-         "shell has opened them.\n";
+         "shell has opened them. The summary goes to the standard output, or to the\n"
+         "standard error if the standard output is OUT or PICTURE.png.\n";
 }
 
 // Outputs must be different files and must not be inputs; only the mesh may be deformed in place.
@@ -204,27 +225,30 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.options.initial_guess = chosen<Initial_guess>(
       "initial_guess", values["initial_guess"].as<std::string>(),
       {{"previous", Initial_guess::previous}, {"laplacian", Initial_guess::laplacian}});
-    if(values["iterations"].as<int>() < 0)
-      throw Usage_error("--iterations must not be negative");
-    line.options.iterations = static_cast<unsigned int>(values["iterations"].as<int>());
-    if(values["threads"].as<int>() < 0)
-      throw Usage_error("--threads must not be negative");
-    line.options.threads = static_cast<unsigned int>(values["threads"].as<int>());
-    line.options.tolerance = values["tolerance"].as<double>();
+    const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
+    line.options.iterations = number<int>("iterations", text("iterations"));
+    line.options.threads = number<int>("threads", text("threads"));
+    line.options.tolerance = number<double>("tolerance", text("tolerance"));
     if(const Outcome checked = line.options.check(); !checked)
       throw Usage_error(checked.message);
-    if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png")
+    if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
+       !is_written_directly(line.image))
       throw Usage_error("--image " + line.image + ": the picture must be a .png file");
     check_outputs(line);
     return line;
   }
+  catch(const po::unknown_option& error)
+  {
+    // not what(): there Boost replaces placeholders such as %canonical_option% by the option, and
+    // endlessly if that contains the placeholder itself
+    throw Usage_error("the option '" + error.get_option_name() + "' is not known");
+  }
+  catch(const po::too_many_positional_options_error&)
+  {
+    throw Usage_error("more than one mesh is given");
+  }
   catch(const po::error& error)
   {
-    // Boost replaces placeholders such as %value% in its messages by an argument: endlessly if that
-    // contains the placeholder itself
-    const auto has_percent = [](std::string_view a) { return a.find('%') != a.npos; };
-    if(std::any_of(argv, argv + argc, has_percent))
-      throw Usage_error("an option is missing, not known or given twice, or its value is invalid");
     throw Usage_error(error.what());
   }
 }

@@ -44,39 +44,6 @@ inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mes
   return mesh.points;
 }
 
-namespace internal {
-
-// The words of a text. White space separates them; # starts a comment.
-class Words
-{
-public:
-  explicit Words(std::string_view text, std::size_t position = 0)
-    : m_text(text), m_begin(position), m_end(position)
-  {}
-
-  // the next word; empty at the end of the text
-  std::string_view next()
-  {
-    const auto or_end = [this](std::size_t place) { return (std::min)(place, m_text.size()); };
-    m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v", m_end));
-    while(m_begin < m_text.size() && m_text[m_begin] == '#')
-      m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v",
-                                                or_end(m_text.find('\n', m_begin))));
-    m_end = or_end(m_text.find_first_of(" \t\r\n\f\v#", m_begin));
-    return m_text.substr(m_begin, m_end - m_begin);
-  }
-
-  // the positions of the last word and of its end
-  std::size_t begin() const { return m_begin; }
-  std::size_t end() const { return m_end; }
-
-private:
-  std::string_view m_text;
-  std::size_t m_begin, m_end;
-};
-
-} // namespace internal
-
 // The tetrahedra of a .mesh file, and its text: it is written with new coordinates, and otherwise
 // unchanged to the byte, with all its references, comments and sections.
 class Medit_file
@@ -131,15 +98,13 @@ public:
   }
 
 private:
-  using Words = internal::Words;
-
   // Throws a message: `expected`, continued by what is there instead.
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
     const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
     const bool is_end = words.begin() == m_text.size();
     const auto word = std::string_view(m_text).substr(words.begin(), words.end() - words.begin());
-    throw bad_line(m_name, static_cast<int>(line),
+    throw bad_line(m_name, static_cast<std::size_t>(line),
                    expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
   }
 

@@ -17,6 +17,7 @@
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -95,14 +96,29 @@ inline C_file open_descriptor(const std::filesystem::path& file)
 
 } // namespace internal
 
-// Whether two names refer to the same file, pipe or device, or would if it existed.
+// Whether two names refer to the same file or pipe, or would if it existed. Devices can serve for
+// two things.
 inline bool is_same_file(const std::string& a, const std::string& b)
 {
+#if defined(__unix__) || defined(__APPLE__)
+  // std::filesystem::equivalent() does not compare pipes
+  struct stat of_a, of_b;
+  if(stat(a.c_str(), &of_a) == 0 && S_ISFIFO(of_a.st_mode))
+    return stat(b.c_str(), &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+#endif
   std::error_code error;
   if(std::filesystem::exists(a, error) && std::filesystem::exists(b, error))
     return std::filesystem::equivalent(a, b, error);
   const std::filesystem::path place = internal::location(a);
   return !place.empty() && place == internal::location(b);
+}
+
+// Whether an output is written directly: a descriptor, such as /dev/stdout, a pipe or a device.
+inline bool is_written_directly(const std::string& file)
+{
+  std::error_code error;
+  return internal::is_descriptor(internal::followed(file)) ||
+         std::filesystem::is_other(file, error);
 }
 
 // A file that is written under a temporary name in the same folder and renamed by commit(): no

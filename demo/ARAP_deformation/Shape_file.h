@@ -25,6 +25,7 @@
 #include <array>
 #include <cstddef>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,22 +37,44 @@ class Surface_file
 public:
   using Domain = Face_graph_domain<Mesh>;
 
-  explicit Surface_file(const std::string& file) : m_mesh(read_mesh(file)) {}
+  static constexpr const char* simplices = "faces";
+
+  explicit Surface_file(const std::string& file)
+    : m_format(lower_case_extension(file)), m_mesh(read_mesh(file, m_dropped))
+  {}
 
   const Mesh& mesh() const { return m_mesh; }
   std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
   std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
   Domain domain() { return Domain(m_mesh); }
 
-  // Throws if a file of this name cannot hold the surface.
-  void check_output(const std::string& file) const { check_format(file, m_mesh); }
-
-  void write(Output_file& output, const std::string& file) const
+  // Throws if a file of this format cannot hold the surface.
+  void check_output(const std::string& file, const std::string& format) const
   {
-    write_mesh(output, m_mesh, lower_case_extension(file));
+    check_format(file, format, m_mesh);
+  }
+
+  // what an output of this format does not keep
+  std::set<std::string> dropped(const std::string& format) const
+  {
+    std::set<std::string> result = m_dropped;
+    if((format == ".obj" || format == ".stl") && has_colours(m_mesh))
+      result.insert("colours");
+    if(format == ".stl" && m_format != ".stl")
+      result.insert("double precision");
+    if(format == ".stl" && has_isolated_vertices(m_mesh))
+      result.insert("vertices without a face");
+    return result;
+  }
+
+  void write(Output_file& output, const std::string& format) const
+  {
+    write_mesh(output, m_mesh, format);
   }
 
 private:
+  std::string m_format;
+  std::set<std::string> m_dropped;
   Mesh m_mesh;
 };
 
@@ -62,6 +85,8 @@ public:
   using Domain = Tetrahedron_soup_domain<std::vector<Kernel::Point_3>,
                                          std::vector<std::array<int, 4>>>;
 
+  static constexpr const char* simplices = "tetrahedra";
+
   explicit Tetrahedra_file(const std::string& file) : m_file(file), m_mesh(m_file.mesh()) {}
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
@@ -69,7 +94,8 @@ public:
   std::size_t number_of_simplices() const { return m_mesh.tetrahedra.size(); }
   Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
 
-  void check_output(const std::string&) const {}
+  void check_output(const std::string&, const std::string&) const {}
+  std::set<std::string> dropped(const std::string&) const { return {}; }
 
   void write(Output_file& output, const std::string&) const
   {

@@ -41,6 +41,8 @@
 #include <new>
 #include <optional>
 #include <ostream>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -102,6 +104,39 @@ bool is_terminal()
 #endif
 }
 
+// Says on a terminal what is being done, in a line that is replaced by the next one.
+class Progress
+{
+public:
+  explicit Progress(const Command_line& line) : m_is_shown(!line.is_quiet && is_terminal()) {}
+
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  ~Progress() { show(""); }
+
+  bool is_shown() const { return m_is_shown; }
+
+  void show(const std::string& what)
+  {
+    m_timer.reset();
+    m_timer.start();
+    if(m_is_shown)
+      std::cerr << '\r' << what << "\033[K" << std::flush;
+  }
+
+  // Replaces the line for good, with the seconds since it was shown.
+  void done(const std::string& what)
+  {
+    if(m_is_shown)
+      std::cerr << '\r' << what << " in " << m_timer.time() << " s\033[K\n" << std::flush;
+  }
+
+private:
+  bool m_is_shown;
+  CGAL::Real_timer m_timer;
+};
+
 std::optional<long long> peak_memory_bytes()
 {
 #if defined(__unix__) || defined(__APPLE__)
@@ -145,24 +180,28 @@ void write_report(Output_file& file, const Result& result)
 // Deforms the shape of a domain.
 template <typename Domain>
 Report deform(const Command_line& line, const Domain& domain, const std::vector<int>& selection,
-              const Transform& transform)
+              const Transform& transform, Progress& progress)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
   deformation.set_options(line.options);
   insert_selection(deformation, selection, transform);
 
-  const bool is_shown = !line.is_quiet && is_terminal();
+  progress.show("preprocessing ...");
   Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
-    if(is_shown)
-      std::cerr << "\riteration " << iterate.iteration() << " of at most "
-                << line.options.iterations << ", energy " << iterate.energy() << "\033[K"
-                << std::flush;
+    if(iterate.iteration() == 0)
+      progress.done("preprocessed");
+    if(progress.is_shown())
+    {
+      std::ostringstream text;
+      text << "iteration " << iterate.iteration() << " of at most " << line.options.iterations
+           << ", energy " << iterate.energy();
+      progress.show(text.str());
+    }
     return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
                           : CGAL::ARAP::Visitor_action::proceed;
   });
-  if(is_shown)
-    std::cerr << "\r\033[K" << std::flush;
+  progress.show("");
   check_interrupted();
   if(!report)
     throw std::runtime_error(line.mesh + ": " + report.message);
@@ -176,56 +215,84 @@ void flush_output()
     throw std::runtime_error("the standard output could not be written to the end");
 }
 
-void print_summary(const Command_line& line, const Result& result)
+// Where the summary goes: not into an output.
+std::ostream& summary_stream(const Command_line& line)
+{
+  const std::string standard_output = "/dev/stdout";
+  const bool is_taken = is_same_file(line.output, standard_output) ||
+                        (!line.image.empty() && is_same_file(line.image, standard_output));
+  return is_taken ? std::cerr : std::cout;
+}
+
+void print_summary(std::ostream& out, const Command_line& line, const Result& result)
 {
   const Report& report = result.report;
-  std::cout << line.mesh << ": " << result.vertices << " vertices, "
+  out << line.mesh << ": " << result.vertices << " vertices, "
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.energy.back()
             << ", edge length error " << result.edge_length_error << '\n';
   if(report.inverted_simplices > 0)
-    std::cout << report.inverted_simplices << " of " << result.simplices
-              << " tetrahedra are inside out\n";
-  std::cout << "seconds: load " << result.load_seconds << ", preprocess "
-            << report.seconds.preprocess << ", deform "
-            << report.seconds.total - report.seconds.preprocess << '\n'
-            << "written: " << line.output;
+    out << report.inverted_simplices << " of " << result.simplices
+        << " tetrahedra are inside out\n";
+  out << "seconds: load " << result.load_seconds << ", preprocess "
+      << report.seconds.preprocess << ", deform "
+      << report.seconds.total - report.seconds.preprocess << '\n'
+      << "written: " << line.output;
   for(const std::string& file : {line.report, line.image})
     if(!file.empty())
-      std::cout << ", " << file;
-  std::cout << '\n';
+      out << ", " << file;
+  out << '\n';
   flush_output();
 }
 
-// Throws if the mesh or the output is not a mesh file, or if they are of different kinds.
-void check_mesh_files(const Command_line& line)
+// Says what of the input the output does not keep.
+void print_note(const Command_line& line, const std::set<std::string>& dropped)
 {
-  for(const std::string& file : {line.mesh, line.output})
-    if(!is_surface_file(file) && !is_tetrahedra_file(file))
+  std::string list;
+  for(const std::string& what : dropped)
+    list += (list.empty() ? "" : ", ") + what;
+  if(!dropped.empty())
+    std::cerr << "note: " << line.output << " does not keep: " << list << '\n';
+}
+
+// Throws if the mesh or the output is not a mesh file, or if they are of different kinds.
+void check_mesh_files(const Command_line& line, const std::string& format)
+{
+  const std::string mesh_format = lower_case_extension(line.mesh);
+  const auto check = [](const std::string& file, const std::string& its_format) {
+    if(!is_mesh_format(its_format))
       throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl or "
                                       ".mesh");
-  if(is_tetrahedra_file(line.mesh) && !is_tetrahedra_file(line.output))
+  };
+  check(line.mesh, mesh_format);
+  check(line.output, format);
+  if(is_tetrahedra_format(mesh_format) && !is_tetrahedra_format(format))
     throw std::runtime_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
                              " can only be written to a .mesh file");
-  if(is_surface_file(line.mesh) && !is_surface_file(line.output))
+  if(is_surface_format(mesh_format) && !is_surface_format(format))
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
                              " can only be written to an .off, .obj, .ply or .stl file");
 }
 
 // Shape is the class of the contents of the mesh file.
 template <typename Shape>
-void run(const Command_line& line)
+void run(const Command_line& line, const std::string& format)
 {
+  Progress progress(line);
+  progress.show("loading " + line.mesh + " ...");
   CGAL::Real_timer load_timer;
   load_timer.start();
   Shape shape(line.mesh);
   const std::vector<int> selection = read_selection(line.selection, shape.number_of_vertices());
   const Transform transform = read_transform(line.transform);
   load_timer.stop();
+  progress.done("loaded " + line.mesh + ", " + std::to_string(shape.number_of_vertices()) +
+                " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
+                Shape::simplices + ',');
 
   // opened first, so that nothing is computed in vain
-  shape.check_output(line.output);
+  shape.check_output(line.output, format);
   const Delayed_interruption until_files_are_closed;
   Output_file output(line.output);
   std::optional<Output_file> report, image;
@@ -241,10 +308,10 @@ void run(const Command_line& line)
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
-  result.report = deform(line, domain, selection, transform);
+  result.report = deform(line, domain, selection, transform, progress);
   result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
 
-  shape.write(output, line.output);
+  shape.write(output, format);
   if(image)
   {
     const std::vector<Panel> panels = {
@@ -257,7 +324,10 @@ void run(const Command_line& line)
   if(report)
     write_report(*report, result);
   if(!line.is_quiet)
-    print_summary(line, result);
+  {
+    print_summary(summary_stream(line), line, result);
+    print_note(line, shape.dropped(format));
+  }
   check_interrupted();
 
   // when nothing else can fail
@@ -270,17 +340,18 @@ void run(const Command_line& line)
 
 void run(const Command_line& line)
 {
-  check_mesh_files(line);
+  const std::string format = output_format(line.output, line.mesh);
+  check_mesh_files(line, format);
   if(!line.image.empty())
   {
     const Delayed_interruption until_folder_is_removed;
     check_renderer();
   }
   check_interrupted();
-  if(is_tetrahedra_file(line.mesh))
-    run<Tetrahedra_file>(line);
+  if(is_tetrahedra_format(format))
+    run<Tetrahedra_file>(line, format);
   else
-    run<Surface_file>(line);
+    run<Surface_file>(line, format);
 }
 
 } // namespace

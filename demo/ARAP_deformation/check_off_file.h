@@ -12,13 +12,17 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 
+#include "shape_files.h"
+
 #include <CGAL/IO/OFF/File_header_OFF.h>
 #include <CGAL/IO/io.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <istream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -33,8 +37,9 @@ namespace internal {
 class Off_rows
 {
 public:
-  Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header)
-    : m_in(in), m_file(file), m_header(header)
+  Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header,
+           std::set<std::string>& dropped)
+    : m_in(in), m_file(file), m_header(header), m_dropped(dropped)
   {}
 
   void check_vertices()
@@ -43,14 +48,22 @@ public:
     const std::size_t h = m_header.is_homogeneous() ? 1 : 0;
     const std::size_t plain = 3 + h + (m_header.has_normals() ? 3 + h : 0);
     const std::size_t texture = m_header.has_textures() ? 2 + h : 0;
-    const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL checks the length of such rows
+    const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL reads only coordinates
     bool has_colours = false;
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
       find_row("vertex", v);
       if(is_plain)
+        check_coordinates(v);
+      if(is_plain && v > 0) // the first row tells whether there are colours
         continue;
       read_numbers();
+      if(is_plain)
+      {
+        if(m_row.size() > plain + texture)
+          m_dropped.insert("colours");
+        continue;
+      }
       if(m_row.size() < plain + texture)
         refuse("vertex", v, "has too few numbers");
       if(h == 1 && m_row[3] == 0)
@@ -76,6 +89,8 @@ public:
           refuse("face", f, "has a vertex that does not exist");
       if(m_header.has_colors())
         check_colour("face", f, end, m_row.size(), has_colours);
+      else if(m_row.size() > end)
+        m_dropped.insert("colours");
     }
   }
 
@@ -91,6 +106,18 @@ private:
     m_in >> skip_comment_OFF;
     if(!std::getline(m_in, m_line))
       refuse(what, number, "is missing");
+  }
+
+  void check_coordinates(std::size_t v) const
+  {
+    const char* place = m_line.c_str();
+    for(int k = 0; k < 3; ++k)
+    {
+      char* end = nullptr;
+      if(!std::isfinite(std::strtod(place, &end)) || end == place)
+        refuse("vertex", v, "does not have three finite coordinates");
+      place = end;
+    }
   }
 
   void read_numbers()
@@ -130,6 +157,7 @@ private:
   std::istream& m_in;
   const std::string& m_file;
   const File_header_OFF& m_header;
+  std::set<std::string>& m_dropped;
   std::string m_line;
   std::istringstream m_numbers;
   std::vector<double> m_row;
@@ -138,8 +166,10 @@ private:
 } // namespace internal
 
 // Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
-// rows, and rows that are too short. Files without an .off header are left to the reader.
-inline void check_off_file(std::istream& in, const std::string& file)
+// rows, rows that are too short, and rows that the header does not announce. Files without an .off
+// header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`.
+inline void check_off_file(std::istream& in, const std::string& file,
+                           std::set<std::string>& dropped)
 {
   File_header_OFF header(false);
   if(!(in >> header))
@@ -148,9 +178,16 @@ inline void check_off_file(std::istream& in, const std::string& file)
     throw std::runtime_error(file + ": is binary; only .off files in text can be read");
   if(header.has_textures() && !header.has_colors())
     throw std::runtime_error(file + ": has texture coordinates, which are not supported");
-  internal::Off_rows rows(in, file, header);
+  if(header.has_normals())
+    dropped.insert("normals");
+  if(header.has_textures())
+    dropped.insert("texture coordinates");
+  internal::Off_rows rows(in, file, header, dropped);
   rows.check_vertices();
   rows.check_faces();
+  check_end(in, file, "the " + std::to_string(header.size_of_vertices()) + " vertices and " +
+                        std::to_string(header.size_of_facets()) + " faces that the header "
+                        "announces");
 }
 
 } // namespace CGAL::ARAP::demo

@@ -13,6 +13,7 @@
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
 
 #include "check_count.h"
+#include "shape_files.h"
 
 #include <CGAL/IO/io.h>
 
@@ -21,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -64,29 +66,47 @@ public:
     refuse("has no end of its header");
   }
 
+  bool is_binary() const { return m_format != "ascii"; }
+
   void check_types() const
   {
     for(const Element& element : m_elements)
     {
-      const bool is_vertex = element.name == "vertex" || element.name == "vertices";
-      const bool is_face = element.name == "face" || element.name == "faces";
       const bool has_bytes = std::any_of(element.properties.begin(), element.properties.end(),
                                          [](const Property& p) {
         return is_colour(p.name) && p.is("uchar");
       });
       for(const Property& p : element.properties)
       {
-        if(is_vertex && (p.name == "x" || p.name == "y" || p.name == "z"))
+        if(is_vertex(element) && is_position(p))
           require(p.is("float") || p.is("double"), p, "float or double");
-        if((is_vertex || is_face) && is_colour(p.name) && has_bytes)
+        if((is_vertex(element) || is_face(element)) && is_colour(p.name) && has_bytes)
           require(p.is("uchar"), p, "uchar, unlike other colours");
         if(element.name == "halfedge" && (p.name == "source" || p.name == "target"))
           require(p.is("uint"), p, "uint");
-        if(is_face && (p.name == "vertex_indices" || p.name == "vertex_index"))
+        if(is_face(element) && is_corners(p))
           require(p.is_list && (type_name(p.type) == "int" || type_name(p.type) == "uint"), p,
                   "a list of int or uint");
       }
     }
+  }
+
+  // what a mesh of points and polygons does not have of the file
+  std::set<std::string> unread() const
+  {
+    std::set<std::string> result;
+    for(const Element& element : m_elements)
+    {
+      if(!is_vertex(element) && !is_face(element) && element.number > 0)
+        result.insert("the element " + in_quotes(element.name));
+      if(is_vertex(element) || is_face(element))
+        for(const Property& p : element.properties)
+          if(!is_position(p) && !is_corners(p))
+            result.insert(is_colour(p.name) || p.name == "alpha" ? "colours"
+                          : p.name == "nx" || p.name == "ny" || p.name == "nz"
+                            ? "normals" : "the property " + in_quotes(p.name));
+    }
+    return result;
   }
 
   // Only counts of four bytes can be large enough to matter.
@@ -109,7 +129,7 @@ public:
           if(p.is_list)
           {
             entries = read(p.size_type);
-            check_count(m_file, m_bytes, entries, "entries of " + p.name);
+            check_count(m_file, m_bytes, entries, "entries of " + in_quotes(p.name));
           }
           for(double j = 0; j < entries; ++j)
             read(p.type);
@@ -144,6 +164,26 @@ private:
       {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"},
       {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
     return names;
+  }
+
+  static bool is_vertex(const Element& element)
+  {
+    return element.name == "vertex" || element.name == "vertices";
+  }
+
+  static bool is_face(const Element& element)
+  {
+    return element.name == "face" || element.name == "faces";
+  }
+
+  static bool is_position(const Property& p)
+  {
+    return p.name == "x" || p.name == "y" || p.name == "z";
+  }
+
+  static bool is_corners(const Property& p)
+  {
+    return p.name == "vertex_indices" || p.name == "vertex_index";
   }
 
   static bool is_colour(const std::string& name)
@@ -222,7 +262,7 @@ private:
   double read()
   {
     Binary value{};
-    if(m_format == "ascii")
+    if(!is_binary())
     {
       Text number{};
       if constexpr(std::is_floating_point_v<Text>)
@@ -256,15 +296,19 @@ private:
 
 // Throws a std::runtime_error for errors that CGAL's reader of .ply files does not detect: counts
 // that are impossible, and properties of unexpected types. Files without a .ply header are left to
-// the reader.
-inline void check_ply_file(std::istream& in, const std::string& file, std::size_t bytes)
+// the reader. Inserts what a mesh of points and polygons does not have of the file into `dropped`.
+// Returns whether the file is binary. `is_thorough` after the reader has failed, to find out why.
+inline bool check_ply_file(std::istream& in, const std::string& file, std::size_t bytes,
+                           std::set<std::string>& dropped, bool is_thorough = false)
 {
   internal::Ply_layout layout(in, file, bytes);
   if(!layout.read_header())
-    return;
+    return false;
   layout.check_types();
-  if(layout.has_lists_of_any_size())
+  dropped.merge(layout.unread());
+  if(is_thorough || layout.has_lists_of_any_size())
     layout.check_lists();
+  return layout.is_binary();
 }
 
 } // namespace CGAL::ARAP::demo

@@ -15,6 +15,7 @@
 // Reads surfaces with CGAL. Its readers trust a file: input that would make them crash, or allocate
 // without bound, is refused here first.
 
+#include "check_obj_file.h"
 #include "check_off_file.h"
 #include "check_ply_file.h"
 #include "shape_files.h"
@@ -31,6 +32,9 @@
 #include <filesystem>
 #include <fstream>
 #include <ios>
+#include <istream>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -71,8 +75,8 @@ inline void remove_normals(Mesh& mesh)
   mesh.remove_property_map(normals);
 }
 
-// Returns whether CGAL could read the file.
-inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
+// Returns whether CGAL could read the file. Inserts what is not read of it into `dropped`.
+inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<std::string>& dropped)
 {
   const std::string extension = lower_case_extension(file);
   std::error_code ignored;
@@ -80,16 +84,17 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
     throw std::runtime_error(file + ": is not a regular file; surfaces must be, since they are "
                                     "read more than once");
   std::ifstream in = open_for_reading(file);
+  const auto begin = in.tellg();
   in.seekg(0, std::ios::end);
   const auto bytes = static_cast<std::size_t>(in.tellg());
-  const auto rewind = [&in] {
+  const auto rewind = [&in, begin] {
     in.clear();
-    in.seekg(0);
+    in.seekg(begin);
   };
   rewind();
   if(extension == ".off")
   {
-    check_off_file(in, file);
+    check_off_file(in, file, dropped);
     rewind();
     if(CGAL::IO::read_OFF(in, mesh)) // with its colours
     {
@@ -99,19 +104,32 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
     mesh.clear(); // read it again, to find the wrong face
     rewind();
   }
+  bool is_binary = false;
   if(extension == ".ply")
   {
-    check_ply_file(in, file, bytes);
+    is_binary = check_ply_file(in, file, bytes, dropped);
     rewind();
   }
+  std::stringstream obj;
+  if(extension == ".obj")
+    obj = check_obj_file(in, file, dropped);
   std::vector<Kernel::Point_3> points;
   Polygons polygons;
   const auto quiet = CGAL::parameters::verbose(false);
   const bool is_read = extension == ".off"   ? CGAL::IO::read_OFF(in, points, polygons, quiet)
-                       : extension == ".obj" ? CGAL::IO::read_OBJ(in, points, polygons, quiet)
+                       : extension == ".obj" ? CGAL::IO::read_OBJ(obj, points, polygons, quiet)
                        : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
                        : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
                                              : false;
+  if(!is_read && extension == ".ply")
+  {
+    rewind();
+    check_ply_file(in, file, bytes, dropped, true);
+  }
+  if(is_read && extension == ".ply")
+    check_end(in, file, "the elements that the header announces", is_binary);
+  if(is_read && extension == ".stl") // CGAL reads a text to its end
+    check_end(in, file, "the triangles that the header announces", true);
   if(is_read)
     build_mesh(file, points, polygons, mesh);
   return is_read && mesh.is_valid(false);
@@ -119,14 +137,15 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh)
 
 } // namespace internal
 
-// Reads a surface of triangles and polygons; all its coordinates are finite.
-inline Mesh read_mesh(const std::string& file)
+// Reads a surface of triangles and polygons; all its coordinates are finite. Inserts what the mesh
+// does not have of the file into `dropped`.
+inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
 {
   Mesh mesh;
   bool is_read = false;
   try
   {
-    is_read = internal::read_unchecked_mesh(file, mesh);
+    is_read = internal::read_unchecked_mesh(file, mesh, dropped);
   }
   catch(const std::logic_error&)
   {
@@ -149,6 +168,12 @@ inline Mesh read_mesh(const std::string& file)
                                std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
                                "least three");
   return mesh;
+}
+
+inline Mesh read_mesh(const std::string& file)
+{
+  std::set<std::string> dropped;
+  return read_mesh(file, dropped);
 }
 
 } // namespace CGAL::ARAP::demo

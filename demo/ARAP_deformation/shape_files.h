@@ -28,6 +28,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <istream>
+#include <limits>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -79,6 +81,22 @@ void insert_selection(Deformation& deformation, const std::vector<int>& selectio
   }
 }
 
+// Skips the byte order mark that some programs write at the start of a text.
+inline void skip_byte_order_mark(std::istream& in, const std::string& file)
+{
+  const int first = in.peek();
+  if(first != 0xEF && first != 0xFE && first != 0xFF) // no text starts with these bytes
+    return;
+  std::string mark(3, ' ');
+  in.read(mark.data(), 3);
+  if(mark == "\xEF\xBB\xBF")
+    return;
+  if(const std::string two = mark.substr(0, 2); two == "\xFF\xFE" || two == "\xFE\xFF")
+    throw std::runtime_error(file + ": is a text in UTF-16; save it in UTF-8");
+  in.clear();
+  in.seekg(0);
+}
+
 inline std::ifstream open_for_reading(const std::string& file)
 {
   std::error_code ignored;
@@ -89,6 +107,7 @@ inline std::ifstream open_for_reading(const std::string& file)
   std::ifstream in(file, std::ios::binary);
   if(!in)
     throw std::runtime_error(file + ": cannot be opened for reading");
+  skip_byte_order_mark(in, file);
   if(in.peek() == std::ifstream::traits_type::eof())
     throw std::runtime_error(file + ": is empty");
   return in;
@@ -102,16 +121,55 @@ inline std::string lower_case_extension(const std::string& file)
   return extension;
 }
 
-inline bool is_surface_file(const std::string& file)
+// Formats of meshes are lower-case extensions.
+inline bool is_surface_format(const std::string& format)
 {
-  const std::string extension = lower_case_extension(file);
-  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
+  return format == ".off" || format == ".obj" || format == ".ply" || format == ".stl";
 }
 
-inline bool is_tetrahedra_file(const std::string& file)
+inline bool is_tetrahedra_format(const std::string& format) { return format == ".mesh"; }
+
+inline bool is_mesh_format(const std::string& format)
 {
-  return lower_case_extension(file) == ".mesh";
+  return is_surface_format(format) || is_tetrahedra_format(format);
 }
+
+// The format of an output: a pipe or a device whose name does not tell it gets that of the input.
+inline std::string output_format(const std::string& output, const std::string& input)
+{
+  const std::string format = lower_case_extension(output);
+  return is_mesh_format(format) || !is_written_directly(output) ? format
+                                                                : lower_case_extension(input);
+}
+
+// The words of a text. White space separates them; # starts a comment.
+class Words
+{
+public:
+  explicit Words(std::string_view text, std::size_t position = 0)
+    : m_text(text), m_begin(position), m_end(position)
+  {}
+
+  // the next word; empty at the end of the text
+  std::string_view next()
+  {
+    const auto or_end = [this](std::size_t place) { return (std::min)(place, m_text.size()); };
+    m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v", m_end));
+    while(m_begin < m_text.size() && m_text[m_begin] == '#')
+      m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v",
+                                                or_end(m_text.find('\n', m_begin))));
+    m_end = or_end(m_text.find_first_of(" \t\r\n\f\v#", m_begin));
+    return m_text.substr(m_begin, m_end - m_begin);
+  }
+
+  // the positions of the last word and of its end
+  std::size_t begin() const { return m_begin; }
+  std::size_t end() const { return m_end; }
+
+private:
+  std::string_view m_text;
+  std::size_t m_begin, m_end;
+};
 
 // Calls f(line, line number) for each line of a file that has more than a comment.
 template <typename Function>
@@ -127,7 +185,8 @@ void for_each_line(const std::string& file, const Function& f)
   }
 }
 
-inline std::runtime_error bad_line(const std::string& file, int number, const std::string& what)
+inline std::runtime_error bad_line(const std::string& file, std::size_t number,
+                                   const std::string& what)
 {
   return std::runtime_error(file + ", line " + std::to_string(number) + ": " + what);
 }
@@ -139,6 +198,26 @@ inline std::string in_quotes(std::string_view word)
   for(char& c : text)
     c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
   return "'" + text + "'";
+}
+
+// Throws if more than white space and comments is left of a file in which `contents` was read.
+inline void check_end(std::istream& in, const std::string& file, const std::string& contents,
+                      bool is_binary = false)
+{
+  in.clear();
+  char c = 0;
+  while((in >> c) && c == '#')
+    in.ignore((std::numeric_limits<std::streamsize>::max)(), '\n');
+  if(!in)
+    return;
+  if(is_binary)
+    throw std::runtime_error(file + ": has more than " + contents);
+  std::size_t line = 1;
+  const std::streamoff end = in.tellg();
+  in.seekg(0);
+  for(std::streamoff i = 0; i < end; ++i)
+    line += in.get() == '\n';
+  throw bad_line(file, line, "there is more than " + contents);
 }
 
 // One status per line and vertex: 0 fixed, 1 free, 2 handle.
@@ -200,9 +279,9 @@ inline Transform read_transform(const std::string& file)
 }
 
 // Throws if the format of the file cannot store the mesh.
-inline void check_format(const std::string& file, const Mesh& mesh)
+inline void check_format(const std::string& file, const std::string& format, const Mesh& mesh)
 {
-  if(lower_case_extension(file) != ".stl")
+  if(format != ".stl")
     return;
   for(Mesh::Face_index f : mesh.faces())
     if(mesh.degree(f) > 3)
@@ -212,16 +291,29 @@ inline void check_format(const std::string& file, const Mesh& mesh)
                                "files can hold polygons");
 }
 
-inline void write_mesh(Output_file& file, const Mesh& mesh,
-                       const std::string& extension = ".off")
+inline bool has_colours(const Mesh& mesh)
+{
+  const auto vertex_properties = mesh.properties<Mesh::Vertex_index>();
+  const auto face_properties = mesh.properties<Mesh::Face_index>();
+  return std::count(vertex_properties.begin(), vertex_properties.end(), "v:color") > 0 ||
+         std::count(face_properties.begin(), face_properties.end(), "f:color") > 0;
+}
+
+inline bool has_isolated_vertices(const Mesh& mesh)
+{
+  return std::any_of(mesh.vertices().begin(), mesh.vertices().end(),
+                     [&mesh](Mesh::Vertex_index v) { return mesh.is_isolated(v); });
+}
+
+inline void write_mesh(Output_file& file, const Mesh& mesh, const std::string& format = ".off")
 {
   file.write([&](std::ostream& out) {
     const auto precise = CGAL::parameters::stream_precision(17);
-    if(extension == ".ply" || extension == ".stl")
+    if(format == ".ply" || format == ".stl")
       CGAL::IO::set_binary_mode(out);
-    const bool is_written = extension == ".off" ? CGAL::IO::write_OFF(out, mesh, precise)
-                          : extension == ".obj" ? CGAL::IO::write_OBJ(out, mesh, precise)
-                          : extension == ".ply" ? CGAL::IO::write_PLY(out, mesh, precise)
+    const bool is_written = format == ".off" ? CGAL::IO::write_OFF(out, mesh, precise)
+                          : format == ".obj" ? CGAL::IO::write_OBJ(out, mesh, precise)
+                          : format == ".ply" ? CGAL::IO::write_PLY(out, mesh, precise)
                                                 : CGAL::IO::write_STL(out, mesh, precise);
     if(!is_written)
       out.setstate(std::ios::failbit);
