@@ -460,9 +460,10 @@ public:
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly: a run from it has the same
-  /// iterates again. What is prepared for the same region serves as it is. Linear time. Vertices
-  /// that have entered the region of interest since return to where they were before. Returns
-  /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another mesh.
+  /// iterates again, up to rounding. What is prepared for the same region serves as it is. Linear
+  /// time. Vertices that have entered the region of interest since return to where they were
+  /// before. Returns `ARAP::Status::foreign_state`, and changes nothing, if the state is of another
+  /// mesh.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
 

@@ -88,7 +88,9 @@ public:
     return outcome(Status::success);
   }
 
-  // how many vertices are controls, and those of them that have no incident simplex, by index
+  // how many vertices are in the region of interest, how many are controls, and those of these that
+  // have no incident simplex, by index
+  std::size_t roi_size() const { return m_roi_size; }
   std::size_t number_of_controls() const { return m_number_of_controls; }
   const std::vector<std::size_t>& isolated_controls() const { return m_isolated_controls; }
 
@@ -242,6 +244,7 @@ private:
     }
     m_soft_vertices = std::move(soft_vertices);
     m_isolated_controls = std::move(isolated_controls);
+    m_roi_size = roi_size;
     m_number_of_controls = number_of_controls;
     m_ready = m_present;
     return result;
@@ -383,7 +386,7 @@ private:
   std::optional<Prepared> m_prepared; // what was last prepared with success
   std::vector<int> m_soft_vertices;
   std::vector<std::size_t> m_isolated_controls;
-  std::size_t m_number_of_controls = 0;
+  std::size_t m_roi_size = 0, m_number_of_controls = 0;
   Versions m_present = {1, 1}, m_ready = {none, none};
   std::size_t m_last_version = 1, m_last_numbering = none;
 };

@@ -419,7 +419,7 @@ protected:
   void describe(Outcome& result, const Report& report) const
   {
     if(report.free_vertices == 0)
-      result.message = about_nothing_free(report.simplices == 0);
+      result.message = about_nothing_free(m_prepared.roi_size() == 0);
     else if(m_prepared.number_of_controls() == 0)
       result.message += "; there is no control vertex";
     result.message += about_isolated_controls(m_prepared.isolated_controls());

@@ -1,0 +1,622 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// What a new user does first, and meets first: runs whose minimum is zero, short ways in, undo,
+// points that others move, weights that change, and messages on what did not move.
+
+#include "include/check.h"
+#include "include/domains.h"
+#include "include/length.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Edge_map_weight.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/Aff_transformation_3.h>
+#include <CGAL/arap_deform.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+using CGAL::ARAP::Cell_scheme;
+using CGAL::ARAP::Initial_guess;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Options;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+using Vertex = Mesh::Vertex_index;
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+using Indices = std::vector<std::size_t>;
+
+// a sheet with ripples; vertex i * (n + 1) + j is in row i
+Shape sheet(int n)
+{
+  return grid("sheet of " + std::to_string(n), n, n, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0.05 * std::sin(7 * u) * std::cos(5 * v));
+  });
+}
+
+bool says(const CGAL::ARAP::Outcome& outcome, const std::string& part)
+{
+  if(outcome.message.find(part) != std::string::npos)
+    return true;
+  std::cerr << "    the message was: " << outcome.message << std::endl;
+  return false;
+}
+
+// Runs whose minimum is zero.
+namespace rigid {
+
+// Moves handles rigidly, one motion after the other, and nothing else is fixed.
+template <typename Domain>
+void test_shape(const std::string& name, const Domain& domain, std::vector<Point>& points,
+                const Indices& handles, double weight, Minimizer minimizer)
+{
+  const std::vector<Point> rest = points;
+  CGAL::ARAP_deformation<Domain> d(domain);
+  Options options;
+  options.minimizer = minimizer;
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(domain.vertices());
+  for(std::size_t v : handles)
+  {
+    d.insert_control_vertex(v);
+    CHECK(d.set_target_weight(v, weight));
+  }
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for(const auto& step : {rigid_motion(0, Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -2, 5)),
+                          rigid_motion(1.1, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(0, 0.1, 0)),
+                          rigid_motion(3.1, Eigen::Vector3d(1, 0, 3), Eigen::Vector3d(40, 0, 0))})
+  {
+    test_case() = name + ", " + std::to_string(handles.size()) + " handles, weight " +
+                  std::to_string(weight);
+    motion = step * motion;
+    for(std::size_t v : handles)
+      CHECK(d.set_target_position(v, point(motion * vector(rest[v]))));
+    const Report report = d.deform();
+    CHECK(report.status == Status::converged);
+    CHECK_AT_MOST(report.iterations, 30);
+    CHECK_AT_MOST(report.final_energy(), 1e-15 * report.energy_scale);
+    double error = 0;
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(handles.size() > 2) // or the rotation is not determined
+        error = larger(error, (vector(points[v]) - motion * vector(rest[v])).norm());
+    CHECK_AT_MOST(error, 1e-9);
+  }
+}
+
+void test_motions()
+{
+  for(double weight : {std::numeric_limits<double>::infinity(), 1.0, 1e-3})
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      for(int n : is_long_run() ? std::vector<int>{20, 60, 200, 400} : std::vector<int>{20, 60})
+        for(bool is_one : {true, false})
+        {
+          const Shape shape = sheet(n);
+          std::vector<Point> points = points_of(shape.points);
+          const std::size_t last = points.size() - 1;
+          CGAL::ARAP::Polygon_soup_domain<std::vector<Point>,
+                                          std::vector<std::array<std::size_t, 3>>>
+            domain(points, shape.triangles);
+          test_shape(shape.name, domain, points,
+                     is_one ? Indices{0} : Indices{0, last / 2 + 3, last, std::size_t(n)}, weight,
+                     minimizer);
+        }
+      const Block shape = block(is_long_run() ? 20 : 6, 5, 4);
+      for(const Indices& handles : {Indices{0}, Indices{0, 1, 50, shape.points.size() - 1}})
+      {
+        std::vector<Point> points = points_of(shape.points);
+        CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
+                                            std::vector<std::array<std::size_t, 4>>>
+          domain(points, shape.tetrahedra);
+        test_shape("block", domain, points, handles, weight, minimizer);
+      }
+    }
+}
+
+// A shape at rest is left alone, to the last bit; a handle that goes far away and comes back, or a
+// deformed shape that returns, ends at rest.
+void test_returns()
+{
+  for(double distance : {0.3, 1e3, 1e12})
+  {
+    test_case() = "a handle that goes by " + std::to_string(distance) + " and returns";
+    Mesh mesh = make_mesh<Mesh>(sheet(20));
+    const Mesh rest = mesh;
+    Deformation d(mesh);
+    d.insert_roi_vertices(vertices(mesh));
+    for(int j = 0; j <= 20; ++j)
+    {
+      d.insert_control_vertex(Vertex(j));
+      d.insert_control_vertex(Vertex(20 * 21 + j));
+    }
+    CHECK(d.deform().iterations == 0);
+    CHECK(same_points(mesh, rest));
+    const Vertex handle(20 * 21);
+    CHECK(d.translate(handle, Eigen::Vector3d(0, 0, distance)));
+    const Report away = d.deform();
+    CHECK(away.status == Status::converged);
+    CHECK(d.set_target_position(handle, rest.point(handle)));
+    const Report back = d.deform();
+    CHECK(back.status == Status::converged);
+    CHECK_AT_MOST(largest_distance(points_of(mesh), points_of(rest)), 1e-4);
+    CHECK(CGAL::ARAP::first_rise_of_energy(away) == 0);
+    CHECK(CGAL::ARAP::first_rise_of_energy(back) == 0);
+  }
+}
+
+} // namespace rigid
+
+// Undo and redo, and points that others move.
+namespace undo {
+
+// A session, a frame of it, and what the frame led to.
+struct Session
+{
+  Mesh mesh = make_mesh<Mesh>(sheet(12));
+  Deformation d{mesh};
+
+  Session()
+  {
+    for(Vertex v : mesh.vertices())
+      if(v >= Vertex(13))
+        d.insert_roi_vertex(v);
+    d.insert_control_vertex(Vertex(168), Point(1, 1, 0.5));
+  }
+};
+
+void test_state()
+{
+  Session s;
+  CHECK(s.d.deform(4, 0));
+  const Mesh before = s.mesh;
+  const auto state = s.d.state();
+  const Report next = s.d.deform(3, 0);
+  const Mesh after = s.mesh;
+  const auto later = s.d.state();
+
+  const auto go_back = [&](const char* name) {
+    test_case() = name;
+    CHECK(s.d.restore(state));
+    CHECK(same_points(s.mesh, before));
+    CHECK(s.d.control_vertices().size() == 1 && s.d.roi_vertices().size() == 156);
+    const Report again = s.d.deform(3, 0);
+    CHECK_AT_MOST(largest_distance(points_of(s.mesh), points_of(after)), 1e-12);
+    CHECK_AT_MOST(std::abs(again.final_energy() - next.final_energy()), 1e-12 * next.energy_scale);
+    return again;
+  };
+  CHECK(!go_back("undo of a run").stages.factor);
+
+  CHECK(s.d.translate(Vertex(168), Eigen::Vector3d(0, 0, 1)));
+  s.d.insert_control_vertex(Vertex(100), Point(3, 0, 0));
+  CHECK(s.d.deform(5, 0));
+  const Report handles = go_back("undo of handles");
+  CHECK(!handles.stages.region && !handles.stages.order);
+
+  s.d.insert_roi_vertices(vertices(s.mesh)); // one more row, which the state does not know
+  s.d.insert_control_vertex(Vertex(0), Point(0, 0, -1));
+  CHECK(s.d.deform(5, 0));
+  s.d.overwrite_initial_geometry();
+  CHECK(s.d.translate(Vertex(0), Eigen::Vector3d(0, 0, -1)));
+  CHECK(s.d.deform(5, 0));
+  go_back("undo of a region and of a rest shape");
+  CHECK(!s.d.is_roi_vertex(Vertex(0)));
+
+  test_case() = "redo";
+  CHECK(s.d.restore(state));
+  CHECK(s.d.restore(later));
+  CHECK(same_points(s.mesh, after));
+  s.d.reset();
+  CHECK(s.d.restore(later));
+  CHECK(same_points(s.mesh, after));
+
+  test_case() = "a state of another mesh";
+  Mesh other = make_mesh<Mesh>(sheet(5));
+  Deformation d(other);
+  d.insert_roi_vertex(Vertex(7));
+  const Mesh untouched = other;
+  CHECK(d.restore(later).status == Status::foreign_state);
+  CHECK(same_points(other, untouched) && d.roi_vertices().size() == 1);
+}
+
+// A modeller who writes old points back goes on from there.
+void test_points_of_others()
+{
+  test_case() = "points of others";
+  Session s;
+  CHECK(s.d.deform(4, 0));
+  const Mesh before = s.mesh;
+  CHECK(s.d.translate(Vertex(168), Eigen::Vector3d(0, 0, 2)));
+  CHECK(s.d.deform(20, 0));
+  for(Vertex v : s.mesh.vertices())
+    s.mesh.point(v) = before.point(v);
+  CHECK(s.d.set_target_position(Vertex(168), before.point(Vertex(168))));
+  const Report nothing = s.d.deform(0, 0);
+  CHECK(same_points(s.mesh, before));
+  Session fresh;
+  const Report first = fresh.d.deform(4, 0);
+  CHECK_AT_MOST(std::abs(nothing.final_energy() - first.final_energy()),
+                1e-10 * first.final_energy());
+
+  // also what is fixed around the region of interest
+  s.mesh.point(Vertex(3)) = Point(0, 0.25, -1);
+  const Report pulled = s.d.deform(0, 0);
+  CHECK(pulled.final_energy() > 2 * nothing.final_energy());
+  CHECK(s.mesh.point(Vertex(3)) == Point(0, 0.25, -1));
+
+  test_case() = "points of others that are no numbers";
+  const Point sound = s.mesh.point(Vertex(50));
+  s.mesh.point(Vertex(50)) = Point(0, std::nan(""), 0);
+  const Report broken = s.d.deform(2, 0);
+  CHECK(broken.status == Status::non_finite_point);
+  CHECK(says(broken, "vertex 50"));
+  s.mesh.point(Vertex(50)) = sound;
+  CHECK(s.d.deform(2, 0));
+}
+
+} // namespace undo
+
+// Weights of a user: they count from the next run on, and what is singular is refused.
+namespace user_weights {
+
+using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Edge_map_weight>;
+
+void test_changes()
+{
+  for(const Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+  {
+    test_case() = "weights that change";
+    const Shape shape = sheet(10);
+    Mesh mesh = make_mesh<Mesh>(shape), other = mesh;
+    CGAL::ARAP::Edge_map_weight weight;
+    for(auto e : mesh.edges())
+      weight.set_weight(mesh.vertex(e, 0), mesh.vertex(e, 1), 1);
+    Options options;
+    options.cells = cells;
+    const auto start = [&](Mesh& m) {
+      CGAL::ARAP_deformation<Mesh, Traits> d(m, Traits({}, weight));
+      CHECK(d.set_options(options));
+      prepare(d, scenario(shape), all_vertices(m));
+      return d;
+    };
+    auto d = start(mesh);
+    CHECK(d.deform(300, 1e-9));
+    for(auto e : mesh.edges())
+      if(mesh.vertex(e, 0) % 3 == 0)
+        weight.set_weight(mesh.vertex(e, 0), mesh.vertex(e, 1), 5);
+    const Report changed = d.deform(1000, 1e-9);
+    CHECK(changed.stages.weights && changed.stages.factor);
+    CHECK(!changed.stages.region && !changed.stages.order);
+    auto fresh = start(other);
+    const Report expected = fresh.deform(1000, 1e-9);
+    CHECK_AT_MOST(std::abs(changed.final_energy() - expected.final_energy()),
+                  1e-6 * expected.final_energy());
+    CHECK(!d.deform(1, 0).stages.weights);
+
+    const std::vector<Point> before = points_of(mesh);
+    weight.set_weight(60, 61, std::nan(""));
+    CHECK(d.deform(5, 0).status == Status::non_finite_weight);
+    CHECK(points_of(mesh) == before);
+    weight.set_weight(60, 61, 2);
+    CHECK(d.deform(5, 0));
+  }
+}
+
+// Two free vertices whose matrix is [[2, -1], [-1, 1/2]], up to scale and rounding: its determinant
+// is zero.
+void test_singular()
+{
+  for(double weight : {-0.5 * (1 + 1e-15), -0.5 * (1 - 1e-15)})
+  {
+    test_case() = "a singular matrix of signed weights";
+    std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    const std::vector<Point> rest = points;
+    const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}};
+    using Domain = CGAL::ARAP::Polygon_soup_domain<std::vector<Point>,
+                                                   std::vector<std::array<int, 3>>>;
+    CGAL::ARAP::Edge_map_weight weights;
+    weights.set_weight(0, 1, 1);
+    weights.set_weight(1, 2, 1);
+    weights.set_weight(0, 2, weight);
+    CGAL::ARAP_deformation<Domain, Traits> d(Domain(points, triangles), Traits({}, weights));
+    Options options;
+    options.cells = Cell_scheme::spokes();
+    CHECK(d.set_options(options));
+    d.insert_roi_vertices(d.domain().vertices());
+    d.insert_control_vertex(0, Point(0, 0, 1));
+    const Report report = d.deform(5, 0);
+    CHECK(report.status == Status::singular_matrix);
+    CHECK(report.energy.empty() && std::isnan(report.final_energy()));
+    CHECK(points == rest);
+  }
+}
+
+} // namespace user_weights
+
+// What did not move is said.
+namespace messages {
+
+void test_messages()
+{
+  Mesh mesh = make_mesh<Mesh>(sheet(6));
+  {
+    test_case() = "no region";
+    Deformation d(mesh);
+    CHECK(says(d.deform(), "the region of interest is empty"));
+    d.insert_control_vertex(Vertex(0), Point(0, 0, 1));
+    d.insert_control_vertex(Vertex(1));
+    CHECK(says(d.deform(), "nothing is free to move: every vertex of the region of interest"));
+  }
+  {
+    test_case() = "no handle";
+    Deformation d(mesh);
+    for(int k = 10; k < 20; ++k)
+      d.insert_roi_vertex(Vertex(k));
+    CHECK(says(d.deform(), "there is no control vertex"));
+    d.insert_roi_vertices(vertices(mesh));
+    CHECK(d.deform().status == Status::no_fixed_vertex);
+  }
+  {
+    test_case() = "an isolated handle";
+    const Vertex isolated = mesh.add_vertex(Point(5, 5, 5));
+    Deformation d(mesh);
+    d.insert_roi_vertices(vertices(mesh));
+    d.insert_control_vertex(isolated, Point(6, 6, 6));
+    d.insert_control_vertex(Vertex(0));
+    const Report report = d.deform();
+    CHECK(report && says(report, "vertex 49: a control vertex without an incident simplex"));
+    CHECK(mesh.point(isolated) == Point(6, 6, 6));
+  }
+}
+
+// The phases add up to the total, for a frame whose time is that of reading and writing as well.
+void test_seconds()
+{
+  test_case() = "seconds";
+  const Block shape = block(16, 12, 10);
+  std::vector<Point> points = points_of(shape.points);
+  using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
+                                                     std::vector<std::array<std::size_t, 4>>>;
+  CGAL::ARAP_deformation<Domain> d(Domain(points, shape.tetrahedra));
+  d.insert_roi_vertices(d.domain().vertices());
+  d.insert_control_vertex(0, Point(0, 0, -1));
+  for(std::size_t v = 1; v < 30; ++v)
+    d.insert_control_vertex(v);
+  double sum = 0, total = 0;
+  for(int k = 0; k < 5; ++k)
+  {
+    const CGAL::ARAP::Phase_seconds s = d.deform(2, 0, [](const auto&) {
+      volatile double x = 0;
+      for(int i = 0; i < 100000; ++i)
+        x = x + i;
+      return CGAL::ARAP::Visitor_action::proceed;
+    }).seconds;
+    CHECK(s.visitor > 0 && s.transfer > 0 && s.local_steps > 0 && s.global_steps > 0);
+    sum += s.preprocess + s.transfer + s.initial_guess + s.local_steps + s.global_steps + s.visitor;
+    total += s.total;
+  }
+  CHECK_AT_MOST(sum, total);
+  CHECK_AT_MOST(0.8 * total, sum);
+}
+
+} // namespace messages
+
+// The short ways in.
+namespace short_ways {
+
+void test_one_call()
+{
+  const Mesh rest = make_mesh<Mesh>(sheet(8));
+  const auto is_fixed = [](Vertex v) { return v < Vertex(9); };
+  const std::map<Vertex, Point> targets = {{Vertex(80), Point(1, 1, 0.5)},
+                                           {Vertex(40), rest.point(Vertex(40))}};
+  const auto run = [&](const char* name, const auto& call) {
+    test_case() = name;
+    Mesh mesh = rest;
+    const Report report = call(mesh);
+    CHECK(report && report.iterations > 0);
+    CHECK(mesh.point(Vertex(80)) == Point(1, 1, 0.5));
+    return points_of(mesh);
+  };
+  namespace parameters = CGAL::parameters;
+  const auto expected = run("a map", [&](Mesh& mesh) {
+    return CGAL::arap_deform(mesh, targets, parameters::vertex_is_constrained_map(is_fixed));
+  });
+  CHECK(run("pairs", [&](Mesh& mesh) {
+    const std::vector<std::pair<Vertex, Point>> pairs(targets.begin(), targets.end());
+    std::map<Vertex, bool> constrained;
+    for(Vertex v : mesh.vertices())
+      if(is_fixed(v)) constrained[v] = true;
+    return CGAL::arap_deform(mesh, pairs, parameters::vertex_is_constrained_map(constrained));
+  }) == expected);
+  CHECK(run("functions", [&](Mesh& mesh) {
+    return CGAL::arap_deform(
+      mesh, [&](Vertex v) { return is_fixed(v) || targets.count(v) > 0; },
+      [&](Vertex v) { return is_fixed(v) ? rest.point(v) : targets.at(v); });
+  }) == expected);
+  CHECK(run("vectors", [&](Mesh& mesh) {
+    std::vector<bool> constrained;
+    for(Vertex v : mesh.vertices())
+      constrained.push_back(is_fixed(v) || targets.count(v) > 0);
+    return CGAL::arap_deform(mesh, constrained, targets, Options());
+  }) == expected);
+
+  Options options;
+  options.iterations = 2;
+  options.tolerance = 0;
+  const auto few = run("options", [&](Mesh& mesh) {
+    const Report report = CGAL::arap_deform(
+      mesh, targets, parameters::deformation_options(options).vertex_is_constrained_map(is_fixed));
+    CHECK(report.iterations == 2);
+    return report;
+  });
+  CHECK(few != expected);
+  CHECK(run("options last", [&](Mesh& mesh) {
+    const auto np = parameters::vertex_is_constrained_map(is_fixed).number_of_iterations(2);
+    return CGAL::arap_deform(mesh, targets, parameters::deformation_options(options, np));
+  }) == few);
+  run("traits and region", [&](Mesh& mesh) {
+    using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
+    std::vector<Vertex> region;
+    for(Vertex v : mesh.vertices())
+      if(v > Vertex(30)) region.push_back(v);
+    const Report report = CGAL::arap_deform(
+      mesh, targets, parameters::region_of_interest(region, parameters::deformation_traits(Traits())));
+    CHECK(report.free_vertices == 48);
+    for(int v = 0; v < 30; ++v)
+      CHECK(mesh.point(Vertex(v)) == rest.point(Vertex(v)));
+    return report;
+  });
+
+  test_case() = "soft targets";
+  Mesh mesh = rest;
+  CHECK(CGAL::arap_deform(mesh, targets, parameters::target_weight(
+    0.1, parameters::vertex_is_constrained_map(is_fixed))));
+  CHECK(mesh.point(Vertex(80)) != Point(1, 1, 0.5));
+
+  test_case() = "a const mesh and an output map";
+  auto output = mesh.add_property_map<Vertex, Point>("v:output").first;
+  const Mesh& constant = mesh;
+  const std::vector<Point> before = points_of(mesh);
+  CHECK(CGAL::arap_deform(constant, targets, parameters::output_point_map(output)));
+  CHECK(points_of(mesh) == before && output[Vertex(80)] == Point(1, 1, 0.5));
+}
+
+void test_class()
+{
+  test_case() = "deduction, ranges and transformations";
+  const Mesh rest = make_mesh<Mesh>(sheet(8));
+  Mesh mesh = rest;
+  auto points = mesh.add_property_map<Vertex, Point>("v:other").first;
+  for(Vertex v : mesh.vertices())
+    points[v] = Point(2 * rest.point(v).x(), rest.point(v).y(), 0);
+  CGAL::ARAP_deformation d(mesh, CGAL::parameters::vertex_point_map(points));
+  d.insert_roi_vertices(vertices(mesh));
+  const std::vector<Vertex> handles = {Vertex(0), Vertex(40), Vertex(80)};
+  d.insert_control_vertices(handles);
+  const Kernel::Vector_3 up(0, 0, 1);
+  const CGAL::Aff_transformation_3<Kernel> twice(CGAL::SCALING, 2), lift(CGAL::TRANSLATION, up);
+  CHECK(d.transform(handles, twice));
+  CHECK(d.target_position(Vertex(80)) == Point(4, 2, 0));
+  CHECK(d.transform(handles, lift));
+  CHECK(d.target_position(Vertex(80)) == Point(4, 2, 1));
+  CHECK(d.transform(handles, lift, CGAL::ARAP::Transformed::rest_shape));
+  CHECK(d.target_position(Vertex(80)) == Point(2, 1, 1));
+  CHECK(d.translate(handles, up));
+  CHECK(d.rotate(handles, Eigen::Vector3d(0, 0, 0),
+                 Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()))));
+  CHECK(d.set_target_weight(handles, 10));
+  CHECK(!d.set_target_weight(handles, -1));
+  CHECK(!d.insert_control_vertex(Vertex(0), Point(0, 0, 2)));
+  CHECK(d.target_position(Vertex(0)) == Point(0, 0, 2));
+  CHECK(d.deform());
+  CHECK(points_of(mesh) == points_of(rest));
+  CGAL::ARAP_deformation plain(mesh);
+  static_assert(std::is_same_v<decltype(plain), Deformation>);
+}
+
+} // namespace short_ways
+
+// The guess of naive Laplacian editing.
+namespace guess {
+
+// || L x - L p || with star weights of one, over the free vertices and their neighbours
+double residual(const Mesh& mesh, const Mesh& rest)
+{
+  double sum = 0;
+  for(Vertex v : mesh.vertices())
+  {
+    Eigen::Vector3d row = Eigen::Vector3d::Zero();
+    for(Vertex w : mesh.vertices_around_target(mesh.halfedge(v)))
+      row += vector(mesh.point(v)) - vector(mesh.point(w)) - vector(rest.point(v)) +
+             vector(rest.point(w));
+    sum += row.squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+// It does not depend on what was before, and is a minimum. A hub with thousands of neighbours costs
+// no more than others.
+void test_guess()
+{
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
+  const int spokes = short_or_long(1000, 5000);
+  Shape wheel{"wheel", {Eigen::Vector3d::Zero()}, {}};
+  for(int k = 0; k < spokes; ++k)
+  {
+    const double angle = 2 * std::acos(-1.0) * k / spokes;
+    wheel.points.push_back({std::cos(angle), std::sin(angle), 0.1 * std::sin(5 * angle)});
+    wheel.triangles.push_back({0, std::size_t(1 + k), std::size_t(1 + (k + 1) % spokes)});
+  }
+  for(const Shape& shape : {sheet(16), wheel})
+  {
+    test_case() = "guess, " + shape.name;
+    const Mesh rest = make_mesh<Mesh>(shape);
+    Mesh mesh = rest, other = rest;
+    Options options;
+    options.initial_guess = Initial_guess::laplacian;
+    const auto start = [&](Mesh& m) {
+      CGAL::ARAP_deformation<Mesh, Traits> d(m);
+      CHECK(d.set_options(options));
+      prepare(d, scenario(shape), all_vertices(m));
+      return d;
+    };
+    auto d = start(mesh);
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    auto e = start(other);
+    CHECK(e.translate(e.control_vertices(), Eigen::Vector3d(1e3, 0, 7)));
+    CHECK(e.deform(9, 0));
+    CHECK(e.translate(e.control_vertices(), Eigen::Vector3d(-1e3, 0, -7)));
+    CHECK(e.deform(0, 0));
+    CHECK_AT_MOST(largest_distance(points_of(mesh), points_of(other)), 1e-6);
+
+    const double minimum = residual(mesh, rest);
+    const Scenario s = scenario(shape);
+    for(std::size_t v = 0; v < s.selection.size(); v += 37)
+      if(s.selection[v] == 1)
+        for(double step : {1e-3, -1e-3})
+        {
+          Mesh moved = mesh;
+          moved.point(Vertex(Vertex::size_type(v))) =
+            mesh.point(Vertex(Vertex::size_type(v))) + Kernel::Vector_3(0, step, step);
+          CHECK(residual(moved, rest) > minimum);
+        }
+  }
+}
+
+} // namespace guess
+
+int main()
+{
+  rigid::test_motions();
+  rigid::test_returns();
+  undo::test_state();
+  undo::test_points_of_others();
+  user_weights::test_changes();
+  user_weights::test_singular();
+  messages::test_messages();
+  messages::test_seconds();
+  short_ways::test_one_call();
+  short_ways::test_class();
+  guess::test_guess();
+  return checks_result();
+}
