@@ -31,7 +31,8 @@ namespace ARAP {
 /// of \cgalCite{Sorkine2007AsRigidAs}, whose \f$S\f$ is \f$C^T\f$). The decomposition is computed
 /// by one-sided Jacobi rotations, which are accurate for small singular values too. Where the
 /// closest rotation is not unique the choice is fixed: for a matrix of rank one the smallest
-/// rotation among the closest ones, for the zero matrix the identity.
+/// rotation among the closest ones, for the zero matrix the identity. A matrix
+/// with an infinite or NaN entry counts as the zero matrix.
 ///
 /// \cgalModels{ARAPClosestRotation}
 class SVD_closest_rotation
