@@ -6,7 +6,16 @@ if(NOT TARGET ARAP_deformation_core)
               ${CMAKE_CURRENT_LIST_DIR}/../src/ARAP_deformation/core.cpp)
   target_compile_features(ARAP_deformation_core PUBLIC cxx_std_17)
   target_compile_definitions(ARAP_deformation_core PUBLIC CGAL_ARAP_DEFORMATION_COMPILED)
-  target_include_directories(ARAP_deformation_core PUBLIC ${CMAKE_CURRENT_LIST_DIR}/../include)
+  target_include_directories(ARAP_deformation_core PRIVATE ${CMAKE_CURRENT_LIST_DIR}/../include)
+  target_include_directories(ARAP_deformation_core SYSTEM INTERFACE # no warnings of any kind
+                             ${CMAKE_CURRENT_LIST_DIR}/../include)
   target_link_libraries(ARAP_deformation_core PUBLIC CGAL::CGAL CGAL::Eigen3_support
                                                      ARAP_deformation_accelerators)
+  # optimized too where nothing says how
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES
+     AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_FLAGS MATCHES "-O")
+    message(STATUS "NOTICE: CMAKE_BUILD_TYPE is not set: the library ARAP_deformation_core is "
+                   "optimized, what is linked with it is not. Release optimizes both.")
+    target_compile_options(ARAP_deformation_core PRIVATE -O3)
+  endif()
 endif()

@@ -388,6 +388,35 @@ void check_independence()
     CHECK(are_same_bits(fitted[k], fitted_scaled[k]));
 }
 
+// What is no matrix of numbers, wherever its entries are: the identity, as for the zero matrix.
+void check_no_numbers()
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  Matrices covariances, starts;
+  for(double bad : {nan, infinity, -infinity})
+    for(const Matrix& regular : {Matrix(Matrix::Zero()), random_rotation()})
+      for(std::size_t k = 0; k < 10; ++k)
+        for(double second : {nan, infinity, -infinity, 0.})
+        {
+          Matrix_3x3 c = flat(regular);
+          c[k % 9] = bad;
+          c[(k + 4) % 9] = second;
+          if(k == 9)
+            c.fill(bad);
+          covariances.push_back(c);
+          starts.push_back(flat(random_rotation()));
+        }
+  test_case() = "no numbers, by singular value decomposition";
+  for(const Matrix_3x3& r : fit(SVD_closest_rotation(), covariances, starts))
+    CHECK(dense(r) == Matrix::Identity());
+  test_case() = "no numbers, by Newton's method";
+  for(const Matrix_3x3& r : fit(Newton_closest_rotation(), covariances, starts))
+    CHECK(dense(r) == Matrix::Identity());
+  for(const Matrix_3x3& r : fit(Plain_newton(), covariances, starts))
+    CHECK(dense(r) == Matrix::Identity());
+}
+
 // Rotations that are handed from call to call stay rotations, and the closest ones.
 void check_drift()
 {
@@ -419,6 +448,7 @@ void test_all()
 {
   check_all_starts();
   check_independence();
+  check_no_numbers();
   check_drift();
 }
 

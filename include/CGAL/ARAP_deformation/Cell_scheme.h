@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_CELL_SCHEME_H
 #define CGAL_ARAP_DEFORMATION_CELL_SCHEME_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 namespace CGAL {

@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_FACE_GRAPH_DOMAIN_H
 #define CGAL_ARAP_DEFORMATION_FACE_GRAPH_DOMAIN_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>

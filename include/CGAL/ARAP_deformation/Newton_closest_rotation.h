@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_NEWTON_CLOSEST_ROTATION_H
 #define CGAL_ARAP_DEFORMATION_NEWTON_CLOSEST_ROTATION_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
@@ -30,8 +31,8 @@ namespace ARAP {
 /// radian away; otherwise a second one follows. A Hessian of the trace of \f$R^T C\f$ that is
 /// safely definite proves that the result is the closest rotation, for negative determinants too.
 /// If four steps do not reach that, as for matrices of rank one, whose closest rotation is not
-/// unique, the result is that of `SVD_closest_rotation`. A previous matrix that is no rotation
-/// counts as the identity.
+/// unique, or with infinite or NaN entries, the result is that of `SVD_closest_rotation`. A
+/// previous matrix that is no rotation counts as the identity.
 ///
 /// The results are as accurate as those of `SVD_closest_rotation`. With AVX2, which is detected at
 /// run time, they take a twenty-fifth of its time if the rotations have changed little, and a

@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_SVD_CLOSEST_ROTATION_H
 #define CGAL_ARAP_DEFORMATION_SVD_CLOSEST_ROTATION_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
@@ -30,7 +31,8 @@ namespace ARAP {
 /// of \cgalCite{Sorkine2007AsRigidAs}, whose \f$S\f$ is \f$C^T\f$). The decomposition is computed
 /// by one-sided Jacobi rotations, which are accurate for small singular values too. Where the
 /// closest rotation is not unique the choice is fixed: for a matrix of rank one the smallest
-/// rotation among the closest ones, for the zero matrix the identity.
+/// rotation among the closest ones, for the zero matrix the identity. A matrix
+/// with an infinite or NaN entry counts as the zero matrix.
 ///
 /// \cgalModels{ARAPClosestRotation}
 class SVD_closest_rotation

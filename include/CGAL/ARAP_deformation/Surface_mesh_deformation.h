@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_SURFACE_MESH_DEFORMATION_H
 #define CGAL_ARAP_DEFORMATION_SURFACE_MESH_DEFORMATION_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>

@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_CONFORMANCE_CHECK_DEFORMATION_TRAITS_H
 #define CGAL_ARAP_DEFORMATION_CONFORMANCE_CHECK_DEFORMATION_TRAITS_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>

@@ -27,7 +27,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rotation closest to one matrix, by its singular value decomposition: right for any matrix.
+// The rotation closest to one matrix, by its singular value decomposition: right for any matrix. The
+// identity for the zero matrix and for what is no matrix of numbers.
 class Svd_rotation
 {
 public:
@@ -35,9 +36,13 @@ public:
   {
     // the entries are squared below: scaled to about one, they neither overflow nor underflow
     double largest = 0;
+    bool is_finite = true;
     for(double entry : c)
+    {
       largest = (std::max)(largest, std::abs(entry));
-    if(!(largest > 0) || !std::isfinite(largest))
+      is_finite &= std::isfinite(entry);
+    }
+    if(largest == 0 || !is_finite)
       return identity_matrix();
 
     Columns b; // becomes U Sigma, while v becomes V: always b = c v

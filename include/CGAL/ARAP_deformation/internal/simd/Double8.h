@@ -19,6 +19,7 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+inline namespace CGAL_ARAP_SIMD {
 
 // Two SIMD vectors of four numbers, for long chains of dependent operations: the processor
 // interleaves two chains.
@@ -74,6 +75,7 @@ CGAL_ARAP_ALWAYS_INLINE Bool8 operator<(const Double8& a, const Double8& b)
 CGAL_ARAP_ALWAYS_INLINE Double8 select(const Bool8& condition, const Double8& a, const Double8& b)
 { return {select(condition.low, a.low, b.low), select(condition.high, a.high, b.high)}; }
 
+} // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

@@ -22,13 +22,16 @@
 #if defined(__GNUC__) && !defined(CGAL_ARAP_NO_VECTOR_EXTENSIONS) // a test does without
 #define CGAL_ARAP_HAS_VECTOR_EXTENSIONS
 #define CGAL_ARAP_ALWAYS_INLINE __attribute__((always_inline)) inline
+#define CGAL_ARAP_SIMD with_vector_extensions
 #else
 #define CGAL_ARAP_ALWAYS_INLINE inline
+#define CGAL_ARAP_SIMD without_vector_extensions
 #endif
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+inline namespace CGAL_ARAP_SIMD { // in one program, both may be there
 
 #if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS)
 template <typename Number>
@@ -257,6 +260,7 @@ CGAL_ARAP_ALWAYS_INLINE void transpose(Double4& a, Double4& b, Double4& c, Doubl
   d = shuffle<2, 3, 6, 7>(ab_odd, cd_odd);
 }
 
+} // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

@@ -20,6 +20,7 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+inline namespace CGAL_ARAP_SIMD {
 
 // The columns of a 3 x 3 matrix, for products with vectors. The fourth lane of a column, and so of
 // a product, may hold anything.
@@ -74,6 +75,7 @@ struct Matrix_rows
   }
 };
 
+} // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

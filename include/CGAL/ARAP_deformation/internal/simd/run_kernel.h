@@ -16,16 +16,17 @@
 
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
-// Whether kernels are chosen at run time: on x86, unless AVX2 is required at compile time. (On
-// Windows, g++ does not align the stack for it.)
-#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__x86_64__) && !defined(_WIN32) && \
-    !(defined(__AVX2__) && defined(__FMA__))
+// Whether kernels are chosen at run time: on x86, also if the compiler may use AVX2 anyway, so that
+// translation units with different flags define the same functions. (On Windows, g++ does not align
+// the stack for it.)
+#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__x86_64__) && !defined(_WIN32)
 #define CGAL_ARAP_HAS_DISPATCH
 #endif
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+inline namespace CGAL_ARAP_SIMD {
 
 #ifdef CGAL_ARAP_HAS_DISPATCH
 inline bool has_avx2()
@@ -60,13 +61,10 @@ void run_kernel(const Arguments&... arguments)
   if(has_avx2())
     return run_with_avx2<Kernel>(arguments...);
 #endif
-#if defined(CGAL_ARAP_HAS_VECTOR_EXTENSIONS) && defined(__AVX2__)
-  Kernel::run(arguments...);
-#else
   Plain_kernel::run(arguments...);
-#endif
 }
 
+} // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

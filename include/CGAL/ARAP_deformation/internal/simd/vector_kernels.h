@@ -21,6 +21,7 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+inline namespace CGAL_ARAP_SIMD {
 
 // adds the dot product of f and h, n numbers each, to *sum
 struct Add_dot_product
@@ -57,6 +58,7 @@ struct Add_multiple
   }
 };
 
+} // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

@@ -1,0 +1,26 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CONFIG_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CONFIG_H
+
+// What the package asks of a program. Each public header includes this first: nothing else gives an
+// error before it.
+
+#if __cplusplus < 201703L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 201703L)
+#error "CGAL/ARAP_deformation needs C++17: compile with -std=c++17 or later (MSVC: /std:c++17)."
+#endif
+
+#ifdef ARAP
+#error "CGAL/ARAP_deformation: the macro ARAP is defined; undefine it, it is a namespace here."
+#endif
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CONFIG_H
