@@ -56,8 +56,11 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \ingroup PkgARAPDeformationDomains
 /// \brief a surface of triangles or polygons, given by any model of `FaceGraph`.
 ///
-/// The faces are the simplices. A polygon with \f$k\f$ corners has the average weights of all its
-/// triangulations; it takes \f$O(k^3)\f$ time in preprocessing and \f$O(k^2)\f$ per iteration.
+/// The faces are the simplices. A polygon with up to 64 corners has the average weights of all its
+/// triangulations, in \f$O(k^3)\f$ time for \f$k\f$ corners. One with more has the average of
+/// the \f$k\f$ triangulations that are fans, in \f$O(k^2)\f$ time. All its corners are
+/// neighbours, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
+/// polygons with more than 2048 corners with `Status::too_many_corners`.
 /// The mesh must outlive the domain, and its connectivity must not change in the meantime.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; may be `const` if the points
@@ -261,7 +264,7 @@ auto make_face_graph_domain(PolygonMesh& mesh, OutputPointMap output_point_map,
 {
   auto point_map =
     parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                 get_property_map(vertex_point, mesh));
+                                 get_const_property_map(vertex_point, mesh));
   return Face_graph_domain(mesh, point_map,
                            get_initialized_vertex_index_map(std::as_const(mesh), np),
                            output_point_map);

@@ -90,7 +90,7 @@ struct Point_conversion
 {
   static constexpr bool is_planar = number_of_coordinates<Point>() == 2;
   static_assert(is_planar || number_of_coordinates<Point>() == 3,
-                "the points of a shape must have three coordinates, or two for a shape in the plane");
+                "the points of a shape must have three coordinates, or two in the plane");
 
   static Coordinates coordinates(const Point& point)
   {
