@@ -146,11 +146,11 @@ private:
           }
           if(!is_first_visit)
             return flat.corners.resize(flat.first_corner.back());
-          const auto begin = flat.corners.begin() + flat.first_corner.back();
-          if(flat.corners.end() - begin > most_corners && are_polygons_allowed)
+          const auto first = flat.corners.begin() + flat.first_corner.back();
+          if(are_polygons_allowed && flat.corners.end() - first > most_corners)
             m_refusal = Status::too_many_corners;
           are_simplices &= m_refusal != Status::too_many_corners &&
-                           is_simplex(begin, flat.corners.end());
+                           is_simplex(first, flat.corners.end());
           simplices.push_back(s);
           flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
         });
