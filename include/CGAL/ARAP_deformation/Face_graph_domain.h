@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/domain/No_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 
 #include <CGAL/Default.h>
@@ -235,11 +236,21 @@ template <typename PolygonMesh, typename CGAL_NP_TEMPLATE_PARAMETERS>
 auto make_face_graph_domain(PolygonMesh& mesh,
                             const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  auto point_map =
-    parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                 get_property_map(vertex_point, mesh));
-  return Face_graph_domain(mesh, point_map,
-                           get_initialized_vertex_index_map(std::as_const(mesh), np));
+  constexpr bool is_writable = !std::is_const_v<PolygonMesh> || !std::is_same_v<
+    typename internal_np::Lookup_named_param_def<internal_np::vertex_point_t, CGAL_NP_CLASS,
+                                                 Default>::type, Default>;
+  static_assert(is_writable, "make_face_graph_domain: the points of a const mesh cannot be "
+                             "written; pass an output point map");
+  if constexpr(is_writable)
+  {
+    auto point_map =
+      parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_property_map(vertex_point, mesh));
+    return Face_graph_domain(mesh, point_map,
+                             get_initialized_vertex_index_map(std::as_const(mesh), np));
+  }
+  else
+    return internal::No_domain(mesh);
 }
 
 /// \ingroup PkgARAPDeformationDomains
