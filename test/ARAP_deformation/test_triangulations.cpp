@@ -125,7 +125,7 @@ void test_some_cells()
     if(CGAL::centroid(cell->vertex(0)->point(), cell->vertex(1)->point(),
                       cell->vertex(2)->point(), cell->vertex(3)->point()).y() < 0.7)
       selected.insert(cell);
-  const Triangulation_domain<Triangulation> domain(
+  const Triangulation_domain domain(
     t, [&](Triangulation::Cell_handle cell) { return selected.count(cell) > 0; });
   CHECK(block_of(domain).tetrahedra.size() == selected.size());
   CHECK(selected.size() < t.number_of_finite_cells());

@@ -14,7 +14,6 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/domain/No_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 
 #include <CGAL/Default.h>
@@ -249,8 +248,8 @@ auto make_face_graph_domain(PolygonMesh& mesh,
     return Face_graph_domain(mesh, point_map,
                              get_initialized_vertex_index_map(std::as_const(mesh), np));
   }
-  else
-    return internal::No_domain(mesh);
+  else // there is no second error
+    return Face_graph_domain(const_cast<std::remove_const_t<PolygonMesh>&>(mesh));
 }
 
 /// \ingroup PkgARAPDeformationDomains

@@ -18,6 +18,8 @@
 #include <CGAL/ARAP_deformation/internal/domain/Incidence_table.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 
+#include <CGAL/assertions.h>
+
 #include <boost/range/counting_range.hpp>
 #include <boost/range/iterator_range.hpp>
 
@@ -95,8 +97,8 @@ public:
   }
 
   /// returns `v`.
-  /// \throws std::out_of_range unless `v` is smaller than the number of points; so do all functions
-  ///         that take a vertex or a simplex.
+  /// \pre `v` is smaller than the number of points. In Release all functions that take a vertex or
+  ///      a simplex throw `std::out_of_range` if there is none of that number.
   std::size_t index(vertex_descriptor v) const { return checked("vertex ", v, m_points->size()); }
 
   /// returns the point of `v` in the input range.
@@ -140,6 +142,7 @@ public:
 private:
   static std::size_t checked(const char* what, std::size_t k, std::size_t size)
   {
+    CGAL_precondition(k < size);
     if(k >= size)
       throw std::out_of_range("Simplex_soup_domain: there is no " + (what + std::to_string(k)));
     return k;

@@ -163,7 +163,7 @@ inline Simplices weighted_simplices(const Edge_weight_model& model, const Region
 inline int find_non_finite_simplex(const Simplices& simplices)
 {
   for(std::size_t k = 0; k < simplices.weights.size(); ++k)
-    if(!std::isfinite(simplices.weights[k]))
+    if(!is_finite(simplices.weights[k]))
       return static_cast<int>(std::upper_bound(simplices.first_weight.begin(),
                                                simplices.first_weight.end(), static_cast<int>(k)) -
                               simplices.first_weight.begin()) - 1;
