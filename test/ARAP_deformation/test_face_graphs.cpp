@@ -111,8 +111,7 @@ void test_const_mesh()
   const Mesh before = mesh;
   std::map<Mesh::Vertex_index, Point> output;
   const auto output_map = boost::make_assoc_property_map(output);
-  const Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default, decltype(output_map)> domain(
-    mesh, mesh.points(), get(boost::vertex_index, mesh), output_map);
+  const auto domain = CGAL::ARAP::make_face_graph_domain(mesh, output_map);
   check_conforms(domain);
   output.clear();
   Result result = deform(domain, all_vertices(mesh), s, Cell_scheme::spokes(), [&](auto v) {
@@ -129,8 +128,7 @@ void test_const_mesh()
   const auto isolated = with_isolated.add_vertex(Point(5, 5, 5));
   const Mesh& input = with_isolated;
   output.clear();
-  const Face_graph_domain<const Mesh, CGAL::Default, CGAL::Default, decltype(output_map)> all(
-    input, input.points(), get(boost::vertex_index, input), output_map);
+  const Face_graph_domain all(input, input.points(), get(boost::vertex_index, input), output_map);
   std::map<Mesh::Vertex_index, bool> constrained;
   std::map<Mesh::Vertex_index, Point> targets;
   for(auto v : mesh.vertices())
@@ -144,6 +142,82 @@ void test_const_mesh()
   CHECK(report);
   CHECK(output.size() == input.number_of_vertices());
   CHECK(output[isolated] == Point(5, 5, 5));
+}
+
+// a mesh in the plane, turned by a half turn about an axis through it
+void test_planar_mesh()
+{
+  test_case() = "a mesh of points with two coordinates";
+  using Point_2 = CGAL::Simple_cartesian<double>::Point_2;
+  const Shape shape = grid("sheet", 6, 6, [](double u, double v) {
+    return Eigen::Vector3d(u, v + 0.2 * u * u, 0);
+  });
+  CGAL::Surface_mesh<Point_2> mesh;
+  for(const auto& p : shape.points)
+    mesh.add_vertex(Point_2(p.x(), p.y()));
+  for(const auto& t : shape.triangles)
+    mesh.add_face(mesh.vertices().begin()[t[0]], mesh.vertices().begin()[t[1]],
+                  mesh.vertices().begin()[t[2]]);
+  check_conforms(Face_graph_domain(mesh));
+  CGAL::ARAP_deformation<CGAL::Surface_mesh<Point_2>> deformation(mesh);
+  const auto vertices = mesh.vertices();
+  deformation.insert_roi_vertices(vertices.begin(), vertices.end());
+  for(auto v : vertices)
+    if(shape.points[v].x() < 0.3)
+    {
+      deformation.insert_control_vertex(v);
+      deformation.set_target_position(v, Point_2(-mesh.point(v).x(), -mesh.point(v).y()));
+    }
+  CHECK(deformation.deform(100, 1e-12));
+  for(auto v : vertices)
+  {
+    CHECK_AT_MOST(std::abs(mesh.point(v).x() + shape.points[v].x()), 1e-6);
+    CHECK_AT_MOST(std::abs(mesh.point(v).y() + shape.points[v].y()), 1e-6);
+  }
+}
+
+// A polygon with many corners is turned, or refused.
+void test_large_polygon(int n, bool is_refused)
+{
+  test_case() = "a polygon with " + std::to_string(n) + " corners";
+  Mesh mesh;
+  std::vector<Mesh::Vertex_index> corners;
+  for(int k = 0; k < n; ++k)
+  {
+    const double angle = 2 * CGAL_PI * k / n, radius = 1 + 0.2 * std::cos(5 * angle);
+    corners.push_back(
+      mesh.add_vertex(Point(radius * std::cos(angle), radius * std::sin(angle), 0)));
+  }
+  mesh.add_face(corners);
+  const Mesh before = mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  deformation.insert_roi_vertices(corners.begin(), corners.end());
+  for(int k : {0, n / 3, 2 * n / 3})
+  {
+    const Point& p = mesh.point(corners[k]);
+    deformation.insert_control_vertex(corners[k]);
+    deformation.set_target_position(corners[k], Point(p.x(), 0.6 * p.y(), 0.8 * p.y()));
+  }
+  const CGAL::ARAP::Report report = deformation.deform(200, 1e-8);
+  std::cout << test_case() << ": " << report.seconds.preprocess << " + "
+            << report.seconds.total - report.seconds.preprocess << " s, " << report.iterations
+            << " iterations" << std::endl;
+  CHECK_AT_MOST(report.seconds.total, 60);
+  CHECK(bool(report) != is_refused);
+  if(is_refused)
+  {
+    CHECK(report.status == CGAL::ARAP::Status::too_many_corners);
+    CHECK(report.message.find("more than 2048 corners") != std::string::npos);
+    CHECK(report.message.find("triangulate_face") != std::string::npos);
+    CHECK(same_points(mesh, before));
+    return;
+  }
+  for(auto v : corners)
+  {
+    const Point p = before.point(v);
+    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(mesh.point(v),
+                                                   Point(p.x(), 0.6 * p.y(), 0.8 * p.y()))), 1e-3);
+  }
 }
 
 // points of a type that has nothing but what is asked for
@@ -339,6 +413,9 @@ int main()
     "Polyhedron_3 with ids");
   test_removed_elements();
   test_const_mesh();
+  test_planar_mesh();
+  for(int n : {5, 64, 65, 100, 1000, 2049, 70000})
+    test_large_polygon(n, n > 2048);
   test_bare_points();
   test_filtered_graph();
   test_own_map_and_order();

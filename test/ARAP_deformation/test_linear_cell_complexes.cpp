@@ -128,7 +128,7 @@ void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Si
     CHECK(complex.is_valid());
     static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Complex>::Deformation_domain,
                                  Linear_cell_complex_domain<Complex>>);
-    const Linear_cell_complex_domain<Complex> domain(complex);
+    const Linear_cell_complex_domain domain(complex);
     if(cells == all_cell_schemes[0])
       check_conforms(domain);
     compare(reference<Dimension>(points, simplices, s, cells),
@@ -162,7 +162,7 @@ void test_shelf_of_volumes()
     complex.make_tetrahedron(point(good.points[t[0]]), point(good.points[t[1]]),
                              point(good.points[t[2]]), point(good.points[t[3]]));
   sew(complex);
-  const Linear_cell_complex_domain<Volumes> domain(complex);
+  const auto domain = CGAL::ARAP::make_linear_cell_complex_domain(complex);
   const auto vertices = vertices_at(domain, good.points);
   for(const Nasty_volume& shape : shelf)
     test_in_place_of("linear cell complex of volumes", domain, vertices, shape);

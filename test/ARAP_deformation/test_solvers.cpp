@@ -389,6 +389,13 @@ void test_all()
   CHECK_CONFORMS(check_sparse_solver(Eigen_sparse_solver<LLT>()));
   CHECK_CONFORMS(check_sparse_solver(Eigen_LDLT_solver()));
   CHECK_CONFORMS(check_sparse_solver(Eigen_conjugate_gradient_solver()));
+  // what reads the upper triangle or both
+  CHECK_CONFORMS(check_sparse_solver(
+    Eigen_sparse_solver<Eigen::SimplicialLDLT<Sparse_matrix, Eigen::Upper>>()));
+  CHECK_CONFORMS(check_sparse_solver(
+    Eigen_sparse_solver<Eigen::ConjugateGradient<Sparse_matrix, Eigen::Lower | Eigen::Upper>>()));
+  CHECK_CONFORMS(check_sparse_solver(
+    Eigen_sparse_solver<Eigen::SparseLU<Sparse_matrix, Eigen::COLAMDOrdering<int>>>()));
   const Eigen_conjugate_gradient_solver loose([](auto& solver) { solver.setTolerance(1e-4); });
   CHECK_CONFORMS(check_sparse_solver(loose, 1e-2));
   CHECK_CAUGHT(check_sparse_solver(loose), "relative residual");

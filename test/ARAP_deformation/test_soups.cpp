@@ -183,6 +183,106 @@ void test_output_range()
   CHECK(input == points);
 }
 
+template <typename Function>
+bool is_refused(const Function& f)
+{
+  try { f(); }
+  catch(const std::logic_error&) { return true; } // a failed precondition is one, too
+  return false;
+}
+
+// Nothing is read or written outside of the ranges.
+void test_wrong_numbers()
+{
+  test_case() = "a vertex or a simplex that does not exist";
+  const Shape shape = octahedron();
+  std::vector<Point> points = points_of(shape.points);
+  points.reserve(100); // reading behind the end would go unnoticed
+  const std::vector<Point> before = points;
+  const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles);
+  CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
+  for(std::size_t v : {points.size(), std::size_t(1000000000), std::size_t(-1)})
+  {
+    CHECK(is_refused([&] { deformation.insert_roi_vertex(v); }));
+    CHECK(is_refused([&] { deformation.insert_control_vertex(v); }));
+    CHECK(is_refused([&] { deformation.is_roi_vertex(v); }));
+    CHECK(is_refused([&] { deformation.domain().point(v); }));
+    CHECK(is_refused([&] { deformation.domain().set_point(v, Point(1, 2, 3)); }));
+    CHECK(is_refused([&] { deformation.domain().is_isolated(v); }));
+    CHECK(is_refused([&] {
+      deformation.domain().for_each_incident_simplex(v, [](auto&&...) {});
+    }));
+  }
+  for(std::size_t s : {shape.triangles.size(), std::size_t(-1)})
+    CHECK(is_refused([&] { deformation.domain().simplex_vertices(s); }));
+  CHECK(deformation.roi_vertices().empty());
+  deformation.reset();
+  CHECK(points == before);
+
+  std::vector<Point> too_few;
+  try
+  {
+    CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles, too_few);
+    CHECK(!"refused");
+  }
+  catch(const std::invalid_argument& e)
+  {
+    CHECK(std::string(e.what()) ==
+          "Simplex_soup_domain: there are 6 points, but 0 output points");
+  }
+}
+
+// Points with two coordinates are deformed as those in the plane z = 0, and stay there: compressed,
+// they do not give way to the side.
+template <typename Point_2>
+void test_plane(double tolerance)
+{
+  test_case() = "points with two coordinates";
+  const int side = 9;
+  const Shape shape = grid("sheet", side, side, [](double u, double v) {
+    return Eigen::Vector3d(3 * u, v + 0.1 * std::sin(9 * u), 0);
+  });
+  std::vector<Point_2> planar;
+  std::vector<Point> spatial = points_of(shape.points);
+  for(const auto& p : shape.points)
+    planar.push_back(CGAL::ARAP::internal::construct_point<Point_2>(p.x(), p.y(), 0.0));
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    auto p = planar;
+    auto q = spatial;
+    const auto run = [&](const auto& domain) {
+      CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
+      deformation.set_options(options_for(cells));
+      for(std::size_t v : domain.vertices())
+      {
+        deformation.insert_roi_vertex(v);
+        const double x = shape.points[v].x();
+        if(x > 0.01 && x < 2.99)
+          continue;
+        deformation.insert_control_vertex(v);
+        auto c = domain.coordinates(domain.point(v));
+        c[0] *= 0.5;
+        c[1] += 0.2 * x;
+        CHECK(deformation.set_target_position(v, domain.make_point(c)));
+      }
+      return deformation.deform(300, 0);
+    };
+    const auto domain = CGAL::ARAP::make_polygon_soup_domain(p, shape.triangles);
+    check_conforms(domain);
+    CHECK(run(domain));
+    CHECK(run(CGAL::ARAP::make_polygon_soup_domain(q, shape.triangles)));
+    for(std::size_t v = 0; v < p.size(); ++v)
+    {
+      CHECK(q[v][2] == 0);
+      CHECK_AT_MOST(std::abs(CGAL::to_double(p[v][0]) - q[v][0]), tolerance);
+      CHECK_AT_MOST(std::abs(CGAL::to_double(p[v][1]) - q[v][1]), tolerance);
+    }
+  }
+  const Point_2 moved =
+    CGAL::ARAP::internal::translated(planar[0], std::array<double, 2>{1, 2});
+  CHECK(moved[0] == planar[0][0] + 1 && moved[1] == planar[0][1] + 2);
+}
+
 template <int Dimension, typename Simplices>
 void check_refused(const Simplices& simplices)
 {
@@ -207,6 +307,12 @@ void test_all()
   test_surfaces();
   test_non_manifold();
   test_output_range();
+  test_wrong_numbers();
+  test_plane<CGAL::Simple_cartesian<double>::Point_2>(1e-12);
+  test_plane<CGAL::Exact_predicates_exact_constructions_kernel::Point_2>(1e-12);
+  test_plane<std::array<double, 2>>(1e-12);
+  test_plane<std::array<float, 2>>(1e-5);
+  test_plane<Eigen::Vector2d>(1e-12);
 
   test_case() = "points of several types";
   test_point_type<Bare_point>(1e-12);

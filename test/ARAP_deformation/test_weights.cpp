@@ -217,7 +217,7 @@ void test_one_polygon()
 {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(0, 1);
-  for(std::size_t n : {3, 4, 5, 6, 9, 40})
+  for(std::size_t n : {3, 4, 5, 6, 9, 40, 100})
   {
     test_case() = "a polygon of " + std::to_string(n) + " corners";
     // in space

@@ -1,5 +1,5 @@
 # Builds TARGET in BUILD_DIR. If SENTENCE is empty this must succeed, else it must fail, and the first
-# error must contain SENTENCE.
+# error must contain SENTENCE. The compiler may not say more than MAX_LINES lines, if there is a limit.
 execute_process(
   COMMAND ${CMAKE_COMMAND} --build ${BUILD_DIR} --target ${TARGET} --config "${CONFIG}"
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -16,4 +16,12 @@ string(REGEX MATCH "error[ :][^\n]*" first_error "${output}")
 string(FIND "${first_error}" "${SENTENCE}" position)
 if(position EQUAL -1)
   message(FATAL_ERROR "the first error does not contain \"${SENTENCE}\":\n${output}")
+endif()
+if(MAX_LINES)
+  string(REGEX REPLACE "(^|\n)(\\[|Consolidat|ninja|g?make)[^\n]*" "" lines "${output}")
+  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  list(LENGTH lines number_of_lines)
+  if(number_of_lines GREATER MAX_LINES)
+    message(FATAL_ERROR "the compiler says ${number_of_lines} lines, not ${MAX_LINES}:\n${output}")
+  endif()
 endif()

@@ -14,10 +14,15 @@
 // compiles. The sentences that must come first are in CMakeLists.txt.
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/arap_deform.h>
+#include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>
+#include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Triangulation_3.h>
+
+#include <Eigen/SparseCholesky>
 
 #include <array>
 #include <cstddef>
@@ -155,6 +160,30 @@ int main()
 #elif WRONG_MODEL == 15
   CGAL::Triangulation_3<CGAL::Simple_cartesian<double>> triangulation;
   CGAL::ARAP_deformation<decltype(triangulation)> deformation(triangulation);
+#elif WRONG_MODEL == 16
+  using CGAL_solver = CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Sparse_matrix>>;
+  deform<ARAP_deformation_traits<CGAL_solver>>();
+#elif WRONG_MODEL == 17
+  deform<ARAP_deformation_traits<Eigen::SimplicialLDLT<Sparse_matrix>>>();
+#elif WRONG_MODEL == 18
+  using CGAL_rotation = CGAL::Deformation_Eigen_polar_closest_rotation_traits_3;
+  deform<ARAP_deformation_traits<Default, Default, CGAL_rotation>>();
+#elif WRONG_MODEL == 19
+  std::vector<std::array<double, 1>> points;
+  const std::vector<std::array<int, 3>> triangles;
+  auto domain = make_polygon_soup_domain(points, triangles);
+  CGAL::ARAP_deformation<decltype(domain)> deformation(domain);
+  deformation.deform();
+#elif WRONG_MODEL == 20
+  std::vector<std::array<double, 2>> points;
+  const std::vector<std::array<int, 4>> tetrahedra;
+  auto domain = make_tetrahedron_soup_domain(points, tetrahedra);
+  CGAL::ARAP_deformation<decltype(domain)> deformation(domain);
+  deformation.deform();
+#elif WRONG_MODEL == 21
+  Mesh mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  deformation.deform([](const auto&) {});
 #else
 #error "there is no wrong model of that number"
 #endif

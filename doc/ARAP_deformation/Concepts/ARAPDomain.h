@@ -50,7 +50,7 @@ public:
   /// throws, the mesh and the object may be left partially changed.
   ///
   /// Only `CGAL::ARAP_deformation::translate()` also needs `operator[]`, which returns a %Cartesian
-  /// coordinate, and a constructor from three coordinates.
+  /// coordinate, and a constructor from as many coordinates as a point has.
   using Point = unspecified_type;
 
   /// @}
@@ -96,10 +96,10 @@ public:
   /// \name Points
   /// @{
 
-  /// returns the coordinates of `point`, rounded to `double`.
+  /// returns the coordinates of `point`, rounded to `double`; z = 0 if points have two coordinates.
   static CGAL::ARAP::Coordinates coordinates(const Point& point);
 
-  /// returns the point with the given coordinates.
+  /// returns the point with the given coordinates, without z if points have two coordinates.
   static Point make_point(const CGAL::ARAP::Coordinates& coordinates);
 
   /// @}

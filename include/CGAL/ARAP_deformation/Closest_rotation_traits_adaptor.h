@@ -65,7 +65,7 @@ private:
   {
     double largest = 0;
     for(double entry : covariance)
-      largest = (std::max)(largest, std::isfinite(entry) ? std::abs(entry) : 0);
+      largest = (std::max)(largest, internal::is_finite(entry) ? std::abs(entry) : 0);
     if(!(largest > 0))
       return internal::identity_matrix();
     int exponent;

@@ -47,19 +47,30 @@ template <typename EigenSolver>
 constexpr bool
   has_pivots<EigenSolver, std::void_t<decltype(std::declval<EigenSolver>().vectorD())>> = true;
 
+// Eigen's solvers for symmetric matrices have the triangle that they read as second argument.
+template <typename EigenSolver>
+constexpr bool reads_lower_triangle_only = false;
+template <template <typename, int, typename...> class EigenSolver, typename Matrix,
+          typename... Arguments>
+constexpr bool
+  reads_lower_triangle_only<EigenSolver<Matrix, Eigen::Lower, Arguments...>> = true;
+
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationSolvers
-/// \brief any solver of Eigen for symmetric matrices, direct or iterative.
+/// \brief any solver of Eigen that can solve for symmetric matrices, direct or iterative.
+///
+/// A solver that reads the lower triangle only, as `Eigen::SimplicialLLT<Sparse_matrix,
+/// Eigen::Lower>`, gets the matrix as it is. All others, as `Eigen::SparseLU`, get a copy with both
+/// triangles. Solvers for general matrices may factorize what is not positive definite.
 ///
 /// A matrix is refused if an entry is not finite or one on the diagonal is not positive, if Eigen
 /// reports a failure, and if there are pivots and one of them is not positive. An iterative solver
 /// that does not reach its tolerance fails. If its tolerance is loose the deformation still
 /// converges to the same shape: what is solved for are corrections. It may need more iterations.
 ///
-/// \tparam EigenSolver a solver with the functions `analyzePattern()`, `factorize()`, `solve()` and
-///         `info()` of Eigen's sparse solvers that reads the lower triangle of a `Sparse_matrix`,
-///         for example `Eigen::SimplicialLLT<Sparse_matrix, Eigen::Lower>`
+/// \tparam EigenSolver a solver for a `Sparse_matrix` with the functions `analyzePattern()`,
+///         `factorize()`, `solve()` and `info()` of Eigen's sparse solvers
 ///
 /// \cgalModels{ARAPSparseSolver}
 ///
@@ -131,14 +142,16 @@ private:
 
   struct State
   {
-    Sparse_matrix matrix; // iterative solvers refer to it; outlives the solver
+    Sparse_matrix matrix; // as the solver reads it; iterative ones refer to it; outlives the solver
     EigenSolver solver;
     Columns right_hand_side, solution;
   };
 
   const Sparse_matrix& keep(const Sparse_matrix& a)
   {
-    if constexpr(internal::is_iterative<EigenSolver>)
+    if constexpr(!internal::reads_lower_triangle_only<EigenSolver>)
+      return m_state->matrix = a.selfadjointView<Eigen::Lower>();
+    else if constexpr(internal::is_iterative<EigenSolver>)
       return m_state->matrix = a;
     else
       return a;

@@ -57,15 +57,19 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \ingroup PkgARAPDeformationDomains
 /// \brief a surface of triangles or polygons, given by any model of `FaceGraph`.
 ///
-/// The faces are the simplices. A polygon with \f$k\f$ corners has the average weights of all its
-/// triangulations; it takes \f$O(k^3)\f$ time in preprocessing and \f$O(k^2)\f$ per iteration.
+/// The faces are the simplices. A polygon with up to 64 corners has the average weights of all its
+/// triangulations, in \f$O(k^3)\f$ time for \f$k\f$ corners. One with more has the average of
+/// the \f$k\f$ triangulations that are fans, in \f$O(k^2)\f$ time. All its corners are
+/// neighbours, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
+/// polygons with more than 2048 corners with `Status::too_many_corners`.
 /// The mesh must outlive the domain, and its connectivity must not change in the meantime.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; may be `const` if the points
 ///         are written to an output map
 /// \tparam VertexPointMap a model of `ReadablePropertyMap` from the vertices to their points, and
 ///         of `ReadWritePropertyMap` if there is no output map; default the internal map of the
-///         mesh. The points have `operator[]` and a constructor from three coordinates.
+///         mesh. The points have `operator[]` and a constructor from three coordinates, or from two
+///         for a mesh in the plane.
 /// \tparam VertexIndexMap a model of `ReadablePropertyMap` from the vertices to 0, 1, ..., default
 ///         the internal map of the mesh or, if there is none, one initialized at construction
 /// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
@@ -201,6 +205,18 @@ private:
   bool m_is_in_place;
 };
 
+template <typename PolygonMesh, typename VertexPointMap>
+Face_graph_domain(PolygonMesh&, VertexPointMap) -> Face_graph_domain<PolygonMesh, VertexPointMap>;
+
+template <typename PolygonMesh, typename VertexPointMap, typename VertexIndexMap>
+Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap)
+  -> Face_graph_domain<PolygonMesh, VertexPointMap, VertexIndexMap>;
+
+template <typename PolygonMesh, typename VertexPointMap, typename VertexIndexMap,
+          typename OutputPointMap>
+Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
+  -> Face_graph_domain<PolygonMesh, VertexPointMap, VertexIndexMap, OutputPointMap>;
+
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface with the property maps of named parameters.
 ///
@@ -216,16 +232,53 @@ private:
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
-template <typename PolygonMesh, typename NamedParameters = parameters::Default_named_parameters>
+template <typename PolygonMesh, typename CGAL_NP_TEMPLATE_PARAMETERS>
 auto make_face_graph_domain(PolygonMesh& mesh,
-                            const NamedParameters& np = parameters::default_values())
+                            const CGAL_NP_CLASS& np = parameters::default_values())
+{
+  constexpr bool is_writable = !std::is_const_v<PolygonMesh> || !std::is_same_v<
+    typename internal_np::Lookup_named_param_def<internal_np::vertex_point_t, CGAL_NP_CLASS,
+                                                 Default>::type, Default>;
+  static_assert(is_writable, "make_face_graph_domain: the points of a const mesh cannot be "
+                             "written; pass an output point map");
+  if constexpr(is_writable)
+  {
+    auto point_map =
+      parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_property_map(vertex_point, mesh));
+    return Face_graph_domain(mesh, point_map,
+                             get_initialized_vertex_index_map(std::as_const(mesh), np));
+  }
+  else // there is no second error
+    return Face_graph_domain(const_cast<std::remove_const_t<PolygonMesh>&>(mesh));
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a surface, which may be `const`, whose deformed points are written
+/// to `output_point_map`.
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the points of the vertices}
+///     \cgalParamType{a model of `ReadablePropertyMap`}
+///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_index_map}
+///     \cgalParamDescription{a unique index for each vertex, starting from 0}
+///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
+///     \cgalParamDefault{the initialized index map of the mesh}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+template <typename PolygonMesh, typename OutputPointMap, typename CGAL_NP_TEMPLATE_PARAMETERS>
+auto make_face_graph_domain(PolygonMesh& mesh, OutputPointMap output_point_map,
+                            const CGAL_NP_CLASS& np = parameters::default_values())
 {
   auto point_map =
     parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                 get_property_map(vertex_point, mesh));
-  auto index_map = get_initialized_vertex_index_map(std::as_const(mesh), np);
-  return Face_graph_domain<PolygonMesh, decltype(point_map), decltype(index_map)>(
-    mesh, point_map, index_map);
+                                 get_const_property_map(vertex_point, mesh));
+  return Face_graph_domain(mesh, point_map,
+                           get_initialized_vertex_index_map(std::as_const(mesh), np),
+                           output_point_map);
 }
 
 } // namespace ARAP

@@ -46,6 +46,8 @@ namespace ARAP {
 ///         `CGAL::Linear_cell_complex_for_generalized_map` of dimension 2 or 3, with 3D points
 ///
 /// \cgalModels{ARAPDomain}
+///
+/// \sa `make_linear_cell_complex_domain()`
 template <typename LinearCellComplex>
 class Linear_cell_complex_domain
   : public internal::Point_conversion<typename LinearCellComplex::Point>
@@ -109,7 +111,7 @@ public:
   /// is not a closed face or not a tetrahedron.
   auto simplex_vertices(simplex_descriptor s) const
   {
-    return boost::make_iterator_range(m_tables->corners[s]);
+    return boost::make_iterator_range(m_tables->corners.at(s));
   }
 
   /// calls `f(s, simplex_vertices(s))` for each simplex `s` at `v`.
@@ -179,6 +181,15 @@ private:
   LinearCellComplex* m_complex;
   std::shared_ptr<const Tables> m_tables; // shared by copies
 };
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a linear cell complex.
+template <typename LinearCellComplex>
+Linear_cell_complex_domain<LinearCellComplex>
+make_linear_cell_complex_domain(LinearCellComplex& complex)
+{
+  return Linear_cell_complex_domain<LinearCellComplex>(complex);
+}
 
 } // namespace ARAP
 } // namespace CGAL

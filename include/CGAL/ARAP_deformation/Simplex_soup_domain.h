@@ -22,10 +22,13 @@
 #include <CGAL/assertions.h>
 
 #include <boost/range/counting_range.hpp>
+#include <boost/range/iterator_range.hpp>
 
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 namespace CGAL {
 namespace ARAP {
@@ -43,12 +46,15 @@ namespace ARAP {
 ///
 /// \tparam Dimension 2 if the simplices are triangles or polygons, 3 if they are tetrahedra
 /// \tparam PointRange a model of `RandomAccessContainer` of points. The points have `operator[]`
-///         and a constructor from three coordinates.
+///         and a constructor from three coordinates, or from two for a surface in the plane.
 /// \tparam SimplexRange a model of `RandomAccessContainer` of ranges of integers, such as
 ///         `std::vector<std::array<int, 3>>`. The corners of a polygon are listed in order around
 ///         it.
 ///
 /// \cgalModels{ARAPDomain}
+///
+/// \sa `make_polygon_soup_domain()`
+/// \sa `make_tetrahedron_soup_domain()`
 template <int Dimension, typename PointRange, typename SimplexRange>
 class Simplex_soup_domain
   : public internal::Point_conversion<typename PointRange::value_type>
@@ -56,6 +62,8 @@ class Simplex_soup_domain
   static_assert(Dimension == 2 || Dimension == 3,
                 "Simplex_soup_domain: the dimension of the simplices must be 2 (triangles and "
                 "polygons) or 3 (tetrahedra)");
+  static_assert(Dimension == 2 || !Simplex_soup_domain::is_planar,
+                "Simplex_soup_domain: the points of tetrahedra must have three coordinates");
 
 public:
   /// the type of a point.
@@ -77,28 +85,31 @@ public:
 
   /// constructs the domain with separate ranges for reading and writing points. The points of all
   /// vertices of the region of interest are written.
-  /// \pre `output_points.size() == points.size()`
+  /// \throws std::invalid_argument unless `output_points.size() == points.size()`
   Simplex_soup_domain(const PointRange& points, const SimplexRange& simplices,
                       PointRange& output_points)
     : m_points(&points), m_output_points(&output_points), m_simplices(&simplices),
       m_incidences(std::make_shared<const internal::Incidence_table>(points.size(), simplices))
   {
-    CGAL_precondition(output_points.size() == points.size());
+    if(output_points.size() != points.size())
+      throw std::invalid_argument("Simplex_soup_domain: there are " +
+                                  std::to_string(points.size()) + " points, but " +
+                                  std::to_string(output_points.size()) + " output points");
   }
 
   /// returns `v`.
-  /// \pre `v` is smaller than the number of points.
-  std::size_t index(vertex_descriptor v) const
-  {
-    CGAL_precondition(v < m_points->size());
-    return v;
-  }
+  /// \pre `v` is smaller than the number of points. In Release all functions that take a vertex or
+  ///      a simplex throw `std::out_of_range` if there is none of that number.
+  std::size_t index(vertex_descriptor v) const { return checked("vertex ", v, m_points->size()); }
 
   /// returns the point of `v` in the input range.
-  const Point& point(vertex_descriptor v) const { return (*m_points)[v]; }
+  const Point& point(vertex_descriptor v) const { return (*m_points)[index(v)]; }
 
   /// sets the point of `v` in the output range.
-  void set_point(vertex_descriptor v, const Point& point) const { (*m_output_points)[v] = point; }
+  void set_point(vertex_descriptor v, const Point& point) const
+  {
+    (*m_output_points)[index(v)] = point;
+  }
 
   /// returns whether points are changed in place.
   bool is_in_place() const { return m_points == m_output_points; }
@@ -107,12 +118,12 @@ public:
   auto vertices() const { return boost::counting_range(std::size_t(0), m_points->size()); }
 
   /// returns whether no simplex is incident to `v`.
-  bool is_isolated(vertex_descriptor v) const { return m_incidences->is_isolated(v); }
+  bool is_isolated(vertex_descriptor v) const { return m_incidences->is_isolated(index(v)); }
 
   /// returns the corners of `s`, or an empty range if one of them does not exist.
   auto simplex_vertices(simplex_descriptor s) const
   {
-    const auto& simplex = (*m_simplices)[s];
+    const auto& simplex = (*m_simplices)[checked("simplex ", s, m_simplices->size())];
     const auto begin = std::begin(simplex);
     auto end = std::end(simplex);
     for(auto corner : simplex)
@@ -126,10 +137,18 @@ public:
   void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
   {
     m_incidences->for_each_simplex_at(
-      v, [&](simplex_descriptor s) { f(s, simplex_vertices(s)); });
+      index(v), [&](simplex_descriptor s) { f(s, simplex_vertices(s)); });
   }
 
 private:
+  static std::size_t checked(const char* what, std::size_t k, std::size_t size)
+  {
+    CGAL_precondition(k < size);
+    if(k >= size)
+      throw std::out_of_range("Simplex_soup_domain: there is no " + (what + std::to_string(k)));
+    return k;
+  }
+
   const PointRange* m_points;
   PointRange* m_output_points;
   const SimplexRange* m_simplices;
@@ -145,6 +164,46 @@ using Polygon_soup_domain = Simplex_soup_domain<2, PointRange, PolygonRange>;
 /// \brief a tetrahedral complex, given by a range of points and a range of tetrahedra.
 template <typename PointRange, typename TetrahedronRange>
 using Tetrahedron_soup_domain = Simplex_soup_domain<3, PointRange, TetrahedronRange>;
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a surface that is given by ranges. The points are changed in place.
+template <typename PointRange, typename PolygonRange>
+Polygon_soup_domain<PointRange, PolygonRange>
+make_polygon_soup_domain(PointRange& points, const PolygonRange& polygons)
+{
+  return {points, polygons};
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a surface that is given by ranges, with a range for the output.
+template <typename PointRange, typename PolygonRange>
+Polygon_soup_domain<PointRange, PolygonRange>
+make_polygon_soup_domain(const PointRange& points, const PolygonRange& polygons,
+                         PointRange& output_points)
+{
+  return {points, polygons, output_points};
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a tetrahedral complex that is given by ranges. The points are
+/// changed in place.
+template <typename PointRange, typename TetrahedronRange>
+Tetrahedron_soup_domain<PointRange, TetrahedronRange>
+make_tetrahedron_soup_domain(PointRange& points, const TetrahedronRange& tetrahedra)
+{
+  return {points, tetrahedra};
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a tetrahedral complex that is given by ranges, with a range for the
+/// output.
+template <typename PointRange, typename TetrahedronRange>
+Tetrahedron_soup_domain<PointRange, TetrahedronRange>
+make_tetrahedron_soup_domain(const PointRange& points, const TetrahedronRange& tetrahedra,
+                             PointRange& output_points)
+{
+  return {points, tetrahedra, output_points};
+}
 
 } // namespace ARAP
 } // namespace CGAL

@@ -37,6 +37,7 @@ enum class Status
   not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
   invalid_weight,       ///< the weight of a target is negative or not a number
   not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron
+  too_many_corners,     ///< a face of the region has more than 2048 corners
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
   no_simplex,           ///< no vertex of the region of interest has an incident simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
@@ -75,6 +76,7 @@ inline const char* to_string(Status status)
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::invalid_weight: return "invalid_weight";
   case Status::not_a_simplex: return "not_a_simplex";
+  case Status::too_many_corners: return "too_many_corners";
   case Status::no_tetrahedron: return "no_tetrahedron";
   case Status::no_simplex: return "no_simplex";
   case Status::non_finite_point: return "non_finite_point";

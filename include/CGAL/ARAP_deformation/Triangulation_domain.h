@@ -77,6 +77,8 @@ public:
   {
     for(vertex_descriptor v : triangulation.finite_vertex_handles())
       m_indices->emplace(v, m_indices->size());
+    if constexpr(have_cells_caches)
+      m_cells_with_caches = std::make_shared<Cells_of_vertices>(m_indices->size());
   }
 
   /// constructs the domain of all finite cells. If cells have a subdomain index, those with its
@@ -97,7 +99,14 @@ public:
   void set_point(vertex_descriptor v, const Point& point) const
   {
     v->set_point(internal::with_weight_of(v->point(), point));
-    for_each_incident_cell(v, [](simplex_descriptor cell) { internal::invalidate_caches(*cell); });
+    if constexpr(have_cells_caches)
+    {
+      std::vector<simplex_descriptor>& cells = (*m_cells_with_caches)[index(v)];
+      if(cells.empty()) // collected once: a session writes the same points again and again
+        for_each_incident_cell(v, [&](simplex_descriptor cell) { cells.push_back(cell); });
+      for(simplex_descriptor cell : cells)
+        internal::invalidate_caches(*cell);
+    }
   }
 
   /// returns `true`: points are changed in place.
@@ -132,6 +141,9 @@ public:
 
 private:
   using Indices = std::unordered_map<vertex_descriptor, std::size_t>;
+  using Cells_of_vertices = std::vector<std::vector<simplex_descriptor>>;
+
+  static constexpr bool have_cells_caches = internal::has_caches<typename Triangulation::Cell>;
 
   bool is_in(simplex_descriptor cell) const
   {
@@ -152,7 +164,8 @@ private:
 
   Triangulation* m_triangulation;
   Cell_predicate m_is_selected;
-  std::shared_ptr<Indices> m_indices; // shared by copies
+  std::shared_ptr<Indices> m_indices; // shared by copies, as the next
+  std::shared_ptr<Cells_of_vertices> m_cells_with_caches; // at each vertex that was moved
 };
 
 /// \ingroup PkgARAPDeformationDomains

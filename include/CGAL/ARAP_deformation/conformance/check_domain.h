@@ -128,9 +128,9 @@ private:
   {
     const Point before = m_domain.point(v);
     const Coordinates c = Domain::coordinates(before);
-    const Coordinates moved = {c[0] + 1, c[1] - 2, c[2] + 3};
-    m_domain.set_point(v, Domain::make_point(moved));
-    const Coordinates& expected = m_domain.is_in_place() ? moved : c;
+    const Point moved = Domain::make_point({c[0] + 1, c[1] - 2, c[2] + 3});
+    m_domain.set_point(v, moved);
+    const Coordinates expected = m_domain.is_in_place() ? Domain::coordinates(moved) : c;
     require(are_close(Domain::coordinates(m_domain.point(v)), expected),
             "point() is not what set_point() and is_in_place() make it", v);
     require(are_close(Domain::coordinates(copy.point(v)), expected),

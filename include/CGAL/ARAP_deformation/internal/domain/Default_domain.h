@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/ARAP_deformation/internal/domain/No_domain.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <CGAL/tags.h>
@@ -94,6 +95,12 @@ struct Is_complete : std::false_type {};
 template <typename T>
 struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
 
+// the domain if it may be used, No_domain if not
+template <bool is_accepted, typename Domain>
+struct Domain_if { using type = Domain; };
+template <typename Domain>
+struct Domain_if<false, Domain> { using type = No_domain; };
+
 // The default domain of a mesh in ARAP_deformation and arap_deform(). Domains of volumes have
 // separate headers, so that programs that deform only surfaces do not compile them.
 template <typename Mesh, typename = void>
@@ -103,7 +110,7 @@ struct Default_domain
   static_assert(!is_valid<Begin_of, Mesh>,
                 "a range is not a mesh: to deform ranges of points and simplices, construct their "
                 "domain, CGAL::ARAP::Simplex_soup_domain");
-  using type = Face_graph_domain<Mesh>;
+  using type = typename Domain_if<!is_valid<Begin_of, Mesh>, Face_graph_domain<Mesh>>::type;
 };
 
 template <typename Domain>
@@ -115,12 +122,12 @@ struct Default_domain<Domain, std::enable_if_t<Is_domain<Domain>::value>>
 template <typename Mesh>
 struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
 {
-  static_assert(!is_valid<Covering_sheets_of, Mesh>,
-                "periodic triangulations cannot be deformed");
-  using type = Triangulation_domain<Mesh>;
-  static_assert(Is_complete<type>::value,
-                "to deform a triangulation, "
-                "#include <CGAL/ARAP_deformation/Triangulation_domain.h>");
+  static constexpr bool is_periodic = is_valid<Covering_sheets_of, Mesh>;
+  static_assert(!is_periodic, "periodic triangulations cannot be deformed");
+  static constexpr bool is_included = Is_complete<Triangulation_domain<Mesh>>::value;
+  static_assert(is_included, "to deform a triangulation, "
+                             "#include <CGAL/ARAP_deformation/Triangulation_domain.h>");
+  using type = typename Domain_if<is_included && !is_periodic, Triangulation_domain<Mesh>>::type;
 };
 
 template <typename Mesh>
@@ -131,8 +138,9 @@ struct Default_domain<Mesh, std::enable_if_t<Is_mesh_complex<Mesh>::value>>
 template <typename Mesh>
 struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
 {
-  using type = Linear_cell_complex_domain<Mesh>;
-  static_assert(Is_complete<type>::value,
+  static constexpr bool is_included = Is_complete<Linear_cell_complex_domain<Mesh>>::value;
+  using type = typename Domain_if<is_included, Linear_cell_complex_domain<Mesh>>::type;
+  static_assert(is_included,
                 "to deform this linear cell complex, #include "
                 "<CGAL/ARAP_deformation/Linear_cell_complex_domain.h>");
 };
@@ -140,7 +148,7 @@ struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
 template <typename Domain, typename Mesh>
 Domain make_domain(Mesh& mesh)
 {
-  if constexpr(Is_mesh_complex<Mesh>::value)
+  if constexpr(Is_mesh_complex<Mesh>::value && !std::is_same_v<Domain, No_domain>)
     return make_complex_domain(mesh);
   else
     return Domain(mesh);

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
@@ -46,8 +47,8 @@ struct Domain_region
 
   // Collects the region of the given movable vertices, which are distinct; positions are filled in
   // later. Movable vertices are numbered in breadth-first order, so that what is near in the
-  // mesh is near in memory. Returns false if there is something that is not a simplex:
-  // refused_vertex() is at it.
+  // mesh is near in memory. Returns false if there is something that is not a simplex, or has too
+  // many corners: refused_vertex() is at it, and refusal() says which.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices)
   {
     flat.dimension = Domain::dimension;
@@ -97,6 +98,8 @@ struct Domain_region
   // the vertex at whose faces collect() stopped
   vertex_descriptor refused_vertex() const { return vertices[first_simplex.size() - 1]; }
 
+  Status refusal() const { return m_refusal; }
+
 private:
   static constexpr int movable_without_number = -2;
 
@@ -143,8 +146,11 @@ private:
           }
           if(!is_first_visit)
             return flat.corners.resize(flat.first_corner.back());
-          are_simplices &= is_simplex(flat.corners.begin() + flat.first_corner.back(),
-                                      flat.corners.end());
+          const auto first = flat.corners.begin() + flat.first_corner.back();
+          if(are_polygons_allowed && flat.corners.end() - first > most_corners)
+            m_refusal = Status::too_many_corners;
+          are_simplices &= m_refusal != Status::too_many_corners &&
+                           is_simplex(first, flat.corners.end());
           simplices.push_back(s);
           flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
         });
@@ -164,15 +170,17 @@ private:
     first_simplex.shrink_to_fit();
   }
 
+  static constexpr bool are_polygons_allowed =
+    Domain::dimension == 2 && !is_valid<Triangles_only, Domain>;
+
   int m_number_of_found = 0; // movable vertices that have a number
+  Status m_refusal = Status::not_a_simplex;
 
   // whether there are as many corners as the dimension asks for, all different
   template <typename Iterator>
   static bool is_simplex(Iterator begin, Iterator end)
   {
     const auto n = end - begin;
-    constexpr bool are_polygons_allowed =
-      Domain::dimension == 2 && !is_valid<Triangles_only, Domain>;
     if(are_polygons_allowed ? n < 3 : n != Domain::dimension + 1)
       return false;
     if(n <= 4)

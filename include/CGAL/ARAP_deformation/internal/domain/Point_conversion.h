@@ -15,9 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <CGAL/number_utils.h>
 
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -25,28 +27,77 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// constructs a point from its coordinates, without rounding if the point accepts their type
-template <typename Point, typename FT>
-Point construct_point(const FT& x, const FT& y, const FT& z)
+template <typename Point>
+using Ambient_dimension_of = std::integral_constant<int, Point::Ambient_dimension::value>;
+template <typename Point>
+using Tuple_size_of = std::integral_constant<int, std::tuple_size<Point>::value>;
+template <typename Point>
+using Eigen_size_of = std::integral_constant<int, Point::SizeAtCompileTime>;
+
+// the number of coordinates of a point of CGAL, of a std::array, of a vector of Eigen or of any
+// other type, which is constructed from them
+template <typename Point>
+constexpr int number_of_coordinates()
 {
-  if constexpr(std::is_constructible_v<Point, FT, FT, FT>)
-    return Point(x, y, z);
+  if constexpr(is_valid<Ambient_dimension_of, Point>)
+    return Ambient_dimension_of<Point>::value;
+  else if constexpr(is_valid<Tuple_size_of, Point>)
+    return Tuple_size_of<Point>::value;
+  else if constexpr(is_valid<Eigen_size_of, Point>)
+    return Eigen_size_of<Point>::value;
+  else
+    return !std::is_constructible_v<Point, double, double, double> &&
+           std::is_constructible_v<Point, double, double> ? 2 : 3;
+}
+
+// constructs a point from its coordinates, without rounding if the point accepts their type
+template <typename Point, typename... FT>
+Point construct_from_coordinates(const FT&... coordinates)
+{
+  if constexpr(std::is_constructible_v<Point, const FT&...>)
+    return Point(coordinates...);
   else // std::array, which accepts only its own type
   {
     using Coordinate = std::decay_t<decltype(std::declval<const Point&>()[0])>;
-    return Point{static_cast<Coordinate>(x), static_cast<Coordinate>(y),
-                 static_cast<Coordinate>(z)};
+    return Point{static_cast<Coordinate>(coordinates)...};
   }
 }
 
+// constructs a point; one with two coordinates leaves out z
+template <typename Point, typename FT>
+Point construct_point(const FT& x, const FT& y, const FT& z)
+{
+  if constexpr(number_of_coordinates<Point>() == 2)
+    return construct_from_coordinates<Point>(x, y);
+  else
+    return construct_from_coordinates<Point>(x, y, z);
+}
+
+// p + t, for a vector with as many coordinates
+template <typename Point, typename Vector>
+Point translated(const Point& p, const Vector& t)
+{
+  if constexpr(number_of_coordinates<Point>() == 2)
+    return construct_from_coordinates<Point>(p[0] + t[0], p[1] + t[1]);
+  else
+    return construct_from_coordinates<Point>(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
+}
+
 // A base of the domains: the point functions of ARAPDomain, for any type with operator[] and a
-// constructor from three coordinates.
+// constructor from three coordinates, or from two: such points are in the plane z = 0.
 template <typename Point>
 struct Point_conversion
 {
+  static constexpr bool is_planar = number_of_coordinates<Point>() == 2;
+  static_assert(is_planar || number_of_coordinates<Point>() == 3,
+                "the points of a shape must have three coordinates, or two in the plane");
+
   static Coordinates coordinates(const Point& point)
   {
-    return {CGAL::to_double(point[0]), CGAL::to_double(point[1]), CGAL::to_double(point[2])};
+    double z = 0;
+    if constexpr(!is_planar)
+      z = CGAL::to_double(point[2]);
+    return {CGAL::to_double(point[0]), CGAL::to_double(point[1]), z};
   }
 
   static Point make_point(const Coordinates& c) { return construct_point<Point>(c[0], c[1], c[2]); }

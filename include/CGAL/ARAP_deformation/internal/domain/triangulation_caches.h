@@ -66,6 +66,11 @@ bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)
     return true;
 }
 
+template <typename Cell>
+constexpr bool has_caches = is_valid<Call_invalidate_circumcenter, Cell> ||
+                            is_valid<Call_invalidate_weighted_circumcenter_cache, Cell> ||
+                            is_valid<Call_reset_cache_validity, Cell>;
+
 // invalidates the data that a cell has cached from the points of its vertices
 template <typename Cell>
 void invalidate_caches([[maybe_unused]] Cell& cell)

@@ -111,7 +111,7 @@ public:
     if(size <= m_squared_length)
       return m_scale;
     const double ratio = size / m_squared_length; // infinite for a rest shape in one point
-    return std::isfinite(ratio) ? m_scale * ratio : m_sum_of_weights * size;
+    return is_finite(ratio) ? m_scale * ratio : m_sum_of_weights * size;
   }
 
   // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
@@ -148,9 +148,9 @@ public:
     int vertex = -1;
     const auto& weights = std::visit(
       [](const auto& cells) -> const std::vector<double>& { return cells.weights(); }, m_cells);
-    if(!std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); }))
+    if(!std::all_of(weights.begin(), weights.end(), [](double w) { return is_finite(w); }))
       for_each_edge([&](int i, int, double weight) {
-        if(!std::isfinite(weight))
+        if(!is_finite(weight))
           vertex = i;
       });
     return vertex;

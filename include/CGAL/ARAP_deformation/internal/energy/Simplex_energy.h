@@ -69,6 +69,35 @@ struct Simplex_covariances_kernel
   }
 };
 
+// The cells of a simplex as one, for polygons, which are in many: with the mean rotation M and the
+// spread S of their rotations R,
+//   sum of k || d' - R d ||^2 = (sum of k) || d' - M d ||^2 + d^T S d.
+struct Joint_cell
+{
+  double stiffness = 0;
+  Matrix_3x3 mean = {}, spread = {};
+
+  Joint_cell(const Index_lists& cells, int s, const double* stiffnesses,
+             const Matrix_3x3* rotations)
+  {
+    for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+      stiffness += stiffnesses[cells.items[k]];
+    for(int k = cells.begin[s]; k < cells.begin[s + 1] && stiffness > 0; ++k)
+      for(int entry = 0; entry < 9; ++entry)
+        mean[entry] += stiffnesses[cells.items[k]] * rotations[cells.items[k]][entry] / stiffness;
+    for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+      for(int a = 0; a < 3; ++a)
+        for(int b = 0; b < 3; ++b)
+          for(int row = 0; row < 3; ++row)
+          {
+            const Matrix_3x3& r = rotations[cells.items[k]];
+            spread[3 * a + b] += stiffnesses[cells.items[k]] *
+                                 (r[3 * row + a] - mean[3 * row + a]) *
+                                 (r[3 * row + b] - mean[3 * row + b]);
+          }
+  }
+};
+
 // The energies of simplices in all cells that they are in, and the forces on their corners: minus
 // the sum of k w r over the edges there and these cells, with r the residuals.
 template <int N>
@@ -90,7 +119,27 @@ struct Simplex_residuals_kernel
       Double4 simplex_energy = Double4::zero();
       for(int a = 0; a < n; ++a)
         forces[a] = Double4::zero();
-      for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+      if(N == 0)
+      {
+        const Joint_cell cell(cells, s, stiffness, rotations);
+        const Matrix_columns mean = Matrix_columns::of(cell.mean);
+        const Matrix_columns spread = Matrix_columns::of(cell.spread);
+        const double* weight = simplices.weights + simplices.first_weight[s];
+        for(int a = 0; a < n; ++a)
+          for(int b = a + 1; b < n; ++b, ++weight)
+          {
+            const int i = corners[a], j = corners[b];
+            const Double4 edge = simplices.rest[i] - simplices.rest[j];
+            const Double4 residual = subtract_product(simplices.x[i] - simplices.x[j], mean, edge);
+            const Double4 weighted = Double4::all(cell.stiffness * *weight) * residual;
+            const Double4 spread_edge = subtract_product(Double4::zero(), spread, edge);
+            simplex_energy = multiply_add(weighted, residual, simplex_energy) -
+                             Double4::all(*weight) * edge * spread_edge;
+            forces[a] = forces[a] - weighted;
+            forces[b] = forces[b] + weighted;
+          }
+      }
+      for(int k = cells.begin[s]; k < cells.begin[s + 1] && N > 0; ++k)
       {
         const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
         const double* weight = simplices.weights + simplices.first_weight[s];
@@ -163,8 +212,12 @@ public:
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
+    int last = -1;
+    double stiffness = 0;
     m_simplices.for_each_edge([&](int s, int i, int j, double w) {
-      f(i, j, total_stiffness(s, m_cells.stiffness) * w);
+      if(s != last)
+        stiffness = total_stiffness(last = s, m_cells.stiffness);
+      f(i, j, stiffness * w);
     });
   }
 

@@ -28,6 +28,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -73,6 +74,11 @@ inline double relative_area(const std::array<Coordinates, 3>& triangle)
 // The share of a triangle falls to zero as its corners come to lie on a line: it has no part in the
 // area that the energy is an integral over, and would be infinitely stiff. It falls gradually, or a
 // rounding error would decide. If the polygon has no other triangles, all keep their shares.
+//
+// A polygon with more corners than `most_corners_of_all` has too many triangles. It has the average
+// of the n triangulations that are fans, in which no corner is special either.
+constexpr int most_corners_of_all = 64;
+
 inline void compute_polygon_weights(const Edge_weight_model& model, const Region& region, int s,
                                     double* weights)
 {
@@ -81,30 +87,39 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
   std::vector<double> scaled_catalan(n - 1, 1);
   for(int m = 0; m + 2 < n; ++m)
     scaled_catalan[m + 1] = scaled_catalan[m] * (2 * m + 1) / (2 * (m + 2));
-  const auto pair = [n](int a, int b) { return a * (2 * n - a - 1) / 2 + b - a - 1; };
+  const auto weight = [n, weights](int a, int b) -> double& {
+    std::tie(a, b) = std::minmax({a, b});
+    return weights[a * (2 * n - a - 1) / 2 + b - a - 1];
+  };
   std::fill(weights, weights + n * (n - 1) / 2, 0.0);
-  const auto for_each_triangle = [&](const auto& f) {
+  const auto for_each_triangle = [&](const auto& f) { // with the fraction that it is in
     for(int a = 0; a < n; ++a)
-      for(int b = a + 1; b < n; ++b)
-        for(int c = b + 1; c < n; ++c)
-          f(a, b, c, relative_area(corner_points<3>(region, {corners[a], corners[b], corners[c]})));
+      if(n > most_corners_of_all)
+        for(int k = 1; k + 1 < n; ++k)
+          f(a, (a + k) % n, (a + k + 1) % n, 1.0 / n);
+      else
+        for(int b = a + 1; b < n; ++b)
+          for(int c = b + 1; c < n; ++c)
+            f(a, b, c, scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
+                         scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]));
+  };
+  const auto area = [&](int a, int b, int c) {
+    return relative_area(corner_points<3>(region, {corners[a], corners[b], corners[c]}));
   };
   constexpr double negligible = 1e-6;
   double largest_area = 0;
-  for_each_triangle([&](int, int, int, double area) {
-    largest_area = (std::max)(largest_area, area);
+  for_each_triangle([&](int a, int b, int c, double) {
+    largest_area = (std::max)(largest_area, area(a, b, c));
   });
   const double smallest_share = (std::max)(0.0, 1 - largest_area / negligible);
-  for_each_triangle([&](int a, int b, int c, double relative_area) {
-    const double area = (std::min)(relative_area / negligible, 1.0);
-    const double share = (std::max)(area * area, smallest_share);
-    const double fraction = share * scaled_catalan[b - a - 1] * scaled_catalan[c - b - 1] *
-                            scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]);
+  for_each_triangle([&](int a, int b, int c, double fraction) {
+    const double relative_area = (std::min)(area(a, b, c) / negligible, 1.0);
+    fraction *= (std::max)(relative_area * relative_area, smallest_share);
     const std::array<double, 3> w =
       triangle_weights(model, region, corners[a], corners[b], corners[c]);
-    weights[pair(a, b)] += fraction * w[0];
-    weights[pair(a, c)] += fraction * w[1];
-    weights[pair(b, c)] += fraction * w[2];
+    weight(a, b) += fraction * w[0];
+    weight(a, c) += fraction * w[1];
+    weight(b, c) += fraction * w[2];
   });
 }
 
@@ -148,7 +163,7 @@ inline Simplices weighted_simplices(const Edge_weight_model& model, const Region
 inline int find_non_finite_simplex(const Simplices& simplices)
 {
   for(std::size_t k = 0; k < simplices.weights.size(); ++k)
-    if(!std::isfinite(simplices.weights[k]))
+    if(!is_finite(simplices.weights[k]))
       return static_cast<int>(std::upper_bound(simplices.first_weight.begin(),
                                                simplices.first_weight.end(), static_cast<int>(k)) -
                               simplices.first_weight.begin()) - 1;

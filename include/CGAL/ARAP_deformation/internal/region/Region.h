@@ -23,6 +23,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// The weights of a polygon are stored for all pairs of its corners.
+constexpr int most_corners = 2048;
+
 // What the numeric core knows of a mesh: the vertices that may move, with two rings of simplices
 // around them. Those vertices come first, then their neighbours, then the neighbours of those. The
 // first two are the centres: the vertices whose simplices are all here. Which of the vertices that

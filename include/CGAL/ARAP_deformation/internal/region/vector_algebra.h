@@ -16,8 +16,9 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace CGAL {
@@ -64,9 +65,18 @@ constexpr Matrix_3x3 identity_matrix()
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};
 }
 
+// tells by the exponent, since -ffast-math takes std::isfinite() to be true
+inline bool is_finite(double x)
+{
+  constexpr std::uint64_t exponent = 0x7ff0000000000000;
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return (bits & exponent) != exponent;
+}
+
 inline bool is_finite(const Coordinates& a)
 {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+  return is_finite(a[0]) && is_finite(a[1]) && is_finite(a[2]);
 }
 
 // the index of the first point with a coordinate that is infinite or not a number, or -1

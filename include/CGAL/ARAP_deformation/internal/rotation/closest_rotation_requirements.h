@@ -31,8 +31,15 @@ using Call_closest_rotation = decltype(std::declval<const Rotation&>()(
   std::size_t(), std::declval<const Matrix_3x3*>(), std::declval<Matrix_3x3*>()));
 
 template <typename Rotation>
+using Call_compute_close_rotation = decltype(std::declval<Rotation&>().compute_close_rotation(
+  std::declval<const typename Rotation::Matrix&>(), std::declval<typename Rotation::Matrix&>()));
+
+template <typename Rotation>
 struct Closest_rotation_requirements
 {
+  static_assert(!is_valid<Call_compute_close_rotation, Rotation>,
+    "a model of CGAL's concept DeformationClosestRotationTraits_3 is no model of "
+    "ARAPClosestRotation: wrap it in CGAL::ARAP::Closest_rotation_traits_adaptor<>");
   static_assert(is_valid<Call_closest_rotation, Rotation>,
     "the model of ARAPClosestRotation lacks: void operator()(std::size_t, "
     "const CGAL::ARAP::Matrix_3x3*, CGAL::ARAP::Matrix_3x3*) const");

@@ -286,7 +286,7 @@ private:
       append_neighbours(vertices, movable);
     auto& region = prepared.region;
     if(!region.collect(domain, movable))
-      return outcome(Status::not_a_simplex, name(region.refused_vertex()));
+      return outcome(region.refusal(), name(region.refused_vertex()));
 
     prepared.positions.reserve(region.vertices.size());
     region.flat.rest.reserve(region.vertices.size());

@@ -96,6 +96,10 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::not_a_simplex:
     return about(" is incident to a face that is not a polygon, or to a cell that is not a "
                  "tetrahedron: the number of corners is wrong, or a corner is repeated or missing");
+  case Status::too_many_corners:
+    return about(" is incident to a face with more than " + std::to_string(most_corners) +
+                 " corners; triangulate it, with "
+                 "CGAL::Polygon_mesh_processing::triangulate_face() for instance");
   case Status::no_tetrahedron:
     return about("there is no tetrahedron with a volume to embed points in");
   case Status::no_simplex:

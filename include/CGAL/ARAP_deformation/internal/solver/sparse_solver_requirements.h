@@ -53,7 +53,7 @@ template <typename Solver>
 constexpr bool can_have_border = is_valid<Call_set_border, Solver>;
 
 template <typename Solver>
-struct Sparse_solver_requirements
+struct Sparse_solver_members
 {
   static_assert(is_valid<Call_analyze, Solver>,
     "the model of ARAPSparseSolver lacks: bool analyze(const CGAL::ARAP::Sparse_matrix&)");
@@ -67,6 +67,29 @@ struct Sparse_solver_requirements
     "the model of ARAPSparseSolver lacks: a move constructor");
   static_assert(std::is_move_assignable_v<Solver>,
     "the model of ARAPSparseSolver lacks: a move assignment");
+};
+
+// the members by which solvers of other libraries are known
+template <typename Solver>
+using Call_linear_solver = decltype(std::declval<Solver&>().linear_solver(
+  std::declval<const typename Solver::Vector&>(), std::declval<typename Solver::Vector&>()));
+template <typename Solver>
+using Call_analyze_pattern = decltype(std::declval<Solver&>().analyzePattern(
+  std::declval<const typename Solver::MatrixType&>()));
+
+// names the adaptor of such a solver, and not all that it lacks
+template <typename Solver>
+struct Sparse_solver_requirements
+  : std::conditional_t<is_valid<Call_linear_solver, Solver> ||
+                         is_valid<Call_analyze_pattern, Solver>,
+                       std::true_type, Sparse_solver_members<Solver>>
+{
+  static_assert(!is_valid<Call_linear_solver, Solver>,
+    "a solver of CGAL, a model of SparseLinearAlgebraWithFactorTraits_d, is no model of "
+    "ARAPSparseSolver: wrap it in CGAL::ARAP::Sparse_linear_algebra_adaptor<>");
+  static_assert(!is_valid<Call_analyze_pattern, Solver>,
+    "a solver of Eigen is no model of ARAPSparseSolver: wrap it in "
+    "CGAL::ARAP::Eigen_sparse_solver<>");
   static constexpr bool are_met = true;
 };
 

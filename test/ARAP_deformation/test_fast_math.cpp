@@ -1,0 +1,63 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// A program compiled with -ffast-math, for which std::isfinite() is always true: what is not a
+// number is refused nevertheless.
+
+#undef CGAL_ARAP_DEFORMATION_COMPILED
+
+#include "include/check.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/edge_weights.h>
+
+#include <cstddef>
+#include <limits>
+
+using namespace CGAL::ARAP;
+
+struct Weight : Uniform_weight
+{
+  double edge_weight(Edge_set, std::size_t i, std::size_t j, double) const
+  {
+    return i + j == 3 ? value : 1;
+  }
+  double value;
+};
+
+// one vertex is moved
+Report deform(double target, double coordinate, double weight)
+{
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Weight>;
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  mesh.point(Mesh::Vertex_index(4)) = Point(0.1, coordinate, 0.2);
+  CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, Traits({}, Weight{{}, weight}));
+  for(auto v : mesh.vertices())
+    deformation.insert_roi_vertex(v);
+  for(int v : {0, 5})
+    deformation.insert_control_vertex(Mesh::Vertex_index(v));
+  deformation.set_target_position(Mesh::Vertex_index(0), Point(1, target, 0));
+  return deformation.deform(5, 0);
+}
+
+int main()
+{
+  CHECK(deform(1, 1, 1));
+  for(double bad : {std::numeric_limits<double>::quiet_NaN(),
+                    std::numeric_limits<double>::infinity()})
+  {
+    CHECK(deform(bad, 1, 1).status == Status::non_finite_point);
+    CHECK(deform(1, bad, 1).status == Status::non_finite_point);
+    CHECK(deform(1, 1, bad).status == Status::non_finite_weight);
+  }
+  return checks_result();
+}
