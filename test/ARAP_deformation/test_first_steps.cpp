@@ -479,7 +479,8 @@ void test_one_call()
     for(Vertex v : mesh.vertices())
       if(v > Vertex(30)) region.push_back(v);
     const Report report = CGAL::arap_deform(
-      mesh, targets, parameters::region_of_interest(region, parameters::deformation_traits(Traits())));
+      mesh, targets,
+      parameters::region_of_interest(region, parameters::deformation_traits(Traits())));
     CHECK(report.free_vertices == 48);
     for(int v = 0; v < 30; ++v)
       CHECK(mesh.point(Vertex(v)) == rest.point(Vertex(v)));
