@@ -74,7 +74,7 @@ void deform_with(const std::string& name, Scenario& scenario)
                                                                                traits);
       ARAP::Options options;
       options.cells = ARAP::Cell_scheme::spokes();
-      deformation.set_options(options);
+      expect_success(deformation.set_options(options));
       deform(scenario, deformation, [&] { expect_success(deformation.preprocess()); });
     };
     if(name == "ours")

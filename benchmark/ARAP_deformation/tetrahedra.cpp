@@ -101,7 +101,7 @@ public:
   {
     ARAP::Options options;
     options.cells = ARAP::Cell_scheme::elements();
-    m_deformation.set_options(options);
+    expect_success(m_deformation.set_options(options));
     for(std::size_t v = 0; v < bar.points.size(); ++v)
       m_deformation.insert_roi_vertex(v);
     for(const auto& [v, target] : bar.targets)

@@ -184,11 +184,14 @@ Report deform(const Command_line& line, const Domain& domain, const std::vector<
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
-  deformation.set_options(line.options);
+  Report report;
+  static_cast<CGAL::ARAP::Outcome&>(report) = deformation.set_options(line.options);
+  if(!report)
+    return report;
   insert_selection(deformation, selection, transform);
 
   progress.show("preprocessing ...");
-  Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
+  report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
     if(iterate.iteration() == 0)
       progress.done("preprocessed");
     if(progress.is_shown())
@@ -230,7 +233,7 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
   out << line.mesh << ": " << result.vertices << " vertices, "
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
-            << "energy " << report.energy.front() << " -> " << report.energy.back()
+            << "energy " << report.energy.front() << " -> " << report.final_energy()
             << ", edge length error " << result.edge_length_error << '\n';
   if(report.inverted_simplices > 0)
     out << report.inverted_simplices << " of " << result.simplices

@@ -118,6 +118,12 @@ void draw_model(const fs::path& folder, const Demo_model<Shape>& model)
        model.view, folder / (model.name + ".png"));
 }
 
+void expect_success(const CGAL::ARAP::Outcome& outcome)
+{
+  if(!outcome)
+    throw std::runtime_error(outcome.message);
+}
+
 using Traits = CGAL::ARAP_deformation_traits<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
@@ -133,7 +139,7 @@ void draw_iterations(const fs::path& folder)
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
   options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
-  deformation.set_options(options);
+  expect_success(deformation.set_options(options));
   insert_selection(deformation, bar.selection, bar.transform);
 
   const std::set<unsigned int> shown = {0, 1, 2, 5, 10, 100};
@@ -148,8 +154,7 @@ void draw_iterations(const fs::path& folder)
     }
     return CGAL::ARAP::Visitor_action::proceed;
   });
-  if(!report)
-    throw std::runtime_error(report.message);
+  expect_success(report);
   draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420},
        folder / "iterations.png");
 }
@@ -181,11 +186,10 @@ Panel deformed_sheet(const Demo_shape& sheet, const std::string& caption)
   CGAL::ARAP_deformation<Mesh, Deformation_traits> deformation(mesh);
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::spokes();
-  deformation.set_options(options);
+  expect_success(deformation.set_options(options));
   insert_selection(deformation, sheet.selection, sheet.transform);
   const auto report = deformation.deform(2000, 1e-4);
-  if(!report)
-    throw std::runtime_error(report.message);
+  expect_success(report);
   std::cout << "  " << caption << ": left and right differ by at most "
             << asymmetry(sheet.mesh, mesh) << " (the handle is lifted by "
             << sheet.transform[11] << ")\n";
@@ -239,8 +243,7 @@ void draw_embedding(const fs::path& folder)
   insert_selection(deformation, selection, transform);
   const Panel before = panel(palm, volume, selection, "a surface in a coarse volume");
   const auto report = deformation.deform();
-  if(!report)
-    throw std::runtime_error(report.message);
+  expect_success(report);
   embedding.put_points(palm.points);
   std::cout << "  " << palm.points.size() << " points in " << volume.simplices.size()
             << " tetrahedra\n";

@@ -106,7 +106,7 @@ bool bend(const char* name, const Solver& solver = Solver())
     deformation.translate(v, Kernel::Vector_3(-1, 0, 1.5));
   }
   const CGAL::ARAP::Report report = deformation.deform();
-  std::cout << name << ": " << report.iterations << " iterations, energy " << report.energy.back()
+  std::cout << name << ": " << report.iterations << " iterations, energy " << report.final_energy()
             << std::endl;
   return bool(report);
 }

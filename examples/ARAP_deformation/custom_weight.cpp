@@ -56,7 +56,8 @@ bool bend(const char* name, const Traits& traits, Cell_scheme cells)
   CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
   CGAL::ARAP::Options options;
   options.cells = cells; // at run time
-  deformation.set_options(options);
+  if(!deformation.set_options(options))
+    return false;
   for(Mesh::Vertex_index v : mesh.vertices())
   {
     if(rest.point(v).x() > 0.15) deformation.insert_roi_vertex(v);

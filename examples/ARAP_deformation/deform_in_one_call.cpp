@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
@@ -24,23 +25,21 @@ int main()
     return Point(std::cos(turn * j), std::sin(turn * j), 10.0 * i / along);
   }, true);
 
-  // the bottom stays, the top moves to the side and turns by a right angle
-  auto constrained = mesh.add_property_map<vertex_descriptor, bool>("v:constrained", false).first;
-  auto target = mesh.add_property_map<vertex_descriptor, Point>("v:target").first;
+  // the top moves to the side and turns by a right angle, the bottom stays
+  std::map<vertex_descriptor, Point> targets;
   for(vertex_descriptor v : mesh.vertices())
-  {
-    const Point& p = mesh.point(v);
-    constrained[v] = p.z() < 0.5 || p.z() > 9.5;
-    target[v] = p.z() < 0.5 ? p : Point(4 + p.z() - 5, p.y(), 6 - p.x());
-  }
+    if(const Point& p = mesh.point(v); p.z() > 9.5)
+      targets[v] = Point(4 + p.z() - 5, p.y(), 6 - p.x());
+  const auto is_bottom = [&mesh](vertex_descriptor v) { return mesh.point(v).z() < 0.5; };
 
-  const CGAL::ARAP::Report report = CGAL::arap_deform(mesh, constrained, target);
+  const CGAL::ARAP::Report report =
+    CGAL::arap_deform(mesh, targets, CGAL::parameters::vertex_is_constrained_map(is_bottom));
   if(!report)
   {
     std::cerr << "not deformed: " << report.message << std::endl;
     return EXIT_FAILURE;
   }
   std::cout << report.iterations << " iterations, energy " << report.energy.front() << " -> "
-            << report.energy.back() << std::endl;
+            << report.final_energy() << std::endl;
   return CGAL::IO::write_polygon_mesh("bent_gutter.off", mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

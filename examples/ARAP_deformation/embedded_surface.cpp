@@ -113,7 +113,7 @@ int main()
     return EXIT_FAILURE;
   }
   std::cout << report.iterations << " iterations, energy " << report.energy.front() << " -> "
-            << report.energy.back() << std::endl;
+            << report.final_energy() << std::endl;
 
   // the surface follows
   const std::vector<Point> rest = points;

@@ -50,18 +50,24 @@ int main(int argc, char** argv)
   const std::vector<vertex_descriptor> handle = deformation.control_vertices();
   const Point center = mesh.point(handle.front());
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
+  std::vector<CGAL::ARAP_deformation<Mesh>::State> history; // what undo returns to
   for(int frame = 1; frame <= 10; ++frame)
   {
-    deformation.rotate(handle.begin(), handle.end(),
-                       Eigen::Vector3d(center.x(), center.y(), center.z()), turn);
-    deformation.translate(handle.begin(), handle.end(),
-                          Kernel::Vector_3(0, 0.01 * (*highest - *lowest), 0));
+    history.push_back(deformation.state());
+    deformation.rotate(handle, Eigen::Vector3d(center.x(), center.y(), center.z()), turn);
+    deformation.translate(handle, Kernel::Vector_3(0, 0.01 * (*highest - *lowest), 0));
     const CGAL::ARAP::Report report = deformation.deform(3, 0);
-    std::cout << "frame " << frame << ": energy " << report.energy.back() << ", "
+    if(!report)
+    {
+      std::cerr << report.message << std::endl;
+      return EXIT_FAILURE;
+    }
+    std::cout << "frame " << frame << ": energy " << report.final_energy() << ", "
               << 1000 * report.seconds.total << " ms" << std::endl;
   }
 
-  // back to the rest shape
-  deformation.reset();
-  return EXIT_SUCCESS;
+  // undo the last three frames; deformation.reset() would return to the rest shape
+  const CGAL::ARAP::Outcome undone = deformation.restore(history[7]);
+  std::cout << "after undo: the handle is at " << mesh.point(handle.front()) << std::endl;
+  return undone ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -40,14 +40,14 @@ bool fit(double weight)
       continue;
     const Point p = scanned(rest.point(v));
     const auto noise = [&random] { return random.get_double(-0.03, 0.03); };
-    deformation.insert_control_vertex(v);
-    deformation.set_target_position(v, Point(p.x() + noise(), p.y() + noise(), p.z() + noise()));
-    deformation.set_target_weight(v, weight);
+    deformation.insert_control_vertex(v, Point(p.x() + noise(), p.y() + noise(), p.z() + noise()));
   }
+  const CGAL::ARAP::Outcome weighted =
+    deformation.set_target_weight(deformation.control_vertices(), weight);
   const CGAL::ARAP::Report report = deformation.deform();
-  if(!report)
+  if(!weighted || !report)
   {
-    std::cerr << report.message << std::endl;
+    std::cerr << (weighted ? report.message : weighted.message) << std::endl;
     return false;
   }
   double sum = 0;

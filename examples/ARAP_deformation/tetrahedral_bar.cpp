@@ -80,7 +80,7 @@ int main()
       return EXIT_FAILURE;
     }
     std::cout << "step " << step << ": " << report.iterations << " iterations, energy "
-              << report.energy.front() << " -> " << report.energy.back() << ", "
+              << report.energy.front() << " -> " << report.final_energy() << ", "
               << report.inverted_simplices << " of " << report.simplices
               << " tetrahedra are inverted" << std::endl;
   }

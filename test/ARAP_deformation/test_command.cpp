@@ -556,7 +556,7 @@ CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_sch
                                                      std::vector<std::array<std::size_t, 4>>>;
   CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>> d(
     Domain(points, shape.tetrahedra));
-  d.set_options(options_for(cells));
+  CHECK(d.set_options(options_for(cells)));
   const Eigen::Matrix4d m = task.motion.matrix();
   for(std::size_t v = 0; v < number_of_vertices; ++v)
   {

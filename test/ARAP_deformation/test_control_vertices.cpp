@@ -840,7 +840,7 @@ void test_history()
     default:
       for(std::size_t c : old.control_vertices())
         CHECK(old.translate(c, Kernel::Vector_3(shift(), shift(), shift())));
-      old.deform(3, 0);
+      CHECK(old.deform(3, 0));
       old.reset();
     }
     if(change % 20 > 0)
@@ -1201,7 +1201,7 @@ void test_bridge(const std::string& solver)
             {2, 1, 1 + height}, {0, size, 0}, {0, 0, size}};
           std::vector<Point> points = points_of(rest);
           CGAL::ARAP_deformation<Domain, Traits> d{Domain(points, tetrahedra)};
-          d.set_options(options);
+          CHECK(d.set_options(options));
           for(std::size_t v = 0; v < points.size(); ++v)
             d.insert_roi_vertex(v);
           for(std::size_t v : {0, 1, 2})
@@ -1236,7 +1236,7 @@ void test_pulls()
         using Domain =
           CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, decltype(shape.triangles)>;
         CGAL::ARAP_deformation<Domain> d{Domain(points, shape.triangles)};
-        d.set_options(options);
+        CHECK(d.set_options(options));
         for(std::size_t v = 0; v < points.size(); ++v)
         {
           d.insert_roi_vertex(v);
@@ -1244,7 +1244,7 @@ void test_pulls()
             continue;
           d.insert_control_vertex(v);
           d.translate(v, shift);
-          d.set_target_weight(v, weight);
+          CHECK(d.set_target_weight(v, weight));
         }
         const Report report = d.deform(300, 0);
         CHECK(report);

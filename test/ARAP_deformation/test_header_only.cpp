@@ -62,7 +62,7 @@ void test_all()
   CHECK(is_refused([&] { d.simplex_rotation(Mesh::Face_index(0)); }));
   CGAL::ARAP::Options options;
   options.cells = CGAL::ARAP::Cell_scheme::elements();
-  d.set_options(options);
+  CHECK(d.set_options(options));
   CHECK(is_refused([&] { d.rotation(Mesh::Vertex_index(0)); })); // there is one for each face
 
   // in a run, by a visitor

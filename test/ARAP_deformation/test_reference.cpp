@@ -389,7 +389,7 @@ void test_sign_of_energy()
     using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, decltype(weight)>;
     std::vector<Point> points = points_of(shape.points);
     CGAL::ARAP_deformation<Soup, Traits> d(Soup(points, shape.tetrahedra));
-    d.set_options(options_for(cells));
+    CHECK(d.set_options(options_for(cells)));
     prepare(d, s, numbers(points.size()));
     const CGAL::ARAP::Report report = d.deform(100, 0);
     CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);

@@ -960,7 +960,7 @@ void test_nothing_free()
   for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
   {
     options.initial_guess = guess;
-    d.set_options(options);
+    CHECK(d.set_options(options));
     const auto report = d.deform();
     CHECK(report.status == Status::converged);
     CHECK(report.energy == std::vector<double>{0});
@@ -1030,7 +1030,7 @@ void test_solver()
     CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
     CGAL::ARAP::Options options;
     options.initial_guess = guess;
-    d.set_options(options);
+    CHECK(d.set_options(options));
     prepare(d, scenario(shape), all_vertices(mesh));
     Failing_solver::can_factorize = false;
     check_failure(mesh, d, Status::singular_matrix, "factorized",
@@ -1071,7 +1071,7 @@ void test_rising_energy()
     CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
     CGAL::ARAP::Options options;
     options.minimizer = minimizer;
-    d.set_options(options);
+    CHECK(d.set_options(options));
     prepare(d, scenario(sheet()), all_vertices(mesh));
     for(const double factor : {2.005, 10.0})
     {

@@ -496,7 +496,7 @@ private:
   {
     Mesh mesh = make_mesh<Mesh>(m_shape);
     CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
-    deformation.set_options(options_for(cells));
+    CHECK(deformation.set_options(options_for(cells)));
     prepare(deformation, scenario(m_shape), all_vertices(mesh));
     for(auto v : deformation.control_vertices())
       CHECK(deformation.set_target_weight(v, target_weight));

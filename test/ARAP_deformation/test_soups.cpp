@@ -168,12 +168,12 @@ void test_output_range()
                                 s.selection.begin());
   const auto run = [&](auto& deformation) {
     prepare(deformation, s, numbers(points.size()));
-    deformation.deform(3, 0);
+    CHECK(deformation.deform(3, 0));
     deformation.insert_control_vertex(free); // fixed where it is: preprocesses again
-    deformation.deform(3, 0);
+    CHECK(deformation.deform(3, 0));
     deformation.overwrite_initial_geometry();
     deformation.translate(free, Kernel::Vector_3(0.1, 0, 0));
-    deformation.deform(3, 0);
+    CHECK(deformation.deform(3, 0));
   };
   run(d);
   run(e);
@@ -252,7 +252,7 @@ void test_plane(double tolerance)
     auto q = spatial;
     const auto run = [&](const auto& domain) {
       CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
-      deformation.set_options(options_for(cells));
+      CHECK(deformation.set_options(options_for(cells)));
       for(std::size_t v : domain.vertices())
       {
         deformation.insert_roi_vertex(v);

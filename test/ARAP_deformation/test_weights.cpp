@@ -341,7 +341,7 @@ std::vector<double> energies(const Domain& domain, const Vertices& vertices, con
                              const Edge_map_weight& weight)
 {
   CGAL::ARAP_deformation<Domain, Traits> deformation(domain, Traits({}, weight));
-  deformation.set_options(options_for(Cell_scheme::spokes()));
+  CHECK(deformation.set_options(options_for(Cell_scheme::spokes())));
   prepare(deformation, s, vertices);
   const CGAL::ARAP::Report report = deformation.deform(10, 0);
   CHECK(report);

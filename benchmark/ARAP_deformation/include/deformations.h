@@ -138,7 +138,7 @@ public:
   {
     ARAP::Options options;
     options.cells = cells;
-    m_deformation.set_options(options);
+    expect_success(m_deformation.set_options(options));
     insert_vertices(scenario, m_deformation);
     preprocess();
     m_preprocess_seconds = m_stopwatch.seconds();
