@@ -21,7 +21,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A std::vector whose size and indices may also be int, as those of sparse matrices and index lists.
+// A std::vector whose size and indices may also be int, as in sparse matrices and index lists.
 template <typename T>
 class Array : public std::vector<T>
 {

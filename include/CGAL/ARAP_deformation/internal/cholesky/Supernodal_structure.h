@@ -118,7 +118,9 @@ public:
   {
     const auto p = static_cast<std::size_t>(position);
     const auto block = std::upper_bound(m_blocks.begin(), m_blocks.end(), p,
-      [](std::size_t column, const Block& b) { return column < b.columns + static_cast<std::size_t>(b.own); });
+      [](std::size_t column, const Block& b) {
+        return column < b.columns + static_cast<std::size_t>(b.own);
+      });
     const auto end = m_supernodes.begin() + block->supernodes_end;
     const auto next = std::upper_bound(m_supernodes.begin() + block->supernodes_begin, end,
       static_cast<int>(p - block->columns),

@@ -37,7 +37,7 @@ struct Supernodes
   Array<std::size_t> rows_begin;   // where the rows of each begin, and at last their number
   Array<int> rows;                 // below the triangle, ascending
   Array<std::size_t> values_begin; // where the values of each begin: column by column, each
-                                         // from the supernode's first row on
+                                   // from the supernode's first row on
 
   std::size_t size() const { return values_begin.size(); }
   int width(std::size_t s) const { return columns[s + 1] - columns[s]; }

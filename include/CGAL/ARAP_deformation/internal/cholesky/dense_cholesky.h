@@ -56,8 +56,9 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::ptrdiff_t c_stride, c
 
 // The same for one row.
 template <int Columns>
-CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::ptrdiff_t c_stride, const double* a,
-                                                  const double* b, std::ptrdiff_t stride, int depth)
+CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::ptrdiff_t c_stride,
+                                                  const double* a, const double* b,
+                                                  std::ptrdiff_t stride, int depth)
 {
   double sum[std::size_t(Columns)];
   for(int j = 0; j < Columns; ++j)
@@ -72,8 +73,8 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::ptrdiff_t c_st
 // C := C - A B^T for any number of rows and a few columns.
 template <int Columns>
 CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::ptrdiff_t c_stride,
-                                              const double* a, const double* b, std::ptrdiff_t stride,
-                                              int depth)
+                                              const double* a, const double* b,
+                                              std::ptrdiff_t stride, int depth)
 {
   int i = 0;
   for(; i + 8 <= rows; i += 8)
@@ -166,7 +167,8 @@ struct Subtract_square
   static constexpr int rows_at_once = 192, depth_at_once = 128;
 
   CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::ptrdiff_t u_stride, int n, int first,
-                                          int last, const double* a, int width, std::ptrdiff_t stride)
+                                          int last, const double* a, int width,
+                                          std::ptrdiff_t stride)
   {
     for(int k = 0; k < width; k += depth_at_once)
     {

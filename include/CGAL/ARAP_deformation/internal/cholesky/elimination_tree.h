@@ -126,8 +126,7 @@ inline Array<int> postorder(const Array<int>& parent)
 inline Array<int> column_counts(const Triangle_pattern& lower, const Array<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
-  Array<int> count(n, 0), first(n, -1), largest_first(n, -1), previous_leaf(n, -1),
-                   ancestor(n);
+  Array<int> count(n, 0), first(n, -1), largest_first(n, -1), previous_leaf(n, -1), ancestor(n);
   std::iota(ancestor.begin(), ancestor.end(), 0);
   for(int j = 0; j < n; ++j)
   {

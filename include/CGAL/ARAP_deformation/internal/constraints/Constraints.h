@@ -47,8 +47,7 @@ public:
   void append(int vertex, double weight) { append({vertex}, {1}, weight); }
 
   // adds a row; its vertices differ
-  void append(const Array<int>& vertices, const Array<double>& coefficients,
-              double weight)
+  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight)
   {
     m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
     m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
@@ -172,7 +171,7 @@ private:
 struct Constraints
 {
   Array<char> is_fixed; // for each movable vertex
-  Weighted_rows rows;         // of vertices that may be fixed or not
+  Weighted_rows rows;   // of vertices that may be fixed or not
 
   int number_of_free_vertices() const
   {

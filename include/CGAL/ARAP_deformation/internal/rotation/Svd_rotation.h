@@ -28,8 +28,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rotation closest to one matrix, by its singular value decomposition: right for any matrix. The
-// identity for the zero matrix and for what is no matrix of numbers.
+// The rotation closest to one matrix, by its singular value decomposition: right for any matrix.
+// The identity for the zero matrix, and for one with infinite or NaN entries.
 class Svd_rotation
 {
 public:
