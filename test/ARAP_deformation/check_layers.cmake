@@ -25,7 +25,7 @@ function(visit header)
   if(header IN_LIST path OR is_visited)
     return()
   endif()
-  set(own -1) # of linkage.h, which all may include
+  set(own -1) # of headers beside the folders, which all may include
   if(header MATCHES "/internal/([^/]+)/")
     list(FIND floors ${CMAKE_MATCH_1} own)
     if(own EQUAL -1)

@@ -142,7 +142,7 @@ private:
         supernodes.rows_begin.push_back(supernodes.rows.size());
       }
       structure = internal::Supernodal_structure(supernodes,
-                                                 std::vector<int>(order, order + factor->n));
+                                                 internal::Array<int>(order, order + factor->n));
       return true;
     }
 

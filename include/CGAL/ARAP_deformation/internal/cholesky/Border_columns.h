@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Border_parts.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
@@ -28,7 +29,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -39,7 +39,7 @@ template <typename Number>
 struct Border_rows
 {
   const double* border;
-  std::size_t stride; // from row to row of the border
+  std::ptrdiff_t stride; // from row to row of the border
   Number* vector;
   int size;
 };
@@ -48,8 +48,7 @@ struct Border_rows
 struct Multiply_border
 {
   template <typename Number>
-  CGAL_ARAP_ALWAYS_INLINE static void run(const std::vector<Border_rows<Number>>& rows,
-                                          double* sums)
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Array<Border_rows<Number>>& rows, double* sums)
   {
     Double4 sum[8];
     for(int l = 0; l < 8; ++l)
@@ -77,7 +76,7 @@ struct Subtract_border
     {
       Row row = Row::load(r.vector + 4 * k);
       const double* const border = r.border + k * r.stride;
-      for(std::size_t l = 0; l < r.stride; ++l)
+      for(std::ptrdiff_t l = 0; l < r.stride; ++l)
         row = negative_multiply_add(Row::all(static_cast<Number>(border[l])),
                                     Row::load(factors + 4 * l), row);
       row.store(r.vector + 4 * k);
@@ -93,8 +92,8 @@ class Border_columns : public Border_parts
 public:
   void compute(const Supernodal_structure& structure, const Number* values, const Sparse_matrix& b)
   {
-    std::vector<std::vector<int>> paths;
-    std::vector<int> part_of;
+    Array<Array<int>> paths;
+    Array<int> part_of;
     find_parts(structure, b, paths, part_of);
     for_each_task(paths.size(), [&](std::size_t g) {
       substitute_columns(structure, values, b, 4 * g, paths[g], part_of);
@@ -106,7 +105,7 @@ public:
                 Supernodal_substitution<Number>& substitution, double* products) const
   {
     for_each_task(m_size / 8, [&](std::size_t t) {
-      std::vector<Border_rows<Number>> rows;
+      Array<Border_rows<Number>> rows;
       for(const Part& part : m_parts)
         if(part.first <= 8 * t && 8 * t < part.first + part.size)
         {
@@ -133,15 +132,15 @@ private:
 
   // Up to four columns of W, from the entries of B upwards.
   void substitute_columns(const Supernodal_structure& structure, const Number* values,
-                          const Sparse_matrix& b, std::size_t first, std::vector<int>& path,
-                          const std::vector<int>& part_of)
+                          const Sparse_matrix& b, std::size_t first, Array<int>& path,
+                          const Array<int>& part_of)
   {
-    const std::vector<Block>& blocks = structure.blocks();
+    const Array<Block>& blocks = structure.blocks();
     // the blocks upwards, and the supernodes of each
     const auto rank = [&](int s) { return std::make_pair(-structure.block_of(s), s); };
     std::sort(path.begin(), path.end(), [&](int s, int t) { return rank(s) < rank(t); });
 
-    std::vector<std::size_t> begin(blocks.size(), 0); // of the local vectors of blocks on the path
+    Array<std::size_t> begin(blocks.size(), 0); // of the local vectors of blocks on the path
     std::size_t size = 0;
     for(std::size_t k = 0; k < path.size(); ++k)
       if(const int block = structure.block_of(path[k]);
@@ -150,7 +149,7 @@ private:
         begin[block] = size;
         size += 4 * static_cast<std::size_t>(blocks[block].own + blocks[block].boundary);
       }
-    std::vector<Number> vectors(size, 0);
+    Array<Number> vectors(size, 0);
     for(std::size_t l = 0; l < 4 && first + l < m_order.size(); ++l)
       for(Sparse_matrix::InnerIterator entry(b, m_order[first + l]); entry; ++entry)
       {
@@ -175,9 +174,12 @@ private:
           std::copy(from, from + 4, to);
       }
       for(int j = 0; j < block.boundary; ++j)
-        for(std::size_t l = 0; l < 4; ++l)
-          vectors[begin[block.parent] + 4 * structure.to_parent(block)[j] + l] +=
-            vector[4 * (block.own + j) + l];
+      {
+        Number* const row =
+          vectors.data() + begin[block.parent] + 4 * structure.to_parent(block)[j];
+        for(int l = 0; l < 4; ++l)
+          row[l] += vector[4 * (block.own + j) + l];
+      }
     }
   }
 
@@ -186,7 +188,7 @@ private:
                                 const Part& part) const
   {
     const Block& block = structure.blocks()[structure.block_of(part.supernode)];
-    return {m_values.data() + part.begin, part.size,
+    return {m_values.data() + part.begin, static_cast<std::ptrdiff_t>(part.size),
             substitution.local_vector(block) + 4 * structure.supernodes()[part.supernode].first,
             part.width};
   }

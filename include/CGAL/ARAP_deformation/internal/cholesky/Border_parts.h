@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
@@ -26,7 +27,6 @@
 #include <cstddef>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -40,16 +40,16 @@ class Border_parts
 {
 public:
   // the column of B of each column here, without the padding
-  const std::vector<int>& order() const { return m_order; }
+  const Array<int>& order() const { return m_order; }
 
   // the number of columns, with the padding
   std::size_t size() const { return m_size; }
 
   // the lower triangle of -W^T W, column by column
-  std::vector<double> negative_square() const
+  Array<double> negative_square() const
   {
     constexpr std::size_t columns_at_once = 32;
-    std::vector<double> square(m_size * m_size, 0);
+    Array<double> square(m_size * m_size, 0);
     for_each_task((m_size + columns_at_once - 1) / columns_at_once, [&](std::size_t t) {
       const std::size_t begin = columns_at_once * t;
       const std::size_t end = (std::min)(m_size, begin + columns_at_once);
@@ -58,10 +58,11 @@ public:
         const std::size_t first = (std::max)(begin, part.first);
         const std::size_t last = (std::min)(end, part.first + part.size);
         if(first < last)
-          subtract_square(square.data() + part.first * (m_size + 1), m_size,
+          subtract_square(square.data() + part.first * (m_size + 1),
+                          static_cast<std::ptrdiff_t>(m_size),
                           static_cast<int>(part.size), static_cast<int>(first - part.first),
                           static_cast<int>(last - part.first), m_values.data() + part.begin,
-                          part.width, part.size);
+                          part.width, static_cast<std::ptrdiff_t>(part.size));
       }
     });
     return square;
@@ -81,14 +82,14 @@ protected:
   // Finds the supernodes that each four columns reach, from them the parts, and the part of each
   // supernode. The values become zero.
   void find_parts(const Supernodal_structure& structure, const Sparse_matrix& b,
-                  std::vector<std::vector<int>>& paths, std::vector<int>& part_of)
+                  Array<Array<int>>& paths, Array<int>& part_of)
   {
     sort_columns(structure, b);
     m_size = (m_order.size() + 7) / 8 * 8;
     paths.resize((m_order.size() + 3) / 4);
     part_of.assign(structure.supernodes().size(), -1);
-    const std::vector<Supernode>& supernodes = structure.supernodes();
-    std::vector<int> seen(supernodes.size(), -1); // the last four columns that reach it
+    const Array<Supernode>& supernodes = structure.supernodes();
+    Array<int> seen(supernodes.size(), -1); // the last four columns that reach it
     m_parts.clear();
     for(std::size_t k = 0; k < m_order.size(); ++k)
     {
@@ -120,11 +121,11 @@ protected:
     m_values.assign(size, 0);
   }
 
-  std::vector<int> m_order;
+  Array<int> m_order;
   std::size_t m_size = 0;
-  std::vector<Part> m_parts; // of ascending supernodes
-  std::vector<double> m_values;
-  std::vector<int> m_position; // of the rows of the matrix
+  Array<Part> m_parts; // of ascending supernodes
+  Array<double> m_values;
+  Array<int> m_position; // of the rows of the matrix
 
 private:
   void sort_columns(const Supernodal_structure& structure, const Sparse_matrix& b)
@@ -135,7 +136,7 @@ private:
       m_rank = inverse_permutation(structure.numbers());
     }
     // in postorder a subtree is a range
-    std::vector<std::tuple<int, int, int>> keys;
+    Array<std::tuple<int, int, int>> keys;
     for(int j = 0; j < b.cols(); ++j)
     {
       std::pair<int, int> first(0, 0);
@@ -154,7 +155,7 @@ private:
       m_order.push_back(std::get<2>(key));
   }
 
-  std::vector<int> m_rank; // of the supernodes, in postorder
+  Array<int> m_rank; // of the supernodes, in postorder
 };
 
 } // namespace internal

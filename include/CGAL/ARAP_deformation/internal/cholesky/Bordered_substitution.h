@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Border_columns.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Quasidefinite_factor.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
@@ -27,7 +28,6 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -93,11 +93,11 @@ private:
   // Pivots are compared with the diagonal of D: what W subtracts may be all that D has.
   bool factorize_remainder(const Dense_matrix& d)
   {
-    const std::vector<int>& order = m_columns.order();
-    const std::vector<double> square = m_columns.negative_square();
+    const Array<int>& order = m_columns.order();
+    const Array<double> square = m_columns.negative_square();
     const std::size_t n = order.size();
-    std::vector<double> remainder(n * n), smallest_pivots(n);
-    std::vector<char> is_multiplier(n);
+    Array<double> remainder(n * n), smallest_pivots(n);
+    Array<char> is_multiplier(n);
     for(std::size_t l = 0; l < n; ++l)
       for(std::size_t k = l; k < n; ++k)
       {
@@ -118,16 +118,16 @@ private:
   // z := (D - W^T W)^-1 (g - W^T y), and y := y - W z in the local vectors
   void solve_border(const Supernodal_structure& structure, Coordinates* x, double scale)
   {
-    const std::vector<int>& order = m_columns.order();
+    const Array<int>& order = m_columns.order();
     m_products.assign(4 * m_columns.size(), 0);
     m_columns.multiply(structure, m_substitution, m_products.data());
     for(std::size_t k = 0; k < order.size(); ++k)
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         x[order[k]][c] = x[order[k]][c] / scale - m_products[4 * k + c];
     m_remainder.solve(x);
     m_products.assign(4 * m_columns.size(), 0);
     for(std::size_t k = 0; k < order.size(); ++k)
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
       {
         double& z = x[order[k]][c];
         m_products[4 * k + c] = z;
@@ -140,7 +140,7 @@ private:
   Border_columns<Number> m_columns;
   Quasidefinite_factor m_remainder;
   std::size_t m_border_size = 0;
-  std::vector<double> m_products; // scratch
+  Array<double> m_products; // scratch
 };
 
 } // namespace internal

@@ -14,12 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -46,8 +46,8 @@ public:
   {
     m_structure.for_each_block_upwards([&](int k) {
       const Block& b = m_structure.blocks()[k];
-      std::vector<int> places;
-      std::vector<double> columns; // of a supernode, if they are stored in single precision
+      Array<int> places;
+      Array<double> columns; // of a supernode, if they are stored in single precision
       for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
       {
         const Supernode& supernode = m_structure.supernodes()[s];
@@ -83,26 +83,26 @@ private:
       }
   }
 
-  void factorize_supernode(int block, int index, double* panel, std::vector<int>& places)
+  void factorize_supernode(int block, int index, double* panel, Array<int>& places)
   {
     const Supernode& s = m_structure.supernodes()[index];
     const std::size_t below = static_cast<std::size_t>(s.below);
-    std::vector<double>& update = m_updates[index];
+    Array<double>& update = m_updates[index];
     update.assign(below * below, 0);
     for(int child = m_first_child[index]; child >= 0; child = m_next_child[child])
     {
       find_places(block, s, child, places);
       add_update(s, m_updates[child], places, panel, update.data());
-      std::vector<double>().swap(m_updates[child]);
+      Array<double>().swap(m_updates[child]);
     }
     factor_panel(panel, s.width, s.width + s.below);
     if(below > 0)
-      subtract_square(update.data(), below, s.below, 0, s.below, panel + s.width, s.width,
-                      below + static_cast<std::size_t>(s.width));
+      subtract_square(update.data(), s.below, s.below, 0, s.below, panel + s.width, s.width,
+                      s.width + s.below);
   }
 
   // The rows of `child` below among the rows of `s`. Both are in ascending order.
-  void find_places(int block, const Supernode& s, int child, std::vector<int>& places) const
+  void find_places(int block, const Supernode& s, int child, Array<int>& places) const
   {
     const Supernode& c = m_structure.supernodes()[child];
     const Block& child_block = m_structure.blocks()[m_structure.block_of(child)];
@@ -126,17 +126,18 @@ private:
     }
   }
 
-  static void add_update(const Supernode& s, const std::vector<double>& child_update,
-                         const std::vector<int>& places, double* panel, double* update)
+  static void add_update(const Supernode& s, const Array<double>& child_update,
+                         const Array<int>& places, double* panel, double* update)
   {
-    const std::size_t n = places.size(), height = static_cast<std::size_t>(s.width + s.below);
+    const std::size_t n = places.size();
+    const std::ptrdiff_t height = s.width + s.below, below = s.below;
     for(std::size_t j = 0; j < n; ++j)
     {
       const double* const from = child_update.data() + j * n;
       const int column = places[j];
       double* const to = column < s.width
                        ? panel + column * height
-                       : update + (column - s.width) * static_cast<std::size_t>(s.below) - s.width;
+                       : update + (column - s.width) * below - s.width;
       for(std::size_t i = j; i < n; ++i)
         to[places[i]] += from[i];
     }
@@ -145,8 +146,8 @@ private:
   const Supernodal_structure& m_structure;
   double* m_values; // one of the two arrays is null
   float* m_single_values;
-  std::vector<std::vector<double>> m_updates; // of supernodes whose parents are not factorized yet
-  std::vector<int> m_first_child, m_next_child;
+  Array<Array<double>> m_updates; // of supernodes whose parents are not factorized yet
+  Array<int> m_first_child, m_next_child;
 };
 
 } // namespace internal

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
@@ -95,7 +96,7 @@ struct Multifrontal_cholesky_solver::State
   bool is_accurate(const Sparse_matrix& a)
   {
     const std::size_t n = static_cast<std::size_t>(a.rows());
-    std::vector<Coordinates> residual(n), step;
+    internal::Array<Coordinates> residual(n), step;
     std::minstd_rand random(1);
     for(Coordinates& row : residual)
       for(double& entry : row)
@@ -107,7 +108,7 @@ struct Multifrontal_cholesky_solver::State
       solve(n, step.data());
       double energy = 0;
       for(std::size_t v = 0; v < n; ++v)
-        for(int c = 0; c < 3; ++c)
+        for(std::size_t c = 0; c < 3; ++c)
           energy += residual[v][c] * step[v][c];
       if(k == 0)
         first = energy;
@@ -116,7 +117,7 @@ struct Multifrontal_cholesky_solver::State
       last = energy;
       for(int j = 0; j < a.outerSize(); ++j)
         for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
-          for(int c = 0; c < 3; ++c)
+          for(std::size_t c = 0; c < 3; ++c)
           {
             residual[entry.row()][c] -= entry.value() * step[j][c];
             if(entry.row() != j)

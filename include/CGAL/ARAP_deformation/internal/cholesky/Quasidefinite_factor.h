@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
@@ -23,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -38,10 +38,10 @@ class Quasidefinite_factor
 public:
   // Factorizes an n x n matrix, of which the lower triangle is read; is_negative[i] is true for the
   // rows of S. Returns `false` if a pivot is not above its smallest value, which is not negative.
-  bool factorize(int n, const std::vector<double>& matrix, const std::vector<char>& is_negative,
-                 const std::vector<double>& smallest_pivots)
+  bool factorize(int n, const Array<double>& matrix, const Array<char>& is_negative,
+                 const Array<double>& smallest_pivots)
   {
-    std::vector<int> order;
+    Array<int> order;
     for(char sign : {1, 0})
       for(int i = 0; i < n; ++i)
         if(is_negative[i] == sign)
@@ -56,11 +56,10 @@ public:
 
     // both panels with the opposite sign
     const int positive = n - negative;
-    const std::size_t height = static_cast<std::size_t>(n);
-    const std::size_t below = static_cast<std::size_t>(positive);
-    m_values.assign(height * static_cast<std::size_t>(negative) + below * below, 0);
+    const std::ptrdiff_t height = n, below = positive;
+    m_values.assign(static_cast<std::size_t>(height * negative + below * below), 0);
     double* const first = m_values.data();
-    double* const second = first + height * static_cast<std::size_t>(negative);
+    double* const second = first + height * negative;
     for(int j = 0; j < negative; ++j)
       for(int i = j; i < n; ++i)
         first[j * height + i] = -entry(order[i], order[j]);
@@ -126,7 +125,7 @@ private:
   }
 
   Supernodal_structure m_structure;
-  std::vector<double> m_values;
+  Array<double> m_values;
   Supernodal_substitution<double> m_substitution;
   int m_negative = 0;
 };

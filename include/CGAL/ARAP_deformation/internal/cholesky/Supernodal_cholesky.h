@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
@@ -30,7 +31,6 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -42,7 +42,7 @@ class Supernodal_cholesky
 public:
   // The symbolic part, for all matrices with the pattern of `a`; `order` has the row of the matrix
   // for each row of the factor.
-  Supernodal_cholesky(const Sparse_matrix& a, std::vector<int> order)
+  Supernodal_cholesky(const Sparse_matrix& a, Array<int> order)
   {
     const Supernodes supernodes = find_supernodes(a, order);
     m_structure = Supernodal_structure(supernodes, order);
@@ -87,9 +87,9 @@ private:
   }
 
   void find_entries(const Sparse_matrix& a, const Supernodes& supernodes,
-                    const std::vector<int>& position)
+                    const Array<int>& position)
   {
-    const std::vector<int> supernode_of = supernode_of_columns(supernodes.columns);
+    const Array<int> supernode_of = supernode_of_columns(supernodes.columns);
     const int* const begin = a.outerIndexPtr();
     const int* const row = a.innerIndexPtr();
     m_entries_begin.assign(supernodes.size() + 2, 0);
@@ -139,8 +139,8 @@ private:
   }
 
   Supernodal_structure m_structure;
-  std::vector<std::size_t> m_entries_begin; // for each supernode
-  std::vector<Entry> m_entries;
+  Array<std::size_t> m_entries_begin; // for each supernode
+  Array<Entry> m_entries;
   std::size_t m_values_size = 0;
 };
 

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Tree_blocks.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -59,14 +59,14 @@ public:
   Supernodal_structure() = default;
 
   // `order` has for each column of the factor the row of the matrix that it belongs to.
-  Supernodal_structure(const Supernodes& supernodes, const std::vector<int>& order)
+  Supernodal_structure(const Supernodes& supernodes, const Array<int>& order)
   {
-    const std::vector<int> supernode_of = supernode_of_columns(supernodes.columns);
-    std::vector<int> parent(supernodes.size());
+    const Array<int> supernode_of = supernode_of_columns(supernodes.columns);
+    Array<int> parent(supernodes.size());
     for(std::size_t s = 0; s < supernodes.size(); ++s)
       parent[s] = supernodes.below(s) == 0
                 ? -1 : supernode_of[supernodes.rows[supernodes.rows_begin[s]]];
-    std::vector<double> work(supernodes.size());
+    Array<double> work(supernodes.size());
     for(std::size_t s = 0; s < supernodes.size(); ++s)
       work[s] = supernodes.width(s) * (0.5 * supernodes.width(s) + supernodes.below(s) + 8);
     const Tree_blocks blocks(parent, std::move(work));
@@ -81,8 +81,8 @@ public:
     number_rows(supernodes, supernode_of, blocks.block_of());
   }
 
-  const std::vector<Supernode>& supernodes() const { return m_supernodes; }
-  const std::vector<Block>& blocks() const { return m_blocks; }
+  const Array<Supernode>& supernodes() const { return m_supernodes; }
+  const Array<Block>& blocks() const { return m_blocks; }
 
   // the memory that a sweep over the factor reads: the entries on and below the diagonal, which
   // have that size, and the rows
@@ -108,7 +108,7 @@ public:
   const int* to_parent(const Block& b) const { return m_to_parent.data() + b.to_parent; }
 
   // the row of the matrix of each column, block after block
-  const std::vector<int>& order() const { return m_order; }
+  const Array<int>& order() const { return m_order; }
 
   // the block of each supernode
   int block_of(int supernode) const { return m_block_of[supernode]; }
@@ -118,7 +118,9 @@ public:
   {
     const auto p = static_cast<std::size_t>(position);
     const auto block = std::upper_bound(m_blocks.begin(), m_blocks.end(), p,
-      [](std::size_t column, const Block& b) { return column < b.columns + b.own; });
+      [](std::size_t column, const Block& b) {
+        return column < b.columns + static_cast<std::size_t>(b.own);
+      });
     const auto end = m_supernodes.begin() + block->supernodes_end;
     const auto next = std::upper_bound(m_supernodes.begin() + block->supernodes_begin, end,
       static_cast<int>(p - block->columns),
@@ -127,13 +129,15 @@ public:
   }
 
   // the number here of each supernode of the constructor
-  const std::vector<int>& numbers() const { return m_numbers; }
+  const Array<int>& numbers() const { return m_numbers; }
 
   // the length of all local vectors together
   std::size_t vectors_size() const
   {
-    return m_blocks.empty() ? 0 : m_blocks.back().vector + m_blocks.back().own
-                                  + m_blocks.back().boundary;
+    if(m_blocks.empty())
+      return 0;
+    const Block& last = m_blocks.back();
+    return last.vector + static_cast<std::size_t>(last.own + last.boundary);
   }
 
   // Calls f(block) for all blocks, children before their parent, in parallel for those of different
@@ -160,8 +164,8 @@ public:
   }
 
 private:
-  void number_supernodes(const Supernodes& supernodes, const std::vector<int>& parent,
-                         const std::vector<int>& block_of, const std::vector<int>& order)
+  void number_supernodes(const Supernodes& supernodes, const Array<int>& parent,
+                         const Array<int>& block_of, const Array<int>& order)
   {
     const std::size_t n = supernodes.size();
     for(Block& b : m_blocks)
@@ -174,7 +178,7 @@ private:
       b.supernodes_begin = end;
       end = b.supernodes_end += end;
     }
-    std::vector<int> next(m_blocks.size());
+    Array<int> next(m_blocks.size());
     for(std::size_t b = 0; b < m_blocks.size(); ++b)
       next[b] = m_blocks[b].supernodes_begin;
     m_numbers.resize(n);
@@ -185,7 +189,7 @@ private:
       m_block_of[m_numbers[s]] = block_of[s];
     }
 
-    std::vector<std::size_t> first(m_blocks.size()); // the own columns so far
+    Array<std::size_t> first(m_blocks.size()); // the own columns so far
     m_supernodes.resize(n);
     for(std::size_t s = 0; s < n; ++s)
     {
@@ -206,23 +210,23 @@ private:
     }
     m_order.resize(order.size());
     for(std::size_t s = 0; s < n; ++s)
-      std::copy(order.begin() + supernodes.columns[s], order.begin() + supernodes.columns[s + 1],
-                m_order.begin() + m_blocks[block_of[s]].columns + m_supernodes[m_numbers[s]].first);
+      std::copy(order.data() + supernodes.columns[s], order.data() + supernodes.columns[s + 1],
+                m_order.data() + m_blocks[block_of[s]].columns + m_supernodes[m_numbers[s]].first);
   }
 
-  void number_rows(const Supernodes& supernodes, const std::vector<int>& supernode_of,
-                   const std::vector<int>& block_of)
+  void number_rows(const Supernodes& supernodes, const Array<int>& supernode_of,
+                   const Array<int>& block_of)
   {
     // the first supernode of a block comes last
-    std::vector<std::size_t> top(m_blocks.size(), supernodes.size());
+    Array<std::size_t> top(m_blocks.size(), supernodes.size());
     for(std::size_t s = 0; s < supernodes.size(); ++s)
       top[block_of[s]] = s;
     const auto boundary = [&](int b) {
       const std::size_t s = top[b];
       return s == supernodes.size()
-           ? std::make_pair(supernodes.rows.begin(), supernodes.rows.begin())
-           : std::make_pair(supernodes.rows.begin() + supernodes.rows_begin[s],
-                            supernodes.rows.begin() + supernodes.rows_begin[s + 1]);
+           ? std::make_pair(supernodes.rows.data(), supernodes.rows.data())
+           : std::make_pair(supernodes.rows.data() + supernodes.rows_begin[s],
+                            supernodes.rows.data() + supernodes.rows_begin[s + 1]);
     };
     // the place of a row in the local vector of a block
     const auto place = [&](int b, int row) {
@@ -254,17 +258,25 @@ private:
     m_rows.resize(rows);
     for_each_block(supernodes.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t s = begin; s < end; ++s)
-        std::transform(supernodes.rows.begin() + supernodes.rows_begin[s],
-                       supernodes.rows.begin() + supernodes.rows_begin[s + 1],
-                       m_rows.begin() + m_supernodes[m_numbers[s]].rows,
+        std::transform(supernodes.rows.data() + supernodes.rows_begin[s],
+                       supernodes.rows.data() + supernodes.rows_begin[s + 1],
+                       m_rows.data() + m_supernodes[m_numbers[s]].rows,
                        [&](int row) { return place(block_of[s], row); });
     });
   }
 
-  std::vector<Supernode> m_supernodes; // block after block
-  std::vector<Block> m_blocks;
-  std::vector<int> m_rows, m_to_parent, m_order, m_block_of, m_numbers;
+  Array<Supernode> m_supernodes; // block after block
+  Array<Block> m_blocks;
+  Array<int> m_rows, m_to_parent, m_order, m_block_of, m_numbers;
 };
+
+// the diagonal entry in column j of a supernode
+template <typename Number>
+Number& diagonal_entry(const Supernodal_structure::Supernode& s, Number* values, int j)
+{
+  return values[s.values + static_cast<std::size_t>(s.width + s.below + 1)
+                             * static_cast<std::size_t>(j)];
+}
 
 // whether all diagonal entries of a factor are positive and finite
 template <typename Number>
@@ -273,8 +285,7 @@ bool has_positive_diagonal(const Supernodal_structure& structure, const Number* 
   for(const Supernodal_structure::Supernode& s : structure.supernodes())
     for(int j = 0; j < s.width; ++j)
     {
-      const Number diagonal =
-        values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
+      const Number diagonal = diagonal_entry(s, values, j);
       if(!(diagonal > 0 && std::isfinite(diagonal)))
         return false;
     }
@@ -287,7 +298,7 @@ inline void invert_diagonal(const Supernodal_structure& structure, double* value
   for(const Supernodal_structure::Supernode& s : structure.supernodes())
     for(int j = 0; j < s.width; ++j)
     {
-      double& diagonal = values[s.values + static_cast<std::size_t>(s.width + s.below + 1) * j];
+      double& diagonal = diagonal_entry(s, values, j);
       diagonal = 1 / diagonal;
     }
 }

@@ -15,13 +15,13 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/substitution_kernels.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -73,8 +73,10 @@ public:
       run_backward(structure, b.supernodes_begin, b.supernodes_end, values, vector);
       const int* const order = structure.order().data() + b.columns;
       for(int j = 0; j < b.own; ++j)
-        for(int c = 0; c < 3; ++c)
-          x[order[j]][c] = scale * vector[4 * j + c];
+      {
+        const Number* const row = vector + 4 * j;
+        x[order[j]] = {scale * row[0], scale * row[1], scale * row[2]};
+      }
     });
   }
 
@@ -96,7 +98,7 @@ private:
     }
   }
 
-  std::vector<Number> m_vectors; // four numbers for each row
+  Array<Number> m_vectors; // four numbers for each row
 };
 
 } // namespace internal

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
 
 #include <Eigen/SparseCore>
@@ -23,7 +24,6 @@
 #include <cstddef>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -33,11 +33,11 @@ namespace internal {
 // below their dense triangle. The columns are in a postorder of the elimination tree.
 struct Supernodes
 {
-  std::vector<int> columns;              // where those of each begin, and at last their number
-  std::vector<std::size_t> rows_begin;   // where the rows of each begin, and at last their number
-  std::vector<int> rows;                 // below the triangle, ascending
-  std::vector<std::size_t> values_begin; // where the values of each begin: column by column, each
-                                         // from the supernode's first row on
+  Array<int> columns;              // where those of each begin, and at last their number
+  Array<std::size_t> rows_begin;   // where the rows of each begin, and at last their number
+  Array<int> rows;                 // below the triangle, ascending
+  Array<std::size_t> values_begin; // where the values of each begin: column by column, each
+                                   // from the supernode's first row on
 
   std::size_t size() const { return values_begin.size(); }
   int width(std::size_t s) const { return columns[s + 1] - columns[s]; }
@@ -45,9 +45,9 @@ struct Supernodes
 };
 
 // the supernode of each column, from where the columns of each supernode begin
-inline std::vector<int> supernode_of_columns(const std::vector<int>& columns)
+inline Array<int> supernode_of_columns(const Array<int>& columns)
 {
-  std::vector<int> result(columns.back());
+  Array<int> result(columns.back());
   for(std::size_t s = 0; s + 1 < columns.size(); ++s)
     std::fill(result.begin() + columns[s], result.begin() + columns[s + 1], static_cast<int>(s));
   return result;
@@ -59,7 +59,7 @@ inline std::vector<int> supernode_of_columns(const std::vector<int>& columns)
 class Supernode_columns
 {
 public:
-  Supernode_columns(const std::vector<int>& parent, const std::vector<int>& count)
+  Supernode_columns(const Array<int>& parent, const Array<int>& count)
   {
     const int n = static_cast<int>(parent.size());
     for(int j = 0; j < n; ++j)
@@ -69,7 +69,7 @@ public:
     merge(parent, count);
   }
 
-  std::vector<int> begin() && { return std::move(m_begin); }
+  Array<int> begin() && { return std::move(m_begin); }
 
 private:
   // the share of zeros in a supernode of that many columns
@@ -79,9 +79,9 @@ private:
   }
 
   // Supernodes that follow each other and are child and parent, the last ones first.
-  void merge(const std::vector<int>& parent, const std::vector<int>& count)
+  void merge(const Array<int>& parent, const Array<int>& count)
   {
-    std::vector<int> begin(1, m_begin.back());
+    Array<int> begin(1, m_begin.back());
     double entries_above = 0, below = 0;
     for(std::size_t s = m_begin.size() - 1; s-- > 0;)
     {
@@ -106,17 +106,17 @@ private:
     m_begin.assign(begin.rbegin(), begin.rend());
   }
 
-  std::vector<int> m_begin;
+  Array<int> m_begin;
 };
 
 // The supernodes of the factor of P A P^T. `order`, which has the row of the matrix for each row of
 // the factor, is replaced by an equivalent postorder.
-inline Supernodes find_supernodes(const Sparse_matrix& a, std::vector<int>& order)
+inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
 {
-  std::vector<int> parent =
+  Array<int> parent =
     elimination_tree(permuted_triangle(a, inverse_permutation(order), false));
-  const std::vector<int> post = postorder(parent), post_position = inverse_permutation(post);
-  std::vector<int> unsorted_parent = parent, unsorted_order = order;
+  const Array<int> post = postorder(parent), post_position = inverse_permutation(post);
+  Array<int> unsorted_parent = parent, unsorted_order = order;
   for(std::size_t j = 0; j < post.size(); ++j)
   {
     order[j] = unsorted_order[post[j]];
@@ -131,9 +131,9 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, std::vector<int>& orde
   result.rows_begin.assign(1, 0);
   result.values_begin.resize(n);
   std::size_t values = 0;
-  const std::vector<int> supernode_of = supernode_of_columns(result.columns);
-  std::vector<int> first_child(n, -1), next_child(n, -1);
-  std::vector<int> seen(order.size(), -1); // the last supernode that a row was found in
+  const Array<int> supernode_of = supernode_of_columns(result.columns);
+  Array<int> first_child(n, -1), next_child(n, -1);
+  Array<int> seen(order.size(), -1); // the last supernode that a row was found in
   for(std::size_t s = 0; s < n; ++s)
   {
     const int begin = result.columns[s], end = result.columns[s + 1], mark = static_cast<int>(s);

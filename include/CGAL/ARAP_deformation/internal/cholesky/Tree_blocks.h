@@ -14,10 +14,11 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -30,7 +31,7 @@ class Tree_blocks
 {
 public:
   // from the parent of each supernode, or -1 for roots, and its work, as numbers of the factor
-  Tree_blocks(const std::vector<int>& parent, std::vector<double> work)
+  Tree_blocks(const Array<int>& parent, Array<double> work)
   {
     const int n = static_cast<int>(parent.size());
     const double total = std::accumulate(work.begin(), work.end(), 0.0);
@@ -40,13 +41,13 @@ public:
     const double subtree = (std::max)(total / number_of_subtrees, least_work);
     const double twig = subtree / 8; // too small for a block of its own
 
-    std::vector<int> heavy_children(n + 1, 0); // the last for the roots
+    Array<int> heavy_children(n + 1, 0); // the last for the roots
     for(int s = 0; s < n; ++s)
       heavy_children[parent[s] < 0 ? n : parent[s]] += work[s] > subtree;
 
-    m_block_of.resize(n);
-    std::vector<int> block_parent(1, -1);
-    std::vector<char> is_subtree(1, 0);
+    m_block_of = Array<int>(n);
+    Array<int> block_parent(1, -1);
+    Array<char> is_subtree(1, 0);
     for(int s = n; s-- > 0;)
     {
       const int above = parent[s] < 0 ? 0 : m_block_of[parent[s]];
@@ -67,7 +68,7 @@ public:
   std::size_t size() const { return m_parent.size(); }
 
   // the block of each supernode
-  const std::vector<int>& block_of() const { return m_block_of; }
+  const Array<int>& block_of() const { return m_block_of; }
 
   // the parent of a block, -1 for block 0
   int parent(std::size_t block) const { return m_parent[block]; }
@@ -81,13 +82,13 @@ private:
   static constexpr double number_of_subtrees = 100;
   static constexpr double least_work = 6000;
 
-  void number_breadth_first(const std::vector<int>& parent)
+  void number_breadth_first(const Array<int>& parent)
   {
     const int n = static_cast<int>(parent.size());
-    std::vector<std::vector<int>> children(n);
+    Array<Array<int>> children(n);
     for(int b = 1; b < n; ++b)
       children[parent[b]].push_back(b);
-    std::vector<int> queue(1, 0), number(n, 0);
+    Array<int> queue(1, 0), number(n, 0);
     m_parent.assign(1, -1);
     for(int k = 0; k < n; ++k)
     {
@@ -104,7 +105,7 @@ private:
       b = number[b];
   }
 
-  std::vector<int> m_block_of, m_parent, m_children_begin;
+  Array<int> m_block_of, m_parent, m_children_begin;
 };
 
 } // namespace internal

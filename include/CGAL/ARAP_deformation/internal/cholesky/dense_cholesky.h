@@ -30,16 +30,16 @@ namespace internal {
 // C := C - A B^T for a tile of C in registers, with 4 `Fours` rows and `Columns` columns. A and B
 // have `depth` columns and the same stride.
 template <int Fours, int Columns>
-CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::size_t c_stride, const double* a,
-                                           const double* b, std::size_t stride, int depth)
+CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::ptrdiff_t c_stride, const double* a,
+                                           const double* b, std::ptrdiff_t stride, int depth)
 {
-  Double4 sum[Columns][Fours];
+  Double4 sum[std::size_t(Columns)][std::size_t(Fours)];
   for(int j = 0; j < Columns; ++j)
     for(int i = 0; i < Fours; ++i)
       sum[j][i] = Double4::load(c + j * c_stride + 4 * i);
   for(int k = 0; k < depth; ++k, a += stride, b += stride)
   {
-    Double4 column[Fours];
+    Double4 column[std::size_t(Fours)];
     for(int i = 0; i < Fours; ++i)
       column[i] = Double4::load(a + 4 * i);
     for(int j = 0; j < Columns; ++j)
@@ -56,10 +56,11 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_tile(double* c, std::size_t c_stride, cons
 
 // The same for one row.
 template <int Columns>
-CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::size_t c_stride, const double* a,
-                                                  const double* b, std::size_t stride, int depth)
+CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::ptrdiff_t c_stride,
+                                                  const double* a, const double* b,
+                                                  std::ptrdiff_t stride, int depth)
 {
-  double sum[Columns];
+  double sum[std::size_t(Columns)];
   for(int j = 0; j < Columns; ++j)
     sum[j] = c[j * c_stride];
   for(int k = 0; k < depth; ++k, a += stride, b += stride)
@@ -71,9 +72,9 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_row_product(double* c, std::size_t c_strid
 
 // C := C - A B^T for any number of rows and a few columns.
 template <int Columns>
-CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::size_t c_stride,
-                                              const double* a, const double* b, std::size_t stride,
-                                              int depth)
+CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::ptrdiff_t c_stride,
+                                              const double* a, const double* b,
+                                              std::ptrdiff_t stride, int depth)
 {
   int i = 0;
   for(; i + 8 <= rows; i += 8)
@@ -87,9 +88,9 @@ CGAL_ARAP_ALWAYS_INLINE void subtract_columns(int rows, double* c, std::size_t c
 // Factors the first `Columns` columns of `panel`, which hold a symmetric matrix with `rows` more
 // rows below. The diagonal is replaced by its reciprocals.
 template <int Columns>
-CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::size_t stride)
+CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::ptrdiff_t stride)
 {
-  double l[Columns][Columns], reciprocal[Columns];
+  double l[std::size_t(Columns)][std::size_t(Columns)], reciprocal[std::size_t(Columns)];
   for(int j = 0; j < Columns; ++j)
   {
     for(int i = j; i < Columns; ++i)
@@ -107,7 +108,7 @@ CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::size_t
   int i = 0;
   for(; i + 4 <= rows; i += 4)
   {
-    Double4 entry[Columns];
+    Double4 entry[std::size_t(Columns)];
     for(int j = 0; j < Columns; ++j)
     {
       entry[j] = Double4::load(below + j * stride + i);
@@ -150,7 +151,7 @@ private:
   template <int Columns>
   CGAL_ARAP_ALWAYS_INLINE static void run_columns(double* panel, int first, int height)
   {
-    const std::size_t stride = static_cast<std::size_t>(height);
+    const std::ptrdiff_t stride = height;
     double* const columns = panel + first * stride + first;
     subtract_columns<Columns>(height - first, columns, stride, panel + first, panel + first,
                               stride, first);
@@ -165,8 +166,9 @@ struct Subtract_square
   // so many entries of A fit into the second-level cache
   static constexpr int rows_at_once = 192, depth_at_once = 128;
 
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::size_t u_stride, int n, int first,
-                                          int last, const double* a, int width, std::size_t stride)
+  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::ptrdiff_t u_stride, int n, int first,
+                                          int last, const double* a, int width,
+                                          std::ptrdiff_t stride)
   {
     for(int k = 0; k < width; k += depth_at_once)
     {
@@ -187,8 +189,8 @@ struct Subtract_square
 private:
   // with as many columns as there are, but at most `most`
   CGAL_ARAP_ALWAYS_INLINE static void
-  run_columns(int columns, int rows, double* u, std::size_t u_stride, const double* a,
-              const double* b, std::size_t stride, int depth)
+  run_columns(int columns, int rows, double* u, std::ptrdiff_t u_stride, const double* a,
+              const double* b, std::ptrdiff_t stride, int depth)
   {
     if constexpr(most > 2)
       switch(columns)
@@ -213,8 +215,8 @@ inline void factor_panel(double* panel, int width, int height)
 // U := U - A A^T in the columns from `first` to before `last` of the lower triangle of U. A has n
 // rows and `width` columns; `first` is a multiple of four. Entries of U above the diagonal may
 // change too.
-inline void subtract_square(double* u, std::size_t u_stride, int n, int first, int last,
-                            const double* a, int width, std::size_t stride)
+inline void subtract_square(double* u, std::ptrdiff_t u_stride, int n, int first, int last,
+                            const double* a, int width, std::ptrdiff_t stride)
 {
   run_kernel<Subtract_square<4>, Subtract_square<plain_columns>>(u, u_stride, n, first, last, a,
                                                                  width, stride);

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <Eigen/SparseCore>
 
@@ -22,7 +23,6 @@
 #include <cstddef>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 // The symbolic factorization up to the sizes of the columns: patterns of permuted matrices, the
 // elimination tree, its postorder, and the number of entries of each column of the factor.
@@ -31,9 +31,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-inline std::vector<int> inverse_permutation(const std::vector<int>& order)
+inline Array<int> inverse_permutation(const Array<int>& order)
 {
-  std::vector<int> position(order.size());
+  Array<int> position(order.size());
   for(std::size_t k = 0; k < order.size(); ++k)
     position[order[k]] = static_cast<int>(k);
   return position;
@@ -42,16 +42,16 @@ inline std::vector<int> inverse_permutation(const std::vector<int>& order)
 // The pattern of one triangle of a symmetric matrix without its diagonal, column by column.
 struct Triangle_pattern
 {
-  std::vector<int> begin, rows;
+  Array<int> begin, rows;
 };
 
 // A triangle of P A P^T: the lower, or if not so the upper one. The rows are in any order.
-inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const std::vector<int>& position,
+inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const Array<int>& position,
                                           bool is_lower)
 {
   const int n = static_cast<int>(a.cols());
   Triangle_pattern triangle;
-  triangle.begin.assign(n + 2, 0);
+  triangle.begin = Array<int>(n + 2, 0);
   const auto for_each_entry = [&](const auto& f) {
     for(int j = 0; j < n; ++j)
       for(int k = a.outerIndexPtr()[j]; k < a.outerIndexPtr()[j + 1]; ++k)
@@ -63,7 +63,7 @@ inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const std::vec
   };
   for_each_entry([&](int column, int) { ++triangle.begin[column + 2]; });
   std::partial_sum(triangle.begin.begin(), triangle.begin.end(), triangle.begin.begin());
-  triangle.rows.resize(triangle.begin.back());
+  triangle.rows = Array<int>(triangle.begin.back());
   for_each_entry([&](int column, int row) { triangle.rows[triangle.begin[column + 1]++] = row; });
   triangle.begin.pop_back();
   return triangle;
@@ -71,10 +71,10 @@ inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const std::vec
 
 // The parent of each column, or -1 for roots, from the upper triangle. See Liu, The role of
 // elimination trees in sparse factorization.
-inline std::vector<int> elimination_tree(const Triangle_pattern& upper)
+inline Array<int> elimination_tree(const Triangle_pattern& upper)
 {
   const int n = static_cast<int>(upper.begin.size()) - 1;
-  std::vector<int> parent(n, -1), ancestor(n, -1);
+  Array<int> parent(n, -1), ancestor(n, -1);
   for(int j = 0; j < n; ++j)
     for(int k = upper.begin[j]; k < upper.begin[j + 1]; ++k)
       for(int i = upper.rows[k]; i != -1 && i < j;)
@@ -90,10 +90,10 @@ inline std::vector<int> elimination_tree(const Triangle_pattern& upper)
 
 // A postorder in which the child with the largest subtree comes last, next to its parent, with
 // which it is likely to share a supernode.
-inline std::vector<int> postorder(const std::vector<int>& parent)
+inline Array<int> postorder(const Array<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
-  std::vector<int> size(n, 1), position(n), next(n + 1, 0), result(n), last(n + 1, -1);
+  Array<int> size(n, 1), position(n), next(n + 1, 0), result(n), last(n + 1, -1);
   for(int j = 0; j < n; ++j)
     if(parent[j] >= 0)
       size[parent[j]] += size[j];
@@ -123,11 +123,10 @@ inline std::vector<int> postorder(const std::vector<int>& parent)
 // The number of rows of each column of the factor, the diagonal included; the columns are in
 // postorder. See Gilbert, Ng and Peyton, An efficient algorithm to compute row and column counts
 // for sparse Cholesky factorization.
-inline std::vector<int> column_counts(const Triangle_pattern& lower, const std::vector<int>& parent)
+inline Array<int> column_counts(const Triangle_pattern& lower, const Array<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
-  std::vector<int> count(n, 0), first(n, -1), largest_first(n, -1), previous_leaf(n, -1),
-                   ancestor(n);
+  Array<int> count(n, 0), first(n, -1), largest_first(n, -1), previous_leaf(n, -1), ancestor(n);
   std::iota(ancestor.begin(), ancestor.end(), 0);
   for(int j = 0; j < n; ++j)
   {

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -25,7 +26,6 @@
 #endif
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -33,20 +33,20 @@ namespace internal {
 
 // These return the row of the matrix for each row of the factor.
 
-inline std::vector<int> minimum_degree_order(const Sparse_matrix& a)
+inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 {
   Eigen::AMDOrdering<int>::PermutationType order;
   Eigen::AMDOrdering<int>()(a.selfadjointView<Eigen::Lower>(), order);
-  return std::vector<int>(order.indices().data(), order.indices().data() + order.size());
+  return Array<int>(order.indices().data(), order.indices().data() + order.size());
 }
 
 #ifdef CGAL_METIS_ENABLED
 // empty if METIS fails
-inline std::vector<int> metis_order(const Sparse_matrix& a)
+inline Array<int> metis_order(const Sparse_matrix& a)
 {
   // the neighbours of each row, from the lower triangle
   idx_t n = static_cast<idx_t>(a.cols());
-  std::vector<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbours;
+  Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbours;
   const auto for_each_edge = [&](const auto& f) {
     for(int j = 0; j < a.cols(); ++j)
       for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
@@ -66,20 +66,20 @@ inline std::vector<int> metis_order(const Sparse_matrix& a)
   });
   if(neighbours.empty()) // METIS does not take a graph without edges
     return {};
-  std::vector<idx_t> order(static_cast<std::size_t>(n)), position(order.size());
+  Array<idx_t> order(static_cast<std::size_t>(n)), position(order.size());
   if(METIS_NodeND(&n, begin.data(), neighbours.data(), nullptr, nullptr, order.data(),
                   position.data()) != METIS_OK)
     return {};
-  return std::vector<int>(order.begin(), order.end());
+  return Array<int>(order.begin(), order.end());
 }
 #endif
 
 // An ordering for which the factor of the symmetric matrix has few entries that are not zero.
-inline std::vector<int> fill_reducing_order(const Sparse_matrix& a, Fill_reducing_ordering ordering)
+inline Array<int> fill_reducing_order(const Sparse_matrix& a, Fill_reducing_ordering ordering)
 {
 #ifdef CGAL_METIS_ENABLED
   if(ordering == Fill_reducing_ordering::nested_dissection)
-    if(std::vector<int> order = metis_order(a); !order.empty())
+    if(Array<int> order = metis_order(a); !order.empty())
       return order;
 #endif
   static_cast<void>(ordering);

@@ -36,12 +36,12 @@ template <int Width>
 struct Forward_columns
 {
   template <typename Number>
-  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::size_t stride, int own,
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::ptrdiff_t stride, int own,
                                           const int* rows, int below, Number* column,
                                           Number* vector)
   {
     using Row = Vector4<Number>;
-    Row x[Width];
+    Row x[std::size_t(Width)];
     for(int j = 0; j < Width; ++j)
     {
       Row sum = Row::load(column + 4 * j);
@@ -76,12 +76,12 @@ template <int Width>
 struct Backward_columns
 {
   template <typename Number>
-  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::size_t stride, int own,
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Number* values, std::ptrdiff_t stride, int own,
                                           const int* rows, int below, Number* column,
                                           Number* vector)
   {
     using Row = Vector4<Number>;
-    Row sum[Width];
+    Row sum[std::size_t(Width)];
     for(int j = 0; j < Width; ++j)
       sum[j] = Row::zero();
     const Number* const lower = values + Width + own;
@@ -163,7 +163,7 @@ struct Forward_supernodes
       const Supernodal_structure::Supernode& s = structure.supernodes()[k];
       if(k + 1 < end)
         prefetch(structure.supernodes()[k + 1], values);
-      const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+      const std::ptrdiff_t stride = s.width + s.below;
       const Number* const first = values + s.values;
       for(int j = 0, width = 0; j < s.width; j += width)
       {
@@ -189,7 +189,7 @@ struct Backward_supernodes
       const Supernodal_structure::Supernode& s = structure.supernodes()[k];
       if(k > begin)
         prefetch(structure.supernodes()[k - 1], values);
-      const std::size_t stride = static_cast<std::size_t>(s.width + s.below);
+      const std::ptrdiff_t stride = s.width + s.below;
       const Number* const first = values + s.values;
       for(int j = s.width; j > 0;)
       {

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -23,7 +24,6 @@
 #include <cstddef>
 #include <numeric>
 #include <tuple>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -47,8 +47,7 @@ public:
   void append(int vertex, double weight) { append({vertex}, {1}, weight); }
 
   // adds a row; its vertices differ
-  void append(const std::vector<int>& vertices, const std::vector<double>& coefficients,
-              double weight)
+  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight)
   {
     m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
     m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
@@ -92,7 +91,7 @@ public:
   static void for_each_changed_vertex(const Weighted_rows& a, const Weighted_rows& b,
                                       const Function& f)
   {
-    const std::vector<int> a_order = a.order(), b_order = b.order();
+    const Array<int> a_order = a.order(), b_order = b.order();
     const auto visit = [&f](const Weighted_rows& rows, int r) {
       for(int k = rows.m_vertices.begin[r]; k < rows.m_vertices.begin[r + 1]; ++k)
         f(rows.m_vertices.items[k]);
@@ -112,14 +111,16 @@ public:
   double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
               std::vector<Coordinates>& force) const
   {
-    std::vector<Coordinates> pulls(m_weights.size());
+    const Coordinates* const positions = x.data();
+    Coordinates* const forces = force.data();
+    Array<Coordinates> pulls(m_weights.size());
     const double energy = sum_over_blocks(pulls.size(), [&](std::size_t begin, std::size_t end) {
       double sum = 0;
       for(std::size_t r = begin; r < end; ++r)
       {
         Coordinates residual = targets[r];
         for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-          add(residual, -m_coefficients[k], x[m_vertices.items[k]]);
+          add(residual, -m_coefficients[k], positions[m_vertices.items[k]]);
         pulls[r] = scaled(residual, m_weights[r]);
         sum += dot(pulls[r], residual);
       }
@@ -127,15 +128,15 @@ public:
     });
     for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
       for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-        add(force[m_vertices.items[k]], m_coefficients[k], pulls[r]);
+        add(forces[m_vertices.items[k]], m_coefficients[k], pulls[r]);
     return energy;
   }
 
 private:
   // the rows in an order by their contents
-  std::vector<int> order() const
+  Array<int> order() const
   {
-    std::vector<int> rows(m_weights.size());
+    Array<int> rows(m_weights.size());
     for(int r = 0; r < size(); ++r)
       rows[r] = r;
     std::sort(rows.begin(), rows.end(),
@@ -160,8 +161,8 @@ private:
   }
 
   Index_lists m_vertices;             // of each row
-  std::vector<double> m_coefficients; // of each item of these lists
-  std::vector<double> m_weights;      // of each row
+  Array<double> m_coefficients; // of each item of these lists
+  Array<double> m_weights;      // of each row
   bool m_is_diagonal = true;
 };
 
@@ -169,8 +170,8 @@ private:
 // Targets are no part of it: they may change with each run.
 struct Constraints
 {
-  std::vector<char> is_fixed; // for each movable vertex
-  Weighted_rows rows;         // of vertices that may be fixed or not
+  Array<char> is_fixed; // for each movable vertex
+  Weighted_rows rows;   // of vertices that may be fixed or not
 
   int number_of_free_vertices() const
   {

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
@@ -71,17 +72,17 @@ public:
   // Says which of the movable vertices are fixed. Only cells in which something moves count from
   // now on, unless `are_all_cells_counted`; the others cost nothing, and their rotations become
   // identities.
-  void set_fixed(const std::vector<char>& is_fixed, bool are_all_cells_counted,
+  void set_fixed(const Array<char>& is_fixed, bool are_all_cells_counted,
                  std::vector<Matrix_3x3>& rotations)
   {
     const auto is_free = [&](int v) { return v < m_number_of_movable_vertices && !is_fixed[v]; };
-    std::vector<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
+    Array<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
     std::visit([&](const auto& cells) {
       for(int c = 0; c < cells.number_of_cells(); ++c)
       {
         is_chosen[c] = are_all_cells_counted || cells.is_moving(c, is_free);
         if(!is_chosen[c])
-          rotations[c] = identity_matrix();
+          rotations[static_cast<std::size_t>(c)] = identity_matrix();
       }
     }, m_cells);
     m_number_of_free_vertices = static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
@@ -147,7 +148,7 @@ public:
   {
     int vertex = -1;
     const auto& weights = std::visit(
-      [](const auto& cells) -> const std::vector<double>& { return cells.weights(); }, m_cells);
+      [](const auto& cells) -> const Array<double>& { return cells.weights(); }, m_cells);
     if(!std::all_of(weights.begin(), weights.end(), [](double w) { return is_finite(w); }))
       for_each_edge([&](int i, int, double weight) {
         if(!is_finite(weight))
@@ -220,7 +221,7 @@ private:
   // at the positions m_x
   double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
   {
-    force.resize(m_number_of_movable_vertices);
+    force.resize(static_cast<std::size_t>(m_number_of_movable_vertices));
     return std::visit([&](auto& cells) {
       return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
     }, m_cells);
@@ -229,9 +230,9 @@ private:
   std::variant<Star_energy, Simplex_energy> m_cells;
   int m_number_of_movable_vertices = 0;
   int m_number_of_free_vertices = 0;
-  std::vector<char> m_is_chosen;  // for each cell whether it counts
-  std::vector<char> m_is_in_cell; // for each of the first vertices: is a cell that counts there
-  Index_ranges m_batches;         // of the cells that count
+  Array<char> m_is_chosen;  // for each cell whether it counts
+  Array<char> m_is_in_cell; // for each of the first vertices: is a cell that counts there
+  Index_ranges m_batches;   // of the cells that count
   std::vector<Double4> m_rest;
   std::vector<Double4> m_x;    // of the last evaluation
   double m_scale = 0;          // in the rest shape

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
@@ -23,7 +24,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -34,7 +34,7 @@ namespace internal {
 struct Stars
 {
   Index_lists neighbours;
-  std::vector<double> weights; // for each item of `neighbours`
+  Array<double> weights; // for each item of `neighbours`
 
   int size() const { return neighbours.size(); }
 
@@ -69,8 +69,8 @@ struct Stars
 struct Simplices
 {
   Index_lists corners;
-  std::vector<int> first_weight;
-  std::vector<double> weights;
+  Array<int> first_weight;
+  Array<double> weights;
   bool is_sum_of_squares = true; // weights that come from the shapes of simplices count as such
 
   int size() const { return corners.size(); }
@@ -172,7 +172,7 @@ struct Edge_sums
 struct Cells
 {
   Index_lists sets;
-  std::vector<double> stiffness;
+  Array<double> stiffness;
 
   int size() const { return sets.size(); }
 };
@@ -181,17 +181,17 @@ struct Cells
 inline Cells separate_cells(int number_of_sets)
 {
   Cells cells;
-  cells.sets.begin.resize(number_of_sets + 1);
+  cells.sets.begin = Array<int>(number_of_sets + 1);
   std::iota(cells.sets.begin.begin(), cells.sets.begin.end(), 0);
   cells.sets.items.assign(cells.sets.begin.begin(), cells.sets.begin.end() - 1);
-  cells.stiffness.assign(number_of_sets, 1);
+  cells.stiffness = Array<double>(number_of_sets, 1);
   return cells;
 }
 
 // the simplices with these corners are a cell at each of the first `number_of_centres` vertices
 inline Cells vertex_cells(const Index_lists& corners, int number_of_centres)
 {
-  return {lists_with(corners, number_of_centres), std::vector<double>(number_of_centres, 1)};
+  return {lists_with(corners, number_of_centres), Array<double>(number_of_centres, 1)};
 }
 
 } // namespace internal

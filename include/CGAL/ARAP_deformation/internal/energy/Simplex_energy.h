@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -114,7 +115,7 @@ struct Simplex_residuals_kernel
       const int first = simplices.first_corner[s];
       const int n = N > 0 ? N : simplices.first_corner[s + 1] - first;
       const int* corners = simplices.corners + first;
-      Double4 few_forces[N > 0 ? N : 1]; // in registers
+      Double4 few_forces[std::size_t(N > 0 ? N : 1)]; // in registers
       Double4* forces = N > 0 ? few_forces : corner_forces + first;
       Double4 simplex_energy = Double4::zero();
       for(int a = 0; a < n; ++a)
@@ -204,7 +205,7 @@ public:
     for(int c = 0; c < m_cells.size(); ++c)
       m_is_each_a_cell &= m_cells.sets.begin[c + 1] == c + 1 && m_cells.sets.items[c] == c;
     if(!m_is_each_a_cell)
-      m_covariances.resize(m_simplices.size());
+      m_covariances = Array<Matrix_3x3>(m_simplices.size());
   }
 
   int number_of_cells() const { return m_cells.size(); }
@@ -241,11 +242,11 @@ public:
 
   // for each vertex whether it is the centre of a cell that counts, or a corner of one that is a
   // simplex
-  std::vector<char> vertices_of(const std::vector<char>& is_chosen) const
+  Array<char> vertices_of(const Array<char>& is_chosen) const
   {
     if(!m_is_each_a_cell)
       return is_chosen;
-    std::vector<char> vertices;
+    Array<char> vertices;
     for(int s = 0; s < m_cells.size(); ++s)
       if(is_chosen[s])
         for(int k = m_simplices.corners.begin[s]; k < m_simplices.corners.begin[s + 1]; ++k)
@@ -258,7 +259,7 @@ public:
     return vertices;
   }
 
-  const std::vector<double>& weights() const { return m_simplices.weights; }
+  const Array<double>& weights() const { return m_simplices.weights; }
   bool is_sum_of_squares() const { return m_simplices.is_sum_of_squares; }
 
   // whether a vertex of cell c moves; is_free(v) tells for all vertices
@@ -277,7 +278,7 @@ public:
   }
 
   // the cells that count
-  void choose_cells(const std::vector<char>& is_chosen)
+  void choose_cells(const Array<char>& is_chosen)
   {
     m_stiffness = m_cells.stiffness;
     for(int c = 0; c < m_cells.size(); ++c)
@@ -312,7 +313,7 @@ public:
       Matrix_3x3& sum = covariances[c - begin];
       sum.fill(0);
       for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
-        for(int entry = 0; entry < 9; ++entry)
+        for(std::size_t entry = 0; entry < 9; ++entry)
           sum[entry] += m_covariances[m_cells.sets.items[k]][entry];
     }
   }
@@ -329,7 +330,8 @@ public:
                                     &range_energy);
       return range_energy;
     });
-    for_each_block(m_corners_of_vertices.size(), [&](std::size_t begin, std::size_t end) {
+    const auto number_of_vertices = static_cast<std::size_t>(m_corners_of_vertices.size());
+    for_each_block(number_of_vertices, [&](std::size_t begin, std::size_t end) {
       run_kernel<Gather_kernel>(m_corners_of_vertices, static_cast<int>(begin),
                                 static_cast<int>(end), m_corner_forces.data(), force);
     });
@@ -338,7 +340,7 @@ public:
 
 private:
   // the sum over the cells of simplex s
-  double total_stiffness(int s, const std::vector<double>& stiffness) const
+  double total_stiffness(int s, const Array<double>& stiffness) const
   {
     double sum = 0;
     for(int k = m_cells_of_simplices.begin[s]; k < m_cells_of_simplices.begin[s + 1]; ++k)
@@ -367,10 +369,10 @@ private:
   Cells m_cells;
   Index_lists m_cells_of_simplices;
   Index_lists m_corners_of_vertices; // places in the list of all corners, for each movable vertex
-  std::vector<double> m_stiffness;   // of the cells, 0 for those that do not count
+  Array<double> m_stiffness;         // of the cells, 0 for those that do not count
   Index_ranges m_chosen;             // the simplices of the other cells
   std::vector<Double4> m_corner_forces;
-  std::vector<Matrix_3x3> m_covariances; // of the simplices; empty if each is a cell
+  Array<Matrix_3x3> m_covariances; // of the simplices; empty if each is a cell
   int m_number_of_corners = 0; // of each simplex, 0 if they differ
   bool m_is_each_a_cell = true;
 };

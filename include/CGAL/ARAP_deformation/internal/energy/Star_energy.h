@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -25,7 +26,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -149,13 +149,13 @@ public:
   }
 
   // for each vertex whether it is the centre of a cell that counts
-  std::vector<char> vertices_of(const std::vector<char>& is_chosen) const { return is_chosen; }
+  Array<char> vertices_of(const Array<char>& is_chosen) const { return is_chosen; }
 
-  const std::vector<double>& weights() const { return m_stars.weights; }
+  const Array<double>& weights() const { return m_stars.weights; }
   bool is_sum_of_squares() const { return m_stars.are_sums_of_squares(); }
 
   // the cells that count
-  void choose_cells(const std::vector<char>& is_chosen)
+  void choose_cells(const Array<char>& is_chosen)
   {
     m_chosen.choose(number_of_cells(), [&](int i) { return is_chosen[i] != 0; },
                     static_cast<int>(default_block_size));
@@ -192,7 +192,7 @@ private:
   // Most weights are symmetric: then there is nothing else to store.
   void find_opposite_weights()
   {
-    std::vector<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
+    Array<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
     bool is_symmetric = true;
     for(int i = 0; i < m_number_of_movable_vertices; ++i)
       for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
@@ -206,14 +206,14 @@ private:
 
   Star_view view(const Double4* rest, const Double4* x) const
   {
-    const std::vector<double>& opposite =
+    const Array<double>& opposite =
       m_opposite_weights.empty() ? m_stars.weights : m_opposite_weights;
     return {m_stars.neighbours.begin.data(), m_stars.neighbours.items.data(),
             m_stars.weights.data(), opposite.data(), rest, x};
   }
 
   Stars m_stars;
-  std::vector<double> m_opposite_weights; // of the movable vertices; empty if they are the same
+  Array<double> m_opposite_weights; // of the movable vertices; empty if they are the same
   int m_number_of_movable_vertices = 0;
   Index_ranges m_chosen;
 };

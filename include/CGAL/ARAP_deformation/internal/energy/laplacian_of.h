@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -23,7 +24,6 @@
 #include <cstddef>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -35,10 +35,10 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
   const int n = energy.number_of_movable_vertices();
   using Entry = std::pair<int, double>;
   Laplacian laplacian;
-  laplacian.is_tied.assign(n, false);
+  laplacian.is_tied = Array<char>(n);
   laplacian.is_sum_of_squares = energy.is_sum_of_squares();
-  std::vector<int> first(n + 1, 0);
-  std::vector<double> diagonal(n, 0);
+  Array<int> first(n + 1, 0);
+  Array<double> diagonal(n, 0);
   energy.for_each_edge([&](int i, int j, double w) {
     if(i < n) diagonal[i] += w;
     if(j < n) diagonal[j] += w;
@@ -48,15 +48,15 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
       laplacian.is_tied[(std::min)(i, j)] = true;
   });
   std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Entry> entries(first.back());
-  std::vector<int> next(first.begin(), first.end() - 1);
+  Array<Entry> entries(first.back());
+  Array<int> next(first.begin(), first.end() - 1);
   energy.for_each_edge([&](int i, int j, double w) {
     if(i < n && j < n) entries[next[(std::min)(i, j)]++] = {(std::max)(i, j), -w};
   });
 
   // sorted, and those of the same row added up: of column j there are sizes[j], and the diagonal
-  std::vector<int>& sizes = next;
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+  Array<int>& sizes = next;
+  for_each_block(first.size() - 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t j = begin; j < end; ++j)
       sizes[j] = sort_and_add_up(entries.begin() + first[j], entries.begin() + first[j + 1]);
   });
@@ -66,7 +66,7 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
   for(int j = 0; j < n; ++j)
     outer[j + 1] = outer[j] + sizes[j] + 1;
   matrix.resizeNonZeros(outer[n]);
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+  for_each_block(first.size() - 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t j = begin; j < end; ++j)
     {
       int* row = matrix.innerIndexPtr() + outer[j];

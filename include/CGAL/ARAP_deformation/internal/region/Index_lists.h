@@ -14,11 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -27,8 +28,8 @@ namespace internal {
 // Lists of indices: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
 struct Index_lists
 {
-  std::vector<int> begin = {0};
-  std::vector<int> items;
+  Array<int> begin = {0};
+  Array<int> items;
 
   int size() const { return static_cast<int>(begin.size()) - 1; }
 };
@@ -38,13 +39,13 @@ template <typename Naming>
 Index_lists inverse(const Index_lists& lists, int n, const Naming& name)
 {
   Index_lists result;
-  result.begin.assign(n + 1, 0);
+  result.begin = Array<int>(n + 1, 0);
   for(int item : lists.items)
     if(item < n)
       ++result.begin[item + 1];
   std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.items.resize(result.begin.back());
-  std::vector<int> next(result.begin.begin(), result.begin.end() - 1);
+  result.items = Array<int>(result.begin.back());
+  Array<int> next(result.begin.begin(), result.begin.end() - 1);
   for(int k = 0; k < lists.size(); ++k)
     for(int place = lists.begin[k]; place < lists.begin[k + 1]; ++place)
       if(const int item = lists.items[place]; item < n)
@@ -53,9 +54,9 @@ Index_lists inverse(const Index_lists& lists, int n, const Naming& name)
 }
 
 // for each place in `items` its list
-inline std::vector<int> list_of_each(const Index_lists& lists)
+inline Array<int> list_of_each(const Index_lists& lists)
 {
-  std::vector<int> list_of(lists.items.size());
+  Array<int> list_of(lists.items.size());
   for(int k = 0; k < lists.size(); ++k)
     std::fill(list_of.begin() + lists.begin[k], list_of.begin() + lists.begin[k + 1], k);
   return list_of;

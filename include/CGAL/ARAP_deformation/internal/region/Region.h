@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <cstddef>
 #include <vector>
@@ -41,8 +42,8 @@ struct Region
 
   // the corners of simplex s are corners[first_corner[s]] to corners[first_corner[s + 1] - 1],
   // those of a polygon in their order around it
-  std::vector<int> first_corner = {0};
-  std::vector<int> corners;
+  Array<int> first_corner = {0};
+  Array<int> corners;
 
   int number_of_vertices() const { return static_cast<int>(rest.size()); }
   int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -28,7 +29,7 @@ namespace ARAP {
 namespace internal {
 
 // The rotation closest to one matrix, by its singular value decomposition: right for any matrix.
-// The identity for the zero matrix and for what is no matrix of numbers.
+// The identity for the zero matrix, and for one with infinite or NaN entries.
 class Svd_rotation
 {
 public:
@@ -46,7 +47,7 @@ public:
       return identity_matrix();
 
     Columns b; // becomes U Sigma, while v becomes V: always b = c v
-    for(int k = 0; k < 3; ++k)
+    for(std::size_t k = 0; k < 3; ++k)
       b[k] = {c[k] / largest, c[3 + k] / largest, c[6 + k] / largest};
     Columns v = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -68,7 +69,7 @@ private:
 
   // turns the columns p and q in their plane so that those of b become orthogonal;
   // returns whether they were so before
-  static bool orthogonalize(int p, int q, Columns& b, Columns& v)
+  static bool orthogonalize(std::size_t p, std::size_t q, Columns& b, Columns& v)
   {
     const double pp = dot(b[p], b[p]), qq = dot(b[q], b[q]);
     const double pq = dot(b[p], b[q]);
@@ -78,7 +79,7 @@ private:
     const double tangent = std::copysign(1 / (std::abs(zeta) + std::sqrt(1 + zeta * zeta)), zeta);
     const double cosine = 1 / std::sqrt(1 + tangent * tangent), sine = cosine * tangent;
     for(Columns* columns : {&b, &v})
-      for(int k = 0; k < 3; ++k)
+      for(std::size_t k = 0; k < 3; ++k)
       {
         double& x = (*columns)[p][k];
         double& y = (*columns)[q][k];
@@ -95,7 +96,7 @@ private:
   {
     const std::array<double, 3> squares = {dot(b[0], b[0]), dot(b[1], b[1]),
                                            dot(b[2], b[2])};
-    std::array<int, 3> order = {0, 1, 2};
+    std::array<std::size_t, 3> order = {0, 1, 2};
     if(squares[order[0]] < squares[order[1]]) std::swap(order[0], order[1]);
     if(squares[order[1]] < squares[order[2]]) std::swap(order[1], order[2]);
     if(squares[order[0]] < squares[order[1]]) std::swap(order[0], order[1]);
@@ -110,8 +111,8 @@ private:
     const Coordinates& v1 = v[order[1]];
     const Coordinates u2 = cross(u0, u1), v2 = cross(v0, v1);
     Matrix_3x3 r;
-    for(int row = 0; row < 3; ++row)
-      for(int column = 0; column < 3; ++column)
+    for(std::size_t row = 0; row < 3; ++row)
+      for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] = u0[row] * v0[column] + u1[row] * v1[column] + u2[row] * v2[column];
     return r;
   }
@@ -124,7 +125,7 @@ private:
     double length = std::sqrt(dot(mid, mid));
     if(length < 1e-8) // opposite: half a turn about any axis orthogonal to both
     {
-      const int smallest = std::abs(to[0]) < std::abs(to[1])
+      const std::size_t smallest = std::abs(to[0]) < std::abs(to[1])
                          ? (std::abs(to[0]) < std::abs(to[2]) ? 0 : 2)
                          : (std::abs(to[1]) < std::abs(to[2]) ? 1 : 2);
       Coordinates axis = {0, 0, 0};
@@ -135,8 +136,8 @@ private:
     mid = scaled(mid, 1 / length);
     Matrix_3x3 r;
     const double product = 2 * dot(mid, to);
-    for(int row = 0; row < 3; ++row)
-      for(int column = 0; column < 3; ++column)
+    for(std::size_t row = 0; row < 3; ++row)
+      for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] = (row == column ? 1 : 0) - 2 * mid[row] * mid[column]
                             - 2 * to[row] * to[column] + 2 * product * to[row] * mid[column];
     return r;

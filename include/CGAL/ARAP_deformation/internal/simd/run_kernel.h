@@ -40,6 +40,13 @@ __attribute__((target("avx2,fma"))) void run_with_avx2(const Arguments&... argum
 {
   Kernel::run(arguments...);
 }
+
+// For processors without AVX2, which are rare: optimized for size, which compiles sooner.
+template <typename Kernel, typename... Arguments>
+__attribute__((cold, noinline)) void run_without_avx2(const Arguments&... arguments)
+{
+  Kernel::run(arguments...);
+}
 #endif
 
 // How many columns of a matrix the plain versions of kernels hold in registers. If the kernel is
@@ -59,9 +66,12 @@ void run_kernel(const Arguments&... arguments)
 {
 #ifdef CGAL_ARAP_HAS_DISPATCH
   if(has_avx2())
-    return run_with_avx2<Kernel>(arguments...);
-#endif
+    run_with_avx2<Kernel>(arguments...);
+  else
+    run_without_avx2<Plain_kernel>(arguments...);
+#else
   Plain_kernel::run(arguments...);
+#endif
 }
 
 } // namespace CGAL_ARAP_SIMD

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
@@ -22,7 +23,6 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -94,8 +94,8 @@ private:
   Constraints m_factorized;                   // the constraints of the factor
   Eigen::Index m_analyzed_nonzeros = 0;       // of the pattern that the solver knows
   // the vertices whose unknowns are in the border, and those that it keeps where they are
-  std::vector<int> m_further_unknowns, m_multipliers;
-  std::vector<Coordinates> m_bordered; // scratch
+  Array<int> m_further_unknowns, m_multipliers;
+  Array<Coordinates> m_bordered; // scratch
 };
 
 } // namespace internal

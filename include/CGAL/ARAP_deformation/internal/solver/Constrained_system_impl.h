@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
@@ -35,7 +36,7 @@ Sparse_matrix Constrained_system::with_rows(const Weighted_rows& rows) const
     rows.for_each_entry([&](int v, int, double entry) { diagonal_entry(matrix, v) += entry; });
   else
   {
-    std::vector<Eigen::Triplet<double, int>> entries;
+    Array<Eigen::Triplet<double, int>> entries;
     rows.for_each_entry([&](int i, int j, double entry) { entries.emplace_back(i, j, entry); });
     Sparse_matrix sum(matrix.rows(), matrix.cols());
     sum.setFromTriplets(entries.begin(), entries.end());
@@ -48,7 +49,7 @@ CGAL_ARAP_INLINE_FUNCTION
 int Constrained_system::find_singular_vertex(const Constraints& constraints) const
 {
   const int n = m_laplacian.size();
-  std::vector<double> diagonal(n);
+  Array<double> diagonal(n);
   for(int v = 0; v < n; ++v)
     diagonal[v] = diagonal_entry(m_laplacian.matrix, v);
   constraints.rows.for_each_entry([&](int i, int j, double entry) {
@@ -119,12 +120,12 @@ bool Constrained_system::set_border(const Constraints& constraints)
 {
   constexpr std::size_t largest_border = 256; // beyond it a factorization costs less
   const int n = m_laplacian.size();
-  std::vector<char> is_kept(n);
+  Array<char> is_kept(n);
   for(int v = 0; v < n; ++v)
     is_kept[v] = !constraints.is_fixed[v] && !m_factorized.is_fixed[v];
   Weighted_rows::for_each_changed_vertex(m_factorized.rows, constraints.rows,
                                          [&](int v) { is_kept[v] = false; });
-  std::vector<int> further_unknowns, multipliers; // the vertices that they are for
+  Array<int> further_unknowns, multipliers; // the vertices that they are for
   for(int v = 0; v < n; ++v)
     if(!is_kept[v])
     {
@@ -136,12 +137,12 @@ bool Constrained_system::set_border(const Constraints& constraints)
   if(size > largest_border)
     return false;
 
-  std::vector<Eigen::Triplet<double, int>> entries;
+  Array<Eigen::Triplet<double, int>> entries;
   Eigen::MatrixXd corner =
     Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
   if(number_of_unknowns > 0)
   {
-    std::vector<int> column(n, -1);
+    Array<int> column(n, -1);
     for(int k = 0; k < number_of_unknowns; ++k)
       column[further_unknowns[k]] = k;
     const bool has_rows = constraints.rows.size() > 0;
@@ -184,11 +185,11 @@ bool Constrained_system::solve(std::vector<Coordinates>& x)
     std::swap(m_bordered[n + k], m_bordered[m_further_unknowns[k]]);
   if(!m_solver->solve(m_bordered.size(), m_bordered.data()))
     return false;
-  std::copy_n(m_bordered.begin(), n, x.begin());
   for(int v : m_multipliers)
-    x[v] = {0, 0, 0};
+    m_bordered[v] = {0, 0, 0};
   for(std::size_t k = 0; k < m_further_unknowns.size(); ++k)
-    x[m_further_unknowns[k]] = m_bordered[n + k];
+    m_bordered[m_further_unknowns[k]] = m_bordered[n + k];
+  std::copy_n(m_bordered.begin(), n, x.begin());
   return true;
 }
 

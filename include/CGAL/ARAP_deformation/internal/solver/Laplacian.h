@@ -15,9 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <limits>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -27,8 +27,8 @@ namespace internal {
 // paper, for all movable vertices of a region.
 struct Laplacian
 {
-  Sparse_matrix matrix;      // the lower triangle, every diagonal entry stored
-  std::vector<char> is_tied; // for each vertex whether an edge ties it to one that is not movable
+  Sparse_matrix matrix; // the lower triangle, every diagonal entry stored
+  Array<char> is_tied;  // for each vertex whether an edge ties it to one that is not movable
   bool is_sum_of_squares = true; // whether no edge set has a negative energy, up to rounding
 
   int size() const { return static_cast<int>(matrix.cols()); }

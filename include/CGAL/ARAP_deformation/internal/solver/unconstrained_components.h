@@ -14,12 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -29,13 +29,13 @@ namespace internal {
 // way of other free vertices, to a vertex that is fixed or pulled to a target. If not, its
 // component could be anywhere, and the system is singular: then it is the smallest vertex of that
 // component.
-inline std::vector<int> find_unconstrained_components(const Laplacian& laplacian,
-                                                      const Constraints& constraints)
+inline Array<int> find_unconstrained_components(const Laplacian& laplacian,
+                                                const Constraints& constraints)
 {
   // union-find, with one more element for all that is fixed; the smallest vertex of each set is its
   // root, but for that one
   const int n = laplacian.size(), fixed = n;
-  std::vector<int> parent(n + 1);
+  Array<int> parent(n + 1);
   std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&parent](int v) {
     while(parent[v] != v)
