@@ -483,6 +483,10 @@ void test_failures()
   const Tetrahedron_soup_domain<std::vector<Point>, Simplices> domain(vertices, good);
   const Embedding embedding(domain, std::vector<Point>());
   CHECK(embedding.outcome() && embedding.size() == 0);
+  bool is_refused = false;
+  try { embedding.position(0); }
+  catch(const std::logic_error&) { is_refused = true; }
+  CHECK(is_refused);
 
   // far, but not too far
   const Embedding far(domain, std::vector<Point>{{1e90, 0, 0}, {-1e90, 1e90, 0}});

@@ -167,7 +167,7 @@ private:
   const Binding& binding(std::size_t k) const
   {
     CGAL_precondition(k < size());
-    return m_bindings[k];
+    return m_bindings.at(k); // throws in Release
   }
 
   // Each tetrahedron once, in an order that does not depend on that of the domain.
@@ -224,6 +224,8 @@ private:
     for(const auto& point : points)
     {
       using Point = std::decay_t<decltype(point)>;
+      static_assert(!internal::Point_conversion<Point>::is_planar,
+                    "Embedding: the points must have three coordinates");
       const Coordinates c = internal::Point_conversion<Point>::coordinates(point);
       const std::string name = "point " + std::to_string(size());
       if(!internal::is_finite(c))
