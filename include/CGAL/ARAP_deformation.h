@@ -88,8 +88,7 @@ class ARAP_deformation
 {
   using Traits_ = typename Default::Get<Traits, ARAP_deformation_traits<>>::type;
   using Domain_ =
-    typename Default::Lazy_get<Domain,
-                               ARAP::internal::Default_domain<std::remove_const_t<Mesh>>>::type;
+    typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
 
   template <typename T>
   using Enable_if_range = std::enable_if_t<ARAP::internal::is_range<T>>;
@@ -147,7 +146,7 @@ public:
   {
     [[maybe_unused]] const ARAP::Outcome outcome =
       set_options(ARAP::internal::options_from_parameters(np));
-    CGAL_precondition_msg(outcome, outcome.message.c_str());
+    CGAL_precondition_msg(bool(outcome), outcome.message.c_str());
     if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
       insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
   }
@@ -289,7 +288,7 @@ public:
   ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
   {
     return change_target(v, [&t](const Point& p) {
-      return ARAP::internal::construct_point<Point>(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
+      return ARAP::internal::translated(p, t);
     });
   }
 
@@ -313,14 +312,20 @@ public:
   template <typename Vector, typename Quaternion>
   ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
   {
-    static_assert(std::is_constructible_v<Vector, double, double, double> &&
-                  ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>,
-                  "rotate() needs a quaternion or matrix q for which q * center is a vector of the "
-                  "type of center, as with Eigen; for a transformation of CGAL use transform()");
+    constexpr bool can_turn =
+      ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>;
+    static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
+                            "vector of the type of center, as with Eigen; for a transformation of "
+                            "CGAL use transform()");
     return change_target(v, [&](const Point& point) {
-      const ARAP::Coordinates p = Domain_::coordinates(point);
-      const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
-      return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
+      if constexpr(!can_turn)
+        return point;
+      else
+      {
+        const ARAP::Coordinates p = Domain_::coordinates(point);
+        const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
+        return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
+      }
     });
   }
 
@@ -524,6 +529,9 @@ ARAP_deformation(Mesh&, const CGAL_NP_CLASS&)
 
 template <typename Mesh>
 ARAP_deformation(Mesh&) -> ARAP_deformation<Mesh>;
+
+template <typename Domain>
+ARAP_deformation(const Domain&) -> ARAP_deformation<Domain>;
 #endif
 
 } // namespace CGAL

@@ -195,7 +195,11 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
           return;
         deformation.insert_control_vertex(v);
         with_value(targets, v, domain.index(v), [&](const auto& target) {
-          deformation.set_target_position(v, target);
+          constexpr bool is_point =
+            std::is_convertible_v<decltype(target), decltype(domain.point(v))>;
+          static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
+          if constexpr(is_point)
+            deformation.set_target_position(v, target);
         });
       });
     return ARAP::Outcome(ARAP::Status::success, "");

@@ -184,6 +184,19 @@ int main()
   Mesh mesh;
   CGAL::ARAP_deformation<Mesh> deformation(mesh);
   deformation.deform([](const auto&) {});
+#elif WRONG_MODEL == 22
+  struct Quaternion { double w, x, y, z; };
+  Mesh mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  deformation.rotate(Mesh::Vertex_index(0), CGAL::Simple_cartesian<double>::Vector_3(),
+                     Quaternion());
+#elif WRONG_MODEL == 23
+  Mesh mesh;
+  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
+                    CGAL::Constant_property_map<Mesh::Vertex_index, int>(0));
+#elif WRONG_MODEL == 24
+  Mesh mesh;
+  return bool(CGAL::arap_deform(mesh, std::vector<std::array<double, 3>>()));
 #else
 #error "there is no wrong model of that number"
 #endif
