@@ -911,7 +911,7 @@ void test_exception()
     const std::vector<Point> before = pair.points;
     int caught = 0;
     pair.with_both([&](auto& d) {
-      try { d.deform(); } catch(const std::runtime_error&) { ++caught; }
+      try { CHECK(!d.deform()); } catch(const std::runtime_error&) { ++caught; }
     });
     CHECK(caught == 2);
     CHECK(pair.points == before);

@@ -385,6 +385,20 @@ void test_messages()
     CHECK(report && says(report, "vertex 49: a control vertex without an incident simplex"));
     CHECK(mesh.point(isolated) == Point(6, 6, 6));
   }
+#ifdef CGAL_NDEBUG // else a precondition says so
+  {
+    test_case() = "a vertex that was removed, and one that never was";
+    const Vertex removed = mesh.add_vertex(Point(7, 7, 7));
+    mesh.remove_vertex(removed);
+    Deformation d(mesh);
+    d.insert_roi_vertices(vertices(mesh));
+    for(const Vertex v : {removed, Vertex(12345), Vertex()})
+    {
+      CHECK(!d.insert_control_vertex(v) && !d.insert_roi_vertex(v));
+      CHECK(d.control_vertices().empty());
+    }
+  }
+#endif
 }
 
 // The phases add up to the total, for a frame whose time is that of reading and writing as well.
@@ -486,6 +500,13 @@ void test_one_call()
       CHECK(mesh.point(Vertex(v)) == rest.point(Vertex(v)));
     return report;
   });
+
+  test_case() = "a soup in one line";
+  const Shape shape = sheet(8);
+  std::vector<Point> points = points_of(shape.points);
+  const std::map<std::size_t, Point> at = {{0, points[0]}, {8, points[8]}, {80, Point(1, 1, 0.5)}};
+  CHECK(CGAL::arap_deform(CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles), at));
+  CHECK(points[80] == Point(1, 1, 0.5) && points[8] == rest.point(Vertex(8)));
 
   test_case() = "soft targets";
   Mesh mesh = rest;

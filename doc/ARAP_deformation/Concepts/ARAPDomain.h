@@ -88,6 +88,12 @@ public:
   /// once, and the result of `point()` must not change.
   bool is_in_place() const;
 
+  /// returns whether `v` is a vertex of the mesh; one that is not enters neither the region of
+  /// interest nor the control vertices.
+  ///
+  /// Optional: without it every `v` counts as one.
+  bool is_vertex(vertex_descriptor v) const;
+
   /// returns whether no simplex is incident to `v`.
   bool is_isolated(vertex_descriptor v) const;
 

@@ -16,6 +16,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>
@@ -35,6 +36,13 @@ namespace CGAL {
 namespace ARAP {
 
 namespace internal {
+
+template <typename Graph>
+using Call_is_removed = decltype(
+  std::declval<const Graph&>().has_valid_index(
+    std::declval<typename boost::graph_traits<Graph>::vertex_descriptor>()) &&
+  std::declval<const Graph&>().is_removed(
+    std::declval<typename boost::graph_traits<Graph>::vertex_descriptor>()));
 
 // outside the class, which has a member `vertices`
 template <typename Graph>
@@ -164,6 +172,16 @@ public:
 
   /// returns the range of all vertices.
   auto vertices() const { return internal::vertices_of_graph(*m_mesh); }
+
+  /// returns whether `v` is a vertex of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
+  /// can tell; for other meshes `true`.
+  bool is_vertex([[maybe_unused]] vertex_descriptor v) const
+  {
+    if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
+      return m_mesh->has_valid_index(v) && !m_mesh->is_removed(v);
+    else
+      return true;
+  }
 
   /// returns whether no face is incident to `v`.
   bool is_isolated(vertex_descriptor v) const

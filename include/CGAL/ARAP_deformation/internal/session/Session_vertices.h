@@ -14,7 +14,10 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,6 +28,10 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+template <typename Domain>
+using Call_is_vertex = decltype(std::declval<const Domain&>().is_vertex(
+  std::declval<typename Domain::vertex_descriptor>()));
 
 // The region of interest, the control vertices and their targets, the rest shape and the present
 // one. Vertices keep their entry when they leave the region of interest: they may have been moved,
@@ -116,10 +123,12 @@ public:
 
   // The functions that change the sets return whether they did.
 
-  bool insert_roi(vertex_descriptor v) { return enter_roi(find_or_insert(v)); }
+  bool insert_roi(vertex_descriptor v) { return is_vertex(v) && enter_roi(find_or_insert(v)); }
 
   bool insert_control(vertex_descriptor v)
   {
+    if(!is_vertex(v))
+      return false;
     const Entry* known = find(v);
     if(known != nullptr && known->is_control)
       return false;
@@ -258,6 +267,19 @@ public:
 
 private:
   static constexpr int no_target = -1;
+
+  // in Release false for what is no vertex, if the domain can tell
+  bool is_vertex([[maybe_unused]] vertex_descriptor v) const
+  {
+    if constexpr(is_valid<Call_is_vertex, Domain>)
+    {
+      const bool is_one = m_domain.is_vertex(v);
+      CGAL_precondition(is_one);
+      return is_one;
+    }
+    else
+      return true;
+  }
 
   bool enter_roi(Entry& entry)
   {
