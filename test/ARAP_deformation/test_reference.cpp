@@ -201,8 +201,8 @@ void test()
 
       Mesh mesh = make_mesh<Mesh>(shape);
       Deformation deformation(mesh);
-      deformation.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
-                                          CGAL::ARAP::Initial_guess::laplacian));
+      CHECK(deformation.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
+                                                CGAL::ARAP::Initial_guess::laplacian)));
       prepare(deformation, s, all_vertices(mesh));
       const auto report = deformation.deform(0, 0);
       CHECK(report.status == CGAL::ARAP::Status::iteration_limit);
@@ -360,8 +360,8 @@ void test_linear_maps()
       test_case() = "a linear map";
       std::vector<Point> points = points_of(shape.points);
       CGAL::ARAP_deformation<Soup> d(Soup(points, shape.tetrahedra));
-      d.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
-                                CGAL::ARAP::Initial_guess::laplacian));
+      CHECK(d.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
+                                      CGAL::ARAP::Initial_guess::laplacian)));
       prepare(d, s, numbers(points.size()));
       const CGAL::ARAP::Report report = d.deform(300, 0);
       CHECK(report);

@@ -628,11 +628,11 @@ void test_stop()
   bool is_caught = false;
   try
   {
-    e.deform(100, 0, [](const auto& iterate) {
+    CHECK(!e.deform(100, 0, [](const auto& iterate) {
       if(iterate.iteration() == 3)
         throw std::runtime_error("the user's own");
       return Visitor_action::proceed;
-    });
+    }));
   }
   catch(const std::runtime_error&)
   {

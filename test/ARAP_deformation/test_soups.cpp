@@ -124,8 +124,8 @@ void test_non_manifold()
     const Polygon_soup_domain<std::vector<Point>, decltype(triangles)> domain(moved, triangles);
     check_conforms(domain);
     CGAL::ARAP_deformation<std::decay_t<decltype(domain)>> deformation(domain);
-    deformation.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
-                                        CGAL::ARAP::Initial_guess::laplacian));
+    CHECK(deformation.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
+                                              CGAL::ARAP::Initial_guess::laplacian)));
     prepare(deformation, rigid, numbers(points.size()));
     CHECK(deformation.deform(2000, 1e-12));
     if(cells != Cell_scheme::elements()) // a membrane may fold
