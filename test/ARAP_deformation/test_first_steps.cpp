@@ -30,6 +30,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -93,6 +95,9 @@ void test_shape(const std::string& name, const Domain& domain, std::vector<Point
     const Report report = d.deform();
     CHECK(report.status == Status::converged);
     CHECK_AT_MOST(report.iterations, 30);
+    if(is_long_run())
+      std::cout << test_case() << ": " << points.size() << " vertices, " << report.iterations
+                << " iterations, " << report.seconds.total - report.seconds.preprocess << " s\n";
     CHECK_AT_MOST(report.final_energy(), 1e-15 * report.energy_scale);
     double error = 0;
     for(std::size_t v = 0; v < points.size(); ++v)

@@ -85,7 +85,8 @@ struct Report : Outcome
 
   /// an estimate of \f$(E - E^*) / E^*\f$, where \f$E^*\f$ is the minimum that the run converges
   /// to, extrapolated from the decreases of the energy; infinity if there are too few of them, or
-  /// if they do not shrink. It errs on the large side, but is not a bound: see
+  /// if they do not shrink. Next to a minimum of zero it is relative to \f$10^{-9} s\f$, or to
+  /// \f$10^{-6} E_0\f$ where that is less. It errs on the large side, but is not a bound: see
   /// \ref ARAPDeformation_Gap for its accuracy.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
