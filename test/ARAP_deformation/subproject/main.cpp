@@ -1,0 +1,44 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The other one: both have the templates, and the library what is no template.
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+using Point = CGAL::Simple_cartesian<double>::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+
+CGAL::ARAP::Report bend(Mesh& mesh, const std::map<Mesh::Vertex_index, Point>& targets);
+
+int main()
+{
+  Mesh mesh;
+  CGAL::make_grid(10, 10, mesh);
+  std::map<Mesh::Vertex_index, Point> targets;
+  for(int k = 0; k < 11; ++k)
+    targets[Mesh::Vertex_index(k)] = mesh.point(Mesh::Vertex_index(k));
+  targets[Mesh::Vertex_index(120)] = Point(10, 8, 3);
+  const CGAL::ARAP::Report bent = bend(mesh, targets);
+
+  CGAL::ARAP_deformation deformation(mesh);
+  deformation.insert_roi_vertices(vertices(mesh));
+  deformation.insert_control_vertex(Mesh::Vertex_index(0));
+  const CGAL::ARAP::Report same = deformation.deform();
+  std::cout << bent.message << ", " << same.message << std::endl;
+  return bent && same && same.iterations == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
