@@ -217,7 +217,8 @@ void test_exception(const Shape& shape)
     rotation.notes->calls = 0;
     rotation.notes->throws_at = calls;
     bool is_caught = false;
-    try { CHECK(!deformation.deform(20, 0)); } catch(const std::runtime_error&) { is_caught = true; }
+    try { CHECK(!deformation.deform(20, 0)); }
+    catch(const std::runtime_error&) { is_caught = true; }
     CHECK(is_caught);
     CHECK(points == before);
   }
