@@ -107,7 +107,7 @@ void test_step()
       d = new_d;
 
       // the inverse Hessian times f, by the two loops over vectors; the last pairs only
-      const int first = (std::max)(0, int(s.size()) - Quasi_newton_memory::capacity);
+      const int first = (std::max)(0, int(s.size()) - int(Quasi_newton_memory::capacity));
       Vector q = f;
       std::vector<double> alpha(s.size());
       for(int k = int(s.size()) - 1; k >= first; --k)

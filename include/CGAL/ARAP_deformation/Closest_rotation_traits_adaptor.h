@@ -71,8 +71,8 @@ private:
     int exponent;
     std::frexp(largest, &exponent);
     Matrix_3x3 transposed;
-    for(int row = 0; row < 3; ++row)
-      for(int column = 0; column < 3; ++column)
+    for(std::size_t row = 0; row < 3; ++row)
+      for(std::size_t column = 0; column < 3; ++column)
         transposed[3 * row + column] = std::ldexp(covariance[3 * column + row], -exponent);
 
     Matrix rotation = matrix(traits, previous);
@@ -88,8 +88,8 @@ private:
   {
     Matrix_3x3 correction;
     double largest = 0;
-    for(int a = 0; a < 3; ++a)
-      for(int b = 0; b < 3; ++b)
+    for(std::size_t a = 0; a < 3; ++a)
+      for(std::size_t b = 0; b < 3; ++b)
       {
         const double error = r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b] - (a == b);
         if(!(std::abs(error) < 1e-3))
@@ -99,11 +99,11 @@ private:
       }
     if(largest < 1e-14)
       return false;
-    for(int row = 0; row < 3; ++row)
+    for(std::size_t row = 0; row < 3; ++row)
     {
       const Coordinates change = internal::product(correction, {r[3 * row], r[3 * row + 1],
                                                                 r[3 * row + 2]});
-      for(int column = 0; column < 3; ++column)
+      for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] += change[column];
     }
     return true;
@@ -113,7 +113,7 @@ private:
   static Matrix matrix(ClosestRotationTraits& traits, const Matrix_3x3& m)
   {
     Matrix result = traits.zero_matrix();
-    for(int column = 0; column < 3; ++column)
+    for(std::size_t column = 0; column < 3; ++column)
       traits.add_scalar_t_vector_t_vector_transpose(
         result, 1, traits.vector(m[column], m[3 + column], m[6 + column]), unit(traits, column));
     return result;
@@ -123,18 +123,18 @@ private:
   static Matrix_3x3 entries(ClosestRotationTraits& traits, const Matrix& m)
   {
     Matrix_3x3 result;
-    for(int column = 0; column < 3; ++column)
+    for(std::size_t column = 0; column < 3; ++column)
     {
       Vector product = traits.vector(0, 0, 0);
       traits.add__scalar_t_matrix_p_scalar_t_matrix__t_vector(
         product, 1, m, 0, traits.identity_matrix(), unit(traits, column));
       for(int row = 0; row < 3; ++row)
-        result[3 * row + column] = traits.vector_coordinate(product, row);
+        result[3 * static_cast<std::size_t>(row) + column] = traits.vector_coordinate(product, row);
     }
     return result;
   }
 
-  static Vector unit(ClosestRotationTraits& traits, int k)
+  static Vector unit(ClosestRotationTraits& traits, std::size_t k)
   {
     return traits.vector(k == 0, k == 1, k == 2);
   }

@@ -106,7 +106,7 @@ public:
   Coordinates position(std::size_t k) const
   {
     Coordinates result = {0, 0, 0};
-    for(int corner = 0; corner < 4; ++corner)
+    for(std::size_t corner = 0; corner < 4; ++corner)
       internal::add(result, binding(k).coordinates[corner],
                     Domain::coordinates(m_domain.point(binding(k).vertices[corner])));
     return result;
@@ -209,7 +209,7 @@ private:
       return outcome;
     std::vector<internal::Tetrahedron_corners> corners(tetrahedra.size());
     for(std::size_t t = 0; t < tetrahedra.size(); ++t)
-      for(int k = 0; k < 4; ++k)
+      for(std::size_t k = 0; k < 4; ++k)
       {
         const vertex_descriptor v = tetrahedra[t][k];
         corners[t][k] = Domain::coordinates(m_domain.point(v));

@@ -22,6 +22,7 @@
 #include <CGAL/assertions.h>
 
 #include <boost/range/counting_range.hpp>
+#include <boost/iterator/transform_iterator.hpp>
 #include <boost/range/iterator_range.hpp>
 
 #include <cstddef>
@@ -124,12 +125,13 @@ public:
   auto simplex_vertices(simplex_descriptor s) const
   {
     const auto& simplex = (*m_simplices)[checked("simplex ", s, m_simplices->size())];
-    const auto begin = std::begin(simplex);
-    auto end = std::end(simplex);
-    for(auto corner : simplex)
-      if(static_cast<std::size_t>(corner) >= m_points->size())
-        end = begin;
-    return boost::make_iterator_range(begin, end);
+    const auto corners = boost::make_iterator_range(
+      boost::make_transform_iterator<To_vertex>(std::begin(simplex)),
+      boost::make_transform_iterator<To_vertex>(std::end(simplex)));
+    for(vertex_descriptor v : corners)
+      if(v >= m_points->size())
+        return boost::make_iterator_range(corners.begin(), corners.begin());
+    return corners;
   }
 
   /// calls `f(s, simplex_vertices(s))` for each simplex `s` at `v`.
@@ -141,6 +143,15 @@ public:
   }
 
 private:
+  struct To_vertex
+  {
+    template <typename Integer>
+    vertex_descriptor operator()(Integer corner) const
+    {
+      return static_cast<vertex_descriptor>(corner);
+    }
+  };
+
   static std::size_t checked(const char* what, std::size_t k, std::size_t size)
   {
     CGAL_precondition(k < size);

@@ -85,10 +85,11 @@ public:
   {
     // some models refer to the matrix while they solve: it is kept until the next is factorized
     auto matrix = std::make_unique<Matrix>(static_cast<int>(a.rows()));
-    for(int column = 0; column < a.outerSize(); ++column)
-      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
+    for(int k = 0; k < a.outerSize(); ++k)
+      for(Sparse_matrix::InnerIterator entry(a, k); entry; ++entry)
       {
-        const int row = static_cast<int>(entry.row());
+        const auto row = static_cast<std::size_t>(entry.row());
+        const auto column = static_cast<std::size_t>(entry.col());
         const NT value = static_cast<NT>(entry.value());
         matrix->set_coef(row, column, value, true);
         if(row != column)
@@ -103,8 +104,8 @@ public:
   /// Returns `false` if the solver does, or if a number is not finite.
   bool solve(std::size_t n, Coordinates* x)
   {
-    Vector right_hand_side(static_cast<int>(n)), solution(static_cast<int>(n));
-    for(int c = 0; c < 3; ++c)
+    Vector right_hand_side(n), solution(n);
+    for(std::size_t c = 0; c < 3; ++c)
     {
       for(std::size_t k = 0; k < n; ++k)
       {

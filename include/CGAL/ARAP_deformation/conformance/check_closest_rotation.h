@@ -303,7 +303,7 @@ private:
       covariances[1](1, 1) = entry;
       const std::vector<Matrix> fitted =
         fit(m_fit, 3, covariances, std::vector<Matrix>(3, Matrix::Identity()));
-      for(int k : {0, 2})
+      for(std::size_t k = 0; k < 3; k += 2)
         m_violations.check((fitted[k] - Matrix::Identity()).norm() <= 10 * std::sqrt(m_tolerance),
                            "a covariance that is not finite changes the rotations of others");
     }

@@ -69,7 +69,7 @@ private:
     const double size = std::pow(10.0, 3 * random()), place = 3 * size * random();
     std::array<Coordinates, N> simplex;
     for(std::size_t k = 0; k < N; ++k)
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         simplex[k][c] = place + size * (corners[k][c] + 0.2 * random());
     return simplex;
   }

@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 
 #include <Eigen/SparseCore>
@@ -63,7 +64,7 @@ public:
   }
 
 private:
-  using Rows = std::vector<Coordinates>;
+  using Rows = Array<Coordinates>;
 
   double random(double low, double high)
   {
@@ -123,7 +124,7 @@ private:
     Rows y(x.size(), Coordinates{0, 0, 0});
     for(int column = 0; column < a.outerSize(); ++column)
       for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
-        for(int c = 0; c < 3; ++c)
+        for(std::size_t c = 0; c < 3; ++c)
         {
           y[entry.row()][c] += entry.value() * x[column][c];
           if(entry.row() != column)
@@ -132,7 +133,7 @@ private:
     return y;
   }
 
-  static double largest_in_column(const Rows& rows, int column)
+  static double largest_in_column(const Rows& rows, std::size_t column)
   {
     double largest = 0;
     for(const Coordinates& row : rows)
@@ -149,10 +150,10 @@ private:
   {
     Rows difference = product(a, x);
     for(std::size_t k = 0; k < b.size(); ++k)
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         difference[k][c] -= b[k][c];
     std::array<double, 3> result;
-    for(int c = 0; c < 3; ++c)
+    for(std::size_t c = 0; c < 3; ++c)
     {
       const double scale = largest_in_column(b, c);
       result[c] = largest_in_column(difference, c) / (scale > 0 ? scale : 1);
@@ -173,8 +174,8 @@ private:
     for(std::size_t k = 0; k < margin; ++k)
       m_violations.check(array[k] == untouched && array[margin + n + k] == untouched,
                          "solve() writes outside the n rows of x for ", name);
-    const auto errors = residuals(a, Rows(array.begin() + margin, array.begin() + margin + n), b);
-    for(int c = 0; c < 3; ++c)
+    const auto errors = residuals(a, Rows(array.data() + margin, array.data() + margin + n), b);
+    for(std::size_t c = 0; c < 3; ++c)
       m_violations.check(errors[c] <= m_tolerance, "solve() leaves in column ", c, " a relative "
                          "residual of ", errors[c], ", above ", m_tolerance, ", for ", name);
   }
@@ -184,11 +185,11 @@ private:
   {
     check_solution(solver, a, random_rows(a), name);
     check_solution(solver, a, random_rows(a), name + ", when it is called again");
-    for(int column = 0; column < 3; ++column)
+    for(std::size_t column = 0; column < 3; ++column)
     {
       Rows b = random_rows(a);
       for(Coordinates& row : b)
-        for(int c = 0; c < 3; ++c)
+        for(std::size_t c = 0; c < 3; ++c)
           row[c] = c == column ? row[c] : 0;
       check_solution(solver, a, b, name + " and a right-hand side in which only column " +
                      std::to_string(column) + " is not zero");

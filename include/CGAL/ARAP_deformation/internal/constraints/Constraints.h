@@ -173,9 +173,9 @@ struct Constraints
   Array<char> is_fixed; // for each movable vertex
   Weighted_rows rows;   // of vertices that may be fixed or not
 
-  int number_of_free_vertices() const
+  std::size_t number_of_free_vertices() const
   {
-    return static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
+    return static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), 0));
   }
 };
 

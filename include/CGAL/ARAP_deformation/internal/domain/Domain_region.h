@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
@@ -39,10 +40,10 @@ struct Domain_region
   using simplex_descriptor = typename Domain::simplex_descriptor;
 
   Region flat;
-  std::vector<vertex_descriptor> vertices;
+  Array<vertex_descriptor> vertices;
   std::vector<simplex_descriptor> simplices;
   // the simplices whose smallest vertex is v are first_simplex[v] to first_simplex[v + 1] - 1
-  std::vector<int> first_simplex;
+  Array<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
   // Collects the region of the given movable vertices, which are distinct; positions are filled in
@@ -53,7 +54,7 @@ struct Domain_region
   {
     flat.dimension = Domain::dimension;
     flat.number_of_movable_vertices = static_cast<int>(movable_vertices.size());
-    vertices = movable_vertices;
+    vertices.assign(movable_vertices.begin(), movable_vertices.end());
     flat.indices.resize(movable_vertices.size());
     for(vertex_descriptor v : movable_vertices)
       numbers.set(domain.index(v), movable_without_number);
@@ -145,7 +146,7 @@ private:
               break;
           }
           if(!is_first_visit)
-            return flat.corners.resize(flat.first_corner.back());
+            return flat.corners.resize(static_cast<std::size_t>(flat.first_corner.back()));
           const auto first = flat.corners.begin() + flat.first_corner.back();
           if(are_polygons_allowed && flat.corners.end() - first > most_corners)
             m_refusal = Status::too_many_corners;

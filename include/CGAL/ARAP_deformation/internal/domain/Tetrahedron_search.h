@@ -52,14 +52,9 @@ using Tetrahedron_corners = std::array<Coordinates, 4>;
 inline std::optional<Barycentric_coordinates>
 barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& point)
 {
-  Eigen::Matrix3d edges;
-  Eigen::Vector3d from_first;
-  for(int r = 0; r < 3; ++r)
-  {
-    from_first[r] = point[r] - corners[0][r];
-    for(int c = 0; c < 3; ++c)
-      edges(r, c) = corners[c + 1][r] - corners[0][r];
-  }
+  const Eigen::Map<const Eigen::Matrix<double, 3, 4>> c(corners.data()->data());
+  const Eigen::Matrix3d edges = c.rightCols<3>().colwise() - c.col(0);
+  const Eigen::Vector3d from_first = Eigen::Map<const Eigen::Vector3d>(point.data()) - c.col(0);
   Eigen::FullPivLU<Eigen::Matrix3d> decomposition;
   decomposition.setThreshold(1e-12);
   if(!decomposition.compute(edges).isInvertible())
@@ -95,7 +90,7 @@ public:
     {
       const Tetrahedron_corners& c = m_tetrahedra[t];
       if(barycentric_coordinates(c, c[0]))
-        for(int k = 0; k < 4; ++k)
+        for(std::size_t k = 0; k < 4; ++k)
         {
           std::array<Coordinates, 3> corners = {scaled(c[(k + 1) % 4]), scaled(c[(k + 2) % 4]),
                                                 scaled(c[(k + 3) % 4])};
@@ -171,7 +166,7 @@ private:
     Point reference_point() const { return corner(0); }
 
   private:
-    Point corner(int k) const
+    Point corner(std::size_t k) const
     {
       const Coordinates& c = m_face->corners[k];
       return Point(c[0], c[1], c[2]);
@@ -195,12 +190,12 @@ private:
     Coordinates highest = {-infinity, -infinity, -infinity};
     for(const Tetrahedron_corners& corners : tetrahedra)
       for(const Coordinates& c : corners)
-        for(int k = 0; k < 3; ++k)
+        for(std::size_t k = 0; k < 3; ++k)
         {
           lowest[k] = (std::min)(lowest[k], c[k]);
           highest[k] = (std::max)(highest[k], c[k]);
         }
-    for(int k = 0; k < 3; ++k)
+    for(std::size_t k = 0; k < 3; ++k)
     {
       m_centre[k] = 0.5 * lowest[k] + 0.5 * highest[k];
       m_extent = (std::max)(m_extent, highest[k] - lowest[k]);

@@ -21,7 +21,6 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -110,7 +109,7 @@ private:
   // Eliminates one corner after the other from the matrix of a simplex: no pivot may be negative.
   static bool has_no_negative_energy(int n, const double* w)
   {
-    std::array<std::array<double, 4>, 4> matrix{};
+    double matrix[4][4] = {};
     double largest = 0;
     for(int a = 0; a < n; ++a)
       for(int b = a + 1; b < n; ++b, ++w)

@@ -84,12 +84,12 @@ struct Joint_cell
     for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
       stiffness += stiffnesses[cells.items[k]];
     for(int k = cells.begin[s]; k < cells.begin[s + 1] && stiffness > 0; ++k)
-      for(int entry = 0; entry < 9; ++entry)
+      for(std::size_t entry = 0; entry < 9; ++entry)
         mean[entry] += stiffnesses[cells.items[k]] * rotations[cells.items[k]][entry] / stiffness;
     for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
-      for(int a = 0; a < 3; ++a)
-        for(int b = 0; b < 3; ++b)
-          for(int row = 0; row < 3; ++row)
+      for(std::size_t a = 0; a < 3; ++a)
+        for(std::size_t b = 0; b < 3; ++b)
+          for(std::size_t row = 0; row < 3; ++row)
           {
             const Matrix_3x3& r = rotations[cells.items[k]];
             spread[3 * a + b] += stiffnesses[cells.items[k]] *

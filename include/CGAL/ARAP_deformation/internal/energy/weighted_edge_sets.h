@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -84,7 +85,7 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
 {
   const int n = region.number_of_corners(s);
   const int* corners = region.corners_of(s);
-  std::vector<double> scaled_catalan(n - 1, 1);
+  Array<double> scaled_catalan(n - 1, 1);
   for(int m = 0; m + 2 < n; ++m)
     scaled_catalan[m + 1] = scaled_catalan[m] * (2 * m + 1) / (2 * (m + 2));
   const auto weight = [n, weights](int a, int b) -> double& {
@@ -143,15 +144,15 @@ inline Simplices weighted_simplices(const Edge_weight_model& model, const Region
 {
   Simplices simplices;
   simplices.corners = {region.first_corner, region.corners};
-  simplices.first_weight.reserve(region.number_of_simplices());
+  simplices.first_weight.reserve(region.first_corner.size());
   int number_of_weights = 0;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     simplices.first_weight.push_back(number_of_weights);
     number_of_weights += region.number_of_corners(s) * (region.number_of_corners(s) - 1) / 2;
   }
-  simplices.weights.resize(number_of_weights);
-  for_each_block(simplices.size(), [&](std::size_t begin, std::size_t end) {
+  simplices.weights = Array<double>(number_of_weights);
+  for_each_block(simplices.first_weight.size(), [&](std::size_t begin, std::size_t end) {
     for(std::size_t s = begin; s < end; ++s)
       compute_simplex_weights(model, region, static_cast<int>(s),
                               simplices.weights.data() + simplices.first_weight[s]);
@@ -188,9 +189,10 @@ inline Simplices simplex_edge_sets(const Edge_weight_model& model, Simplices sim
 inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& simplices,
                             const Region& region)
 {
-  const int n = region.number_of_centres;
-  const Index_lists places = places_of(simplices.corners, n); // the corners at each centre
-  const std::vector<int> simplex_of_place = list_of_each(simplices.corners);
+  const auto n = static_cast<std::size_t>(region.number_of_centres);
+  const Index_lists places = // the corners at each centre
+    places_of(simplices.corners, region.number_of_centres);
+  const Array<int> simplex_of_place = list_of_each(simplices.corners);
 
   // the neighbours of the centres, with the sum of the weights of all simplices at the edge, block
   // after block
@@ -216,8 +218,8 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
   });
   std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
                    stars.neighbours.begin.begin());
-  stars.neighbours.items.resize(stars.neighbours.begin.back());
-  stars.weights.resize(stars.neighbours.begin.back());
+  stars.neighbours.items = Array<int>(stars.neighbours.begin.back());
+  stars.weights = Array<double>(stars.neighbours.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     auto neighbour = blocks[begin / default_block_size].begin();
     for(std::size_t i = begin; i < end; ++i)

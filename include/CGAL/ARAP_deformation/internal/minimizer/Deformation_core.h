@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
@@ -82,7 +83,7 @@ public:
   const Region& region() const { return m_region; }
 
   // whether a movable vertex is not in any simplex
-  bool is_isolated(int v) const { return m_is_isolated[static_cast<std::size_t>(v)] != 0; }
+  bool is_isolated(int v) const { return m_is_isolated[v] != 0; }
 
   // Prepares the system for these constraints, and adds which stages that took. Where unconstrained
   // components are refused the status is no_fixed_vertex.
@@ -102,8 +103,8 @@ public:
   }
 
   // the rotation of a cell, the identity before the first run and where nothing moves
-  const std::vector<Matrix_3x3>& rotations() const { return m_rotations; }
-  void set_rotations(std::vector<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
+  const Array<Matrix_3x3>& rotations() const { return m_rotations; }
+  void set_rotations(Array<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
   void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
@@ -133,11 +134,11 @@ private:
   Minimization_order m_order;
   std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;
-  std::vector<char> m_is_isolated; // for each movable vertex
-  std::vector<char> m_is_untied;   // whether it is isolated or in an unconstrained component
+  Array<char> m_is_isolated; // for each movable vertex
+  Array<char> m_is_untied;   // whether it is isolated or in an unconstrained component
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
-  std::vector<Matrix_3x3> m_rotations;
+  Array<Matrix_3x3> m_rotations;
   Diagnosis m_diagnosis;
 };
 

@@ -52,7 +52,7 @@ Deformation_core::Deformation_core(const Core_models& models, Region region, Cel
                                    Minimization_order order, unsigned int number_of_threads)
   : m_models(models), m_region(std::move(region)), m_cells(cells), m_order(order)
 {
-  m_is_isolated.assign(m_region.number_of_movable_vertices, true);
+  m_is_isolated = Array<char>(m_region.number_of_movable_vertices, true);
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
       m_is_isolated[v] = false;
@@ -81,7 +81,7 @@ Diagnosis Deformation_core::prepare()
     make_deformation_energy(*m_models.weight, std::move(simplices), m_cells, m_region);
   if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
     return {Status::non_finite_weight, v};
-  m_rotations.resize(energy.number_of_cells(), identity_matrix());
+  m_rotations.resize(static_cast<std::size_t>(energy.number_of_cells()), identity_matrix());
   Laplacian laplacian = laplacian_of(energy);
   Constrained_system system =
     m_state ? std::move(m_state->system) : Constrained_system(m_models.solver->copy());
@@ -209,7 +209,7 @@ std::size_t
 Deformation_core::number_of_inverted_simplices(const std::vector<Coordinates>& x) const
 {
   // the sign of the volume of the tetrahedron s
-  const auto orientation = [this](int s, const std::vector<Coordinates>& points) {
+  const auto orientation = [this](int s, const Coordinates* points) {
     const int* c = m_region.corners_of(s);
     const double volume =
       dot(cross(difference(points[c[1]], points[c[0]]), difference(points[c[2]], points[c[0]])),
@@ -219,7 +219,7 @@ Deformation_core::number_of_inverted_simplices(const std::vector<Coordinates>& x
   std::size_t count = 0;
   if(m_region.dimension == 3)
     for(int s = 0; s < m_region.number_of_simplices(); ++s)
-      count += orientation(s, m_region.rest) * orientation(s, x) < 0;
+      count += orientation(s, m_region.rest.data()) * orientation(s, x.data()) < 0;
   return count;
 }
 

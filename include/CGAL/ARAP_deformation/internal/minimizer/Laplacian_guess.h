@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
@@ -48,7 +49,7 @@ public:
   {
     // Where an equation with large weights has a small one, its rounding error may be anything
     // compared to that: the vertex of the small weight must not move far away to make up for it.
-    std::vector<double> sums(stars.size(), 0); // of the weights of each equation
+    Array<double> sums(stars.size(), 0); // of the weights of each equation
     stars.for_each_edge([&](int i, int, double w) { sums[i] += std::abs(w); });
     for(int i = 0; i < stars.size(); ++i)
       m_bound[i] += rounding_of_a_sum * sums[i] * sums[i];
@@ -74,7 +75,7 @@ public:
       if(const int v = m_constraints.rows.position(r); v >= 0 && m_is_solved_for[v])
       {
         m_is_solved_for[v] = false;
-        x[v] = targets[r];
+        x[static_cast<std::size_t>(v)] = targets[static_cast<std::size_t>(r)];
       }
 
     // What is raised in the matrix is made up for by further passes, until they gain nothing.
@@ -82,14 +83,14 @@ public:
     double first = 0;
     for(int pass = 0; pass < 4; ++pass)
     {
-      std::vector<Coordinates> from_x(x.size());
+      Array<Coordinates> from_x(x.size());
       std::transform(m_region.rest.begin(), m_region.rest.end(), x.begin(), from_x.begin(),
                      difference);
       std::vector<Coordinates> correction;
       if(!solve(normal_product(from_x, false), correction))
         return false;
       const Coordinates size = products(correction, correction);
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         if(pass == 0 || size[c] < 0.25 * last[c])
           for(std::size_t v = 0; v < n; ++v)
             x[v][c] += correction[v][c];
@@ -110,7 +111,7 @@ private:
   {
     const std::size_t n = residual.size();
     x.assign(n, Coordinates{0, 0, 0});
-    std::vector<Coordinates> direction = x;
+    Array<Coordinates> direction(n, Coordinates{0, 0, 0});
     Coordinates last = {0, 0, 0}, first = last;
     for(int iteration = 0; iteration < 300; ++iteration)
     {
@@ -123,18 +124,18 @@ private:
       if(iteration == 0)
         first = size;
       bool is_done = true;
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         is_done &= !(size[c] > 1e-14 * first[c]);
       if(is_done)
         break;
       for(std::size_t v = 0; v < n; ++v)
-        for(int c = 0; c < 3; ++c)
+        for(std::size_t c = 0; c < 3; ++c)
           direction[v][c] = preconditioned[v][c] +
                             (last[c] > 0 ? size[c] / last[c] * direction[v][c] : 0);
       last = size;
       const std::vector<Coordinates> image = normal_product(direction, true);
       const Coordinates curvature = products(direction, image);
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
       {
         const double step = curvature[c] > 0 ? size[c] / curvature[c] : 0;
         for(std::size_t v = 0; v < n; ++v)
@@ -148,14 +149,14 @@ private:
   }
 
   // L^T L x, of the vertices that are solved for; zero for the other movable ones
-  std::vector<Coordinates> normal_product(std::vector<Coordinates> x, bool is_raised) const
+  Array<Coordinates> normal_product(Array<Coordinates> x, bool is_raised) const
   {
     x.resize(m_region.rest.size(), Coordinates{0, 0, 0});
-    std::vector<Coordinates> image(m_stars.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> image(m_stars.size(), Coordinates{0, 0, 0});
     m_stars.for_each_edge([&](int i, int j, double w) {
       add(image[i], w, difference(x[i], x[j]));
     });
-    std::vector<Coordinates> result(x.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> result(x.size(), Coordinates{0, 0, 0});
     m_stars.for_each_edge([&](int i, int j, double w) {
       add(result[i], w, image[i]);
       add(result[j], -w, image[i]);
@@ -179,7 +180,7 @@ private:
   {
     Coordinates sums = {0, 0, 0};
     for(std::size_t v = 0; v < a.size(); ++v)
-      for(int c = 0; c < 3; ++c)
+      for(std::size_t c = 0; c < 3; ++c)
         sums[c] += a[v][c] * b[v][c];
     return sums;
   }
@@ -188,8 +189,8 @@ private:
   const Region& m_region;
   const Constraints& m_constraints;
   Constrained_system& m_system;
-  std::vector<char> m_is_solved_for; // for each vertex
-  std::vector<double> m_bound;       // for each vertex, what is added to the diagonal of L^T L
+  Array<char> m_is_solved_for; // for each vertex
+  Array<double> m_bound;       // for each vertex, what is added to the diagonal of L^T L
 };
 
 } // namespace internal

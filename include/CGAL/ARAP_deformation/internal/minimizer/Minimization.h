@@ -60,7 +60,7 @@ public:
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
-        m_fixed_vertices.push_back(static_cast<int>(v));
+        m_fixed_vertices.push_back(v);
     measure();
   }
 
@@ -148,7 +148,7 @@ private:
   double complete(double rigidity)
   {
     m_value = rigidity + m_rows.pull(m_targets, x, m_force);
-    for(int v : m_fixed_vertices)
+    for(std::size_t v : m_fixed_vertices)
       m_force[v] = {0, 0, 0};
     return m_value;
   }
@@ -180,7 +180,7 @@ private:
   const Closest_rotations& m_closest_rotations;
   Constrained_system& m_system;
   const Weighted_rows& m_rows;
-  std::vector<int> m_fixed_vertices; // of the movable ones
+  std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
   const std::vector<Coordinates>& m_targets;
   std::vector<Matrix_3x3>& m_rotations;

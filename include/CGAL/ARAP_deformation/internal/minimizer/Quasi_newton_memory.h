@@ -42,7 +42,7 @@ class Quasi_newton_memory
 {
 public:
   // the number of pairs: more save few iterations, and cost time and memory
-  static constexpr int capacity = 6;
+  static constexpr std::size_t capacity = 6;
 
   explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
 
@@ -67,7 +67,7 @@ public:
       std::array<double, block_size> p;
       for(std::size_t k = 0; k < n; ++k)
         p[k] = c.of_d * d_begin[k];
-      for(int i = 0; i < m_number_of_pairs; ++i)
+      for(std::size_t i = 0; i < m_number_of_pairs; ++i)
       {
         const Slot& slot = m_slots[m_order[i]];
         run_kernel<Add_multiple>(c.of_s[i], slot.s.data() + begin, n, p.data());
@@ -150,7 +150,7 @@ public:
         block.fd += f_begin[k] * d_begin[k];
         block.ss += double(next.s[begin + k]) * next.s[begin + k];
       }
-      for(int i = 0; i <= m_number_of_pairs; ++i)
+      for(std::size_t i = 0; i <= m_number_of_pairs; ++i)
       {
         const Slot& slot = m_slots[m_order[i]];
         run_kernel<Add_dot_product>(f_begin, slot.s.data() + begin, n, &block.fs[i]);
@@ -161,7 +161,7 @@ public:
 
     next.fs = t * m_slope / m_unit;
     next.fz = (m_d_slope - sums.fd) / m_unit; // new_d times the old f is d times the new f
-    for(int i = 0; i <= m_number_of_pairs; ++i)
+    for(std::size_t i = 0; i <= m_number_of_pairs; ++i)
     {
       Slot& slot = m_slots[m_order[i]];
       slot.sy[m_next] = (slot.fs - sums.fs[i]) / m_unit;
@@ -217,7 +217,7 @@ private:
     {
       a.fd += b.fd;
       a.ss += b.ss;
-      for(int i = 0; i < capacity; ++i)
+      for(std::size_t i = 0; i < capacity; ++i)
       {
         a.fs[i] += b.fs[i];
         a.fz[i] += b.fz[i];
@@ -247,11 +247,11 @@ private:
     return largest > 0 && std::isfinite(largest) ? largest : 1;
   }
 
-  int unused_slot() const
+  std::size_t unused_slot() const
   {
-    const auto end = m_order.begin() + m_number_of_pairs;
-    int slot = 0;
-    while(std::find(m_order.begin(), end, slot) != end)
+    const auto end = m_order.data() + m_number_of_pairs;
+    std::size_t slot = 0;
+    while(std::find(m_order.data(), end, slot) != end)
       ++slot;
     return slot;
   }
@@ -260,7 +260,7 @@ private:
   Coefficients coefficients() const
   {
     Coefficients c;
-    const int m = m_number_of_pairs;
+    const std::size_t m = m_number_of_pairs;
     if(m == 0)
       return c;
     // The ratio is that of the mix of modes that the last step was made of. The modes that converge
@@ -272,22 +272,22 @@ private:
     c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * ratio));
 
     std::array<double, capacity> alpha;
-    for(int i = m - 1; i >= 0; --i)
+    for(std::size_t i = m; i-- > 0;)
     {
       const Slot& slot = m_slots[m_order[i]];
       double sq = slot.fs;
-      for(int j = i + 1; j < m; ++j)
+      for(std::size_t j = i + 1; j < m; ++j)
         sq -= alpha[j] * slot.sy[m_order[j]];
       alpha[i] = sq / slot.sy[m_order[i]];
       c.of_z[i] = -c.of_d * alpha[i];
     }
-    for(int i = 0; i < m; ++i)
+    for(std::size_t i = 0; i < m; ++i)
     {
       const Slot& slot = m_slots[m_order[i]];
       double yp = c.of_d * slot.fz;
-      for(int j = 0; j < m; ++j)
+      for(std::size_t j = 0; j < m; ++j)
         yp += c.of_z[j] * slot.zy[m_order[j]];
-      for(int j = 0; j < i; ++j)
+      for(std::size_t j = 0; j < i; ++j)
         yp += c.of_s[j] * m_slots[m_order[j]].sy[m_order[i]];
       c.of_s[i] = alpha[i] - yp / slot.sy[m_order[i]];
     }
@@ -297,9 +297,9 @@ private:
   std::size_t m_length; // of the vectors
   double m_unit = 0;    // 0: not yet known
   std::array<Slot, capacity> m_slots;
-  std::array<int, capacity> m_order{}; // the slots of the pairs, from the oldest to the newest
-  int m_number_of_pairs = 0;
-  int m_next = 0;                    // the slot of the last move
+  std::array<std::size_t, capacity> m_order{}; // the slots of the pairs, from the oldest to the newest
+  std::size_t m_number_of_pairs = 0;
+  std::size_t m_next = 0;            // the slot of the last move
   double m_slope = 0, m_d_slope = 0; // f p and f d at the last move
   double m_longest_shift = 0; // of a coordinate, by the last move
 };

@@ -67,7 +67,8 @@ public:
     const std::size_t n = share(15);
     if(m_gaps.size() < n)
       return infinity;
-    const double gap = *std::max_element(m_gaps.end() - n, m_gaps.end());
+    const double* const end = m_gaps.data() + m_gaps.size();
+    const double gap = *std::max_element(end - n, end);
     const double minimum = energy - gap;
     return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), zero);
   }
@@ -86,8 +87,9 @@ private:
     const std::size_t n = share(10);
     if(m_decreases.size() < 2 * n)
       return infinity;
-    const double last = std::accumulate(m_decreases.end() - n, m_decreases.end(), 0.0);
-    const double earlier = std::accumulate(m_decreases.end() - 2 * n, m_decreases.end() - n, 0.0);
+    const double* const end = m_decreases.data() + m_decreases.size();
+    const double last = std::accumulate(end - n, end, 0.0);
+    const double earlier = std::accumulate(end - 2 * n, end - n, 0.0);
     if(std::abs(last) <= report.rounding_level) // nothing but rounding is left
       return 0;
     const double ratio = (std::max)(last / earlier, 0.5);

@@ -35,7 +35,7 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 {
   for_each_block(before.size(), [&](std::size_t begin, std::size_t end) {
     for(std::size_t v = begin; v < end; ++v)
-      for(int k = 0; k < 3; ++k)
+      for(std::size_t k = 0; k < 3; ++k)
         x[v][k] = before[v][k] + ratio * (x[v][k] - before[v][k]);
   });
 }

@@ -99,7 +99,7 @@ inline void start_rigidly(const Region& region, const Constraints& constraints,
     if(v < 0)
       return;
     rest.push_back(region.rest[v]);
-    place.push_back(targets[r]);
+    place.push_back(targets[static_cast<std::size_t>(r)]);
   }
   Bounding_box box;
   box.include(region.rest);

@@ -18,7 +18,6 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -37,8 +36,8 @@ struct Region
   int number_of_movable_vertices = 0;
   int number_of_centres = 0;
   int number_of_movable_simplices = 0; // those that have a movable vertex, which come first
-  std::vector<Coordinates> rest;    // for each vertex its position in the rest shape
-  std::vector<std::size_t> indices; // for each vertex its index in the mesh
+  Array<Coordinates> rest;    // for each vertex its position in the rest shape
+  Array<std::size_t> indices; // for each vertex its index in the mesh
 
   // the corners of simplex s are corners[first_corner[s]] to corners[first_corner[s + 1] - 1],
   // those of a polygon in their order around it

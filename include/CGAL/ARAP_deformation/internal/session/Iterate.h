@@ -15,8 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-
-#include <vector>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 namespace CGAL {
 namespace ARAP {
@@ -41,13 +40,13 @@ public:
 private:
   friend Session;
 
-  Iterate(const Session& session, const std::vector<Coordinates>& positions,
+  Iterate(const Session& session, const Array<Coordinates>& positions,
           unsigned int iteration, double energy)
     : m_session(session), m_positions(positions), m_iteration(iteration), m_energy(energy)
   {}
 
   const Session& m_session;
-  const std::vector<Coordinates>& m_positions;
+  const Array<Coordinates>& m_positions;
   unsigned int m_iteration;
   double m_energy;
 };

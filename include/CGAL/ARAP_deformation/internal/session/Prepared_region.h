@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -64,8 +65,8 @@ public:
   const Deformation_core& core() const { return *m_prepared->core; }
 
   // of the vertices of the region
-  std::vector<Coordinates>& positions() { return m_prepared->positions; }
-  const std::vector<Coordinates>& positions() const { return m_prepared->positions; }
+  Array<Coordinates>& positions() { return m_prepared->positions; }
+  const Array<Coordinates>& positions() const { return m_prepared->positions; }
 
   // Takes the points of some entries, which others have changed, and reads those around the region
   // of interest again, which have no entries.
@@ -143,8 +144,8 @@ public:
   {
     Versions present;
     std::size_t numbering; // of the vertices and cells that these are of
-    std::vector<Coordinates> positions;
-    std::vector<Matrix_3x3> rotations;
+    Array<Coordinates> positions;
+    Array<Matrix_3x3> rotations;
   };
 
   State state() const
@@ -185,7 +186,7 @@ private:
   {
     std::size_t numbering;
     Domain_region<Domain> region; // without its flat part, which the core owns
-    std::vector<Coordinates> positions;
+    Array<Coordinates> positions;
     std::unique_ptr<Deformation_core> core;
     bool is_whole = true; // whether all of the region of interest is movable
 
@@ -265,7 +266,8 @@ private:
       return true;
     if(m_prepared->is_whole)
       return !is_whole(roi_size, number_of_fixed) && 4 * number_of_fixed > 3 * roi_size;
-    const std::size_t number_of_movable = core().region().number_of_movable_vertices;
+    const auto number_of_movable =
+      static_cast<std::size_t>(core().region().number_of_movable_vertices);
     return is_whole(roi_size, number_of_fixed) ||
            number_of_movable > 8 * (roi_size - number_of_fixed) + 1000 ||
            std::any_of(vertices.entries().begin(), vertices.entries().end(), [&](const auto& e) {
@@ -336,7 +338,7 @@ private:
                                   std::vector<std::size_t>& isolated_controls) const
   {
     Constraints constraints;
-    constraints.is_fixed.assign(prepared.core->region().number_of_movable_vertices, false);
+    constraints.is_fixed = Array<char>(prepared.core->region().number_of_movable_vertices, false);
     for(const auto& entry : vertices.entries())
     {
       const int v =
@@ -362,8 +364,8 @@ private:
 
   void take_over_rotations(const Domain& domain, Prepared& next) const
   {
-    const std::vector<Matrix_3x3>& old = core().rotations();
-    std::vector<Matrix_3x3> rotations = next.core->rotations();
+    const Array<Matrix_3x3>& old = core().rotations();
+    Array<Matrix_3x3> rotations = next.core->rotations();
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(const int v = region().find_vertex(domain, next.region.vertices[c]);
          v >= 0 && v < static_cast<int>(old.size()))

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
@@ -335,16 +336,17 @@ protected:
     }
     Deformation_core& core = m_prepared.core();
     report.free_vertices = core.constraints().number_of_free_vertices();
-    report.simplices = core.region().number_of_simplices();
+    report.simplices = static_cast<std::size_t>(core.region().number_of_simplices());
     report.unconstrained_components = core.unconstrained_components();
 
-    std::vector<Coordinates> positions, targets; // targets of the rows of the constraints
+    Array<Coordinates> positions;
+    std::vector<Coordinates> targets; // of the rows of the constraints
     if(Outcome read = read_targets(positions, targets, report); !read)
       return read;
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, positions, iteration, energy));
     };
-    std::vector<Matrix_3x3> rotations = core.rotations();
+    Array<Matrix_3x3> rotations = core.rotations();
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
@@ -391,7 +393,7 @@ protected:
 
   // The positions at which a run starts, with the hard control vertices at their targets, and the
   // targets of the others.
-  Outcome read_targets(std::vector<Coordinates>& positions, std::vector<Coordinates>& targets,
+  Outcome read_targets(Array<Coordinates>& positions, std::vector<Coordinates>& targets,
                        Report& report) const
   {
     Scoped_seconds seconds(report.seconds.transfer);
@@ -426,7 +428,7 @@ protected:
     result.message += about_unconstrained_components(report.unconstrained_components);
   }
 
-  void write_points(std::vector<Coordinates>& positions)
+  void write_points(Array<Coordinates>& positions)
   {
     std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
     for(const auto& [k, point] : points)
@@ -442,10 +444,10 @@ protected:
   // write to other places than it reads from. Each has the place of the entry of its vertex: the
   // domain, which may throw, is not asked any more for what is done with them.
   std::vector<std::pair<std::size_t, Point>>
-  new_points(const std::vector<Coordinates>& positions) const
+  new_points(const Array<Coordinates>& positions) const
   {
     const auto& entries = m_vertices.entries();
-    const std::vector<char>& is_fixed = m_prepared.core().constraints().is_fixed;
+    const Array<char>& is_fixed = m_prepared.core().constraints().is_fixed;
     std::vector<std::pair<std::size_t, Point>> points;
     points.reserve(entries.size());
     for(std::size_t k = 0; k < entries.size(); ++k)
@@ -487,7 +489,7 @@ protected:
   {
     if(!has_cell || !m_prepared.has_region())
       return identity_matrix();
-    const std::vector<Matrix_3x3>& rotations = m_prepared.core().rotations();
+    const Array<Matrix_3x3>& rotations = m_prepared.core().rotations();
     const int cell = find_cell();
     return cell >= 0 && cell < static_cast<int>(rotations.size()) ? rotations[cell]
                                                                   : identity_matrix();

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 
@@ -236,7 +237,7 @@ public:
   bool has_vertices_of(const State& state) const
   {
     const std::size_t n = (std::min)(m_entries.size(), state.entries.size());
-    return std::equal(m_entries.begin(), m_entries.begin() + n, state.entries.begin(),
+    return std::equal(m_entries.data(), m_entries.data() + n, state.entries.begin(),
                       [](const Entry& a, const Entry& b) { return a.vertex == b.vertex; });
   }
 
@@ -307,8 +308,8 @@ private:
 
   Domain m_domain;
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
-  std::vector<Entry> m_entries;
-  std::vector<Target> m_targets;
+  Array<Entry> m_entries;
+  Array<Target> m_targets;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::size_t m_number_of_insertions = 0;
 };
