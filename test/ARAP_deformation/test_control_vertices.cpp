@@ -840,7 +840,7 @@ void test_history()
     default:
       for(std::size_t c : old.control_vertices())
         CHECK(old.translate(c, Kernel::Vector_3(shift(), shift(), shift())));
-      CHECK(old.deform(3, 0));
+      static_cast<void>(old.deform(3, 0)); // may be refused, or not
       old.reset();
     }
     if(change % 20 > 0)

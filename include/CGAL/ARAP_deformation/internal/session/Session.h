@@ -371,7 +371,8 @@ protected:
   Outcome take_points_of_others(Report& report)
   {
     Scoped_seconds seconds(report.seconds.transfer);
-    if(m_rules.order == Minimization_order::global_first || !domain().is_in_place())
+    if(m_rules.order == Minimization_order::global_first || !domain().is_in_place() ||
+       !m_are_points_written) // some may be those of a run that failed
       return outcome(Status::success);
     const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
     for(const auto& [k, point] : changed)
@@ -431,8 +432,10 @@ protected:
   void write_points(Array<Coordinates>& positions)
   {
     std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
+    m_are_points_written = false; // the map of a user may throw
     for(const auto& [k, point] : points)
       domain().set_point(m_vertices.entries()[k].vertex, point);
+    m_are_points_written = true;
     for(auto& [k, point] : points)
       m_vertices.entries()[k].present = std::move(point);
     note_region_as_written();
@@ -501,6 +504,7 @@ protected:
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;
+  bool m_are_points_written = true; // those of the last run, all of them
   bool m_is_region_written = true; // whether note_region_as_written() was called since its change
   Stages m_stages;                 // since the last run
   Prepared_region<Domain, Traits> m_prepared;
