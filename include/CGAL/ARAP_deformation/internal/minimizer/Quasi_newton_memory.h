@@ -297,7 +297,7 @@ private:
   std::size_t m_length; // of the vectors
   double m_unit = 0;    // 0: not yet known
   std::array<Slot, capacity> m_slots;
-  std::array<std::size_t, capacity> m_order{}; // the slots of the pairs, from the oldest to the newest
+  std::array<std::size_t, capacity> m_order{}; // the slots of the pairs, the oldest one first
   std::size_t m_number_of_pairs = 0;
   std::size_t m_next = 0;            // the slot of the last move
   double m_slope = 0, m_d_slope = 0; // f p and f d at the last move
