@@ -69,7 +69,7 @@ void test_all()
   d.insert_control_vertex(Mesh::Vertex_index(0));
   d.insert_roi_vertex(Mesh::Vertex_index(1));
   CHECK(is_refused([&] {
-    d.deform([&](const auto&) {
+    (void)d.deform([&](const auto&) {
       d.clear_roi_vertices();
       return CGAL::ARAP::Visitor_action::proceed;
     });

@@ -628,7 +628,7 @@ void test_stop()
   bool is_caught = false;
   try
   {
-    e.deform(100, 0, [](const auto& iterate) {
+    (void)e.deform(100, 0, [](const auto& iterate) {
       if(iterate.iteration() == 3)
         throw std::runtime_error("the user's own");
       return Visitor_action::proceed;
