@@ -27,6 +27,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_quasi_newton.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
@@ -56,6 +57,9 @@ Deformation_core::Deformation_core(const Core_models& models, Region region, Cel
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
       m_is_isolated[v] = false;
+  Bounding_box box;
+  box.include(m_region.rest);
+  m_squared_size = box.squared_length();
   update_weights(number_of_threads);
 }
 
@@ -192,7 +196,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   if(options.initial_guess == Initial_guess::previous &&
      m_order == Minimization_order::local_first &&
      m_constraints.number_of_free_vertices() > 0)
-    start_rigidly(m_region, m_constraints, m_is_untied, targets, x);
+    start_rigidly(m_region, m_squared_size, m_constraints, m_is_untied, targets, x);
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   if(m_order == Minimization_order::global_first)

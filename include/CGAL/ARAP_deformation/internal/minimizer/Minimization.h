@@ -124,7 +124,7 @@ public:
       return Status::non_finite_energy;
     estimate_gap();
     const bool is_power_of_two = (report.iterations & (report.iterations - 1)) == 0;
-    if(is_within_tolerance() || (report.iterations > 0 && is_power_of_two))
+    if(is_within_tolerance() || (report.iterations > 4 && is_power_of_two))
     {
       measure(); // the run may have come from far away
       estimate_gap();

@@ -16,7 +16,6 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
-#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
@@ -80,8 +79,9 @@ private:
 
 // Where the free vertices are a rigid copy of the rest shape, and all that constrains them is
 // another one, moves them there: the minimum is zero, and many iterations of any minimizer away.
-// `is_ignored` tells which fixed vertices nothing ties to the free ones.
-inline void start_rigidly(const Region& region, const Constraints& constraints,
+// `is_ignored` tells which fixed vertices nothing ties to the free ones, and `size` is the squared
+// diagonal of the bounding box of the rest shape.
+inline void start_rigidly(const Region& region, double size, const Constraints& constraints,
                           const std::vector<char>& is_ignored,
                           const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
 {
@@ -101,9 +101,7 @@ inline void start_rigidly(const Region& region, const Constraints& constraints,
     rest.push_back(region.rest[v]);
     place.push_back(targets[static_cast<std::size_t>(r)]);
   }
-  Bounding_box box;
-  box.include(region.rest);
-  const double size = box.squared_length(), tolerance = 1e-12; // of squares, of type float too
+  constexpr double tolerance = 1e-12; // of squares, also of points of type float
   if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
     return;
 
