@@ -111,7 +111,7 @@ void deform()
 {
   Mesh mesh;
   CGAL::ARAP_deformation<Mesh, Traits, Domain> deformation(mesh);
-  deformation.deform();
+  static_cast<void>(deformation.deform());
 }
 
 int main()
@@ -136,9 +136,9 @@ int main()
   deform<Traits_with_a_wrong_solver>();
 #elif WRONG_MODEL == 8
   Mesh mesh;
-  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
-                    mesh.points(),
-                    CGAL::parameters::weight_calculator(Weight_without_indices()));
+  const CGAL::Constant_property_map<Mesh::Vertex_index, bool> none(false);
+  static_cast<void>(CGAL::arap_deform(
+    mesh, none, mesh.points(), CGAL::parameters::weight_calculator(Weight_without_indices())));
 #elif WRONG_MODEL == 9
   deform<Default, Domain_without_points>();
 #elif WRONG_MODEL == 10
@@ -151,12 +151,12 @@ int main()
   CGAL::ARAP_deformation<const Mesh> deformation(mesh);
 #elif WRONG_MODEL == 13
   const Mesh mesh;
-  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
-                    mesh.points());
+  const CGAL::Constant_property_map<Mesh::Vertex_index, bool> none(false);
+  static_cast<void>(CGAL::arap_deform(mesh, none, mesh.points()));
 #elif WRONG_MODEL == 14
   Mesh mesh;
   CGAL::ARAP_deformation<Mesh> deformation(mesh);
-  deformation.deform(10);
+  static_cast<void>(deformation.deform(10));
 #elif WRONG_MODEL == 15
   CGAL::Triangulation_3<CGAL::Simple_cartesian<double>> triangulation;
   CGAL::ARAP_deformation<decltype(triangulation)> deformation(triangulation);
@@ -173,17 +173,17 @@ int main()
   const std::vector<std::array<int, 3>> triangles;
   auto domain = make_polygon_soup_domain(points, triangles);
   CGAL::ARAP_deformation<decltype(domain)> deformation(domain);
-  deformation.deform();
+  static_cast<void>(deformation.deform());
 #elif WRONG_MODEL == 20
   std::vector<std::array<double, 2>> points;
   const std::vector<std::array<int, 4>> tetrahedra;
   auto domain = make_tetrahedron_soup_domain(points, tetrahedra);
   CGAL::ARAP_deformation<decltype(domain)> deformation(domain);
-  deformation.deform();
+  static_cast<void>(deformation.deform());
 #elif WRONG_MODEL == 21
   Mesh mesh;
   CGAL::ARAP_deformation<Mesh> deformation(mesh);
-  deformation.deform([](const auto&) {});
+  static_cast<void>(deformation.deform([](const auto&) {}));
 #elif WRONG_MODEL == 22
   struct Quaternion { double w, x, y, z; };
   Mesh mesh;
@@ -192,8 +192,9 @@ int main()
                      Quaternion());
 #elif WRONG_MODEL == 23
   Mesh mesh;
-  CGAL::arap_deform(mesh, CGAL::Constant_property_map<Mesh::Vertex_index, bool>(false),
-                    CGAL::Constant_property_map<Mesh::Vertex_index, int>(0));
+  const CGAL::Constant_property_map<Mesh::Vertex_index, bool> none(false);
+  const CGAL::Constant_property_map<Mesh::Vertex_index, int> zeros(0);
+  static_cast<void>(CGAL::arap_deform(mesh, none, zeros));
 #elif WRONG_MODEL == 24
   Mesh mesh;
   return bool(CGAL::arap_deform(mesh, std::vector<std::array<double, 3>>()));

@@ -110,6 +110,14 @@ public:
     return std::isfinite(m_value) && m_value > before + energy_resolution(before, report);
   }
 
+  // Whether it is higher by far more than rounding errors: what the solver returns is nothing like
+  // the solution, which lowers it.
+  bool is_far_higher() const
+  {
+    const double before = report.energy.back();
+    return m_value > before + 1e-2 * std::abs(before) + 1e4 * energy_resolution(before, report);
+  }
+
   // Makes x the next iterate, reached by the given decrease of the energy, or the first one.
   // Returns a status if the run is over.
   std::optional<Status> next_iterate(double decrease = 0)

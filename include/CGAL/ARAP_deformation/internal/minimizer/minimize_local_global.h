@@ -64,12 +64,15 @@ inline Status minimize_local_global(Minimization& run)
       add_step(1);
     }
     double t = 1; // the share of the step that is taken; less only if the solver is a bad one
-    for(run.evaluate(); run.is_higher(); run.evaluate())
+    run.evaluate();
+    const bool is_wrong = run.is_far_higher();
+    for(; t > 0 && run.is_higher(); run.evaluate())
     {
-      if(t < 0.05 || !(force_before > 0))
+      const double shorter = t < 0.05 || !(force_before > 0) ? 0 : 0.5 * t;
+      if(shorter == 0 && is_wrong)
         return Status::solver_failed;
-      t *= 0.5;
-      add_step(-t);
+      add_step(shorter - t); // back, if rounding errors are all that is left
+      t = shorter;
     }
     status = run.next_iterate(run.decrease([&] { return t * force_before; },
                                            [&] { return t * force_along_step(); }));

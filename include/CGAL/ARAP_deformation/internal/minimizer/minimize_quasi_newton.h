@@ -74,6 +74,7 @@ inline Status minimize_quasi_newton(Minimization& run)
       t = 1;
     };
     double decrease = 0;
+    bool is_wrong = false; // whether the step of local/global rises far
     const auto shorten_or_replace = [&] {
       const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
       const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
@@ -92,8 +93,16 @@ inline Status minimize_quasi_newton(Minimization& run)
                               [&] { return t * memory.slope(run.force()); });
       if(!run.is_higher() && (is_safe || decrease >= 2e-4 * t * slope)) // the Armijo condition
         break;
+      is_wrong |= is_safe && t == 1 && run.is_far_higher();
       if(is_safe && (t < 0.05 || !(slope > 0)))
-        return Status::solver_failed;
+      {
+        if(is_wrong)
+          return Status::solver_failed;
+        shorten(0, before, run.x); // rounding errors are all that is left
+        run.evaluate();
+        t = decrease = 0;
+        break;
+      }
       shorten_or_replace();
     }
     status = run.next_iterate(decrease);
