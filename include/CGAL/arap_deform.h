@@ -155,6 +155,9 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
     for(const auto& [v, target] : targets)
     {
       deformation.insert_control_vertex(v, target);
+      if(!deformation.is_control_vertex(v))
+        return ARAP::Outcome(ARAP::Status::not_a_control_vertex,
+                             "a target is given for a vertex that the mesh does not have");
       if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>)
         outcome = deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
       if(!outcome)

@@ -233,10 +233,27 @@ void test_state()
   CHECK(s.d.restore(later));
   CHECK(same_points(s.mesh, after));
 
+  test_case() = "undo of a change that cannot be prepared";
+  s.d.clear_roi_vertices();
+  s.d.insert_roi_vertices(vertices(s.mesh));
+  s.d.clear_control_vertices();
+  CHECK(s.d.deform().status == Status::no_fixed_vertex);
+  CHECK(s.d.restore(later));
+  CHECK(s.d.deform(2, 0));
+  const auto sound = s.d.state();
+  s.d.clear_control_vertices();
+  s.d.insert_roi_vertices(vertices(s.mesh));
+  CHECK(!s.d.deform());
+  CHECK(s.d.restore(sound));
+  CHECK(s.d.deform(2, 0));
+
   test_case() = "a state of another mesh";
   Mesh other = make_mesh<Mesh>(sheet(5));
   Deformation d(other);
   d.insert_roi_vertex(Vertex(7));
+  Mesh twin = make_mesh<Mesh>(sheet(12));
+  Deformation of_twin(twin);
+  CHECK(of_twin.restore(later).status == Status::foreign_state);
   const Mesh untouched = other;
   CHECK(d.restore(later).status == Status::foreign_state);
   CHECK(same_points(other, untouched) && d.roi_vertices().size() == 1);

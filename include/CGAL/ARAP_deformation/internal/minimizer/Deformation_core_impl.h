@@ -75,7 +75,7 @@ Deformation_core::~Deformation_core() = default;
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::prepare()
 {
-  m_weights_version = m_models.weight->version();
+  const std::size_t version = m_models.weight->version();
   if(const int v = find_non_finite(m_region.rest); v >= 0)
     return {Status::non_finite_point, v};
   Simplices simplices = weighted_simplices(*m_models.weight, m_region);
@@ -87,10 +87,15 @@ Diagnosis Deformation_core::prepare()
     return {Status::non_finite_weight, v};
   m_rotations.resize(static_cast<std::size_t>(energy.number_of_cells()), identity_matrix());
   Laplacian laplacian = laplacian_of(energy);
-  Constrained_system system =
-    m_state ? std::move(m_state->system) : Constrained_system(m_models.solver->copy());
-  system.set_laplacian(std::move(laplacian));
-  m_state.reset(new State{std::move(energy), std::move(system), {}});
+  if(m_state)
+  {
+    m_state->energy = std::move(energy);
+    m_state->stars.reset();
+  }
+  else
+    m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {}});
+  m_state->system.set_laplacian(std::move(laplacian));
+  m_weights_version = version;
   return {};
 }
 

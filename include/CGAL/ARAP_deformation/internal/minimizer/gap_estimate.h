@@ -62,15 +62,16 @@ public:
     if(std::abs(energy) <= report.rounding_level ||
        (!m_decreases.empty() && m_decreases.back() == 0))
       return 0;
-    if(0 < energy && energy <= zero) // the gap is at most the energy
-      return energy / zero;
+    // the gap is at most the energy
+    const double largest = 0 < energy && energy <= zero ? energy / zero : infinity;
     const std::size_t n = share(15);
     if(m_gaps.size() < n)
-      return infinity;
+      return largest;
     const double* const end = m_gaps.data() + m_gaps.size();
     const double gap = *std::max_element(end - n, end);
     const double minimum = energy - gap;
-    return energy > 0 && minimum <= 0 ? infinity : gap / (std::max)(std::abs(minimum), zero);
+    return energy > 0 && minimum <= 0
+             ? largest : (std::min)(largest, gap / (std::max)(std::abs(minimum), zero));
   }
 
 private:

@@ -115,7 +115,8 @@ inline void start_rigidly(const Region& region, double size, const Constraints& 
   const Rigid_fit before(free_rest, free_place);
   if(!(before.squared_error() <= tolerance * size))
     return;
-  // on top of it, for a single target, or targets on a line, leave the rotation open
+  // The second fit is relative to the first: a single target, or targets on a line, leave the
+  // rotation undetermined.
   std::transform(rest.begin(), rest.end(), rest.begin(), before);
   double motion = 0;
   for(std::size_t k = 0; k < rest.size(); ++k)

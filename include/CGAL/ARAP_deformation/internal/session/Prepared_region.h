@@ -199,6 +199,7 @@ private:
   Outcome update(const Vertices& vertices, const Traits& traits, const Options& options,
                        Stages& stages)
   {
+    m_ready.constraints = none; // a failure may have released the factor
     const auto& entries = vertices.entries();
     std::size_t roi_size = 0, number_of_fixed = 0, number_of_controls = 0;
     for(const auto& entry : entries)

@@ -32,6 +32,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,7 +110,14 @@ public:
     if(refuse_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
-    return m_vertices.insert_control(v) && (was_roi ? constraints_changed() : region_changed());
+    std::optional<Point> moved; // others may have moved it
+    if(takes_points() && m_vertices.find(v) != nullptr)
+      moved = domain().point(v);
+    if(!m_vertices.insert_control(v))
+      return false;
+    if(moved)
+      m_vertices.target(*m_vertices.find(v)) = std::move(*moved);
+    return was_roi ? constraints_changed() : region_changed();
   }
 
   bool erase_control(vertex_descriptor v)
@@ -228,16 +236,31 @@ public:
   {
     typename Vertices::State vertices;
     typename Prepared_region<Domain, Traits>::State prepared;
+    Cell_scheme cells;
     double energy;
+    std::shared_ptr<const char> session; // whose state it is
   };
 
-  State state() const { return {m_vertices.state(), m_prepared.state(), m_energy}; }
+  State state() const
+  {
+    State state = {m_vertices.state(), m_prepared.state(), m_options.cells, m_energy, m_identity};
+    if(takes_points())
+      for(const auto& [k, point] : m_vertices.changed_points())
+      {
+        state.vertices.entries[k].present = point;
+        if(!state.prepared.positions.empty())
+          if(const int v = m_prepared.region().find_vertex(domain(),
+                                                           m_vertices.entries()[k].vertex); v >= 0)
+            state.prepared.positions[static_cast<std::size_t>(v)] = Domain::coordinates(point);
+      }
+    return state;
+  }
 
   Outcome restore(State state)
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
-    if(!m_vertices.has_vertices_of(state.vertices))
+    if(state.session != m_identity)
       return outcome(Status::foreign_state);
     const std::vector<Entry>& before = m_vertices.entries();
     const std::vector<Entry>& after = state.vertices.entries;
@@ -247,6 +270,8 @@ public:
       domain().set_point(before[k].vertex, m_vertices.first_point(k));
     m_vertices.restore(std::move(state.vertices));
     m_prepared.restore(std::move(state.prepared), m_vertices);
+    if(state.cells != m_options.cells)
+      region_changed();
     m_energy = state.energy;
     return Outcome(Status::success, std::string());
   }
@@ -366,13 +391,19 @@ protected:
     return result;
   }
 
+  // CGAL's class does not, and after a run that failed in writing some points may be its own.
+  bool takes_points() const
+  {
+    return m_rules.order == Minimization_order::local_first && domain().is_in_place() &&
+           m_are_points_written;
+  }
+
   // Points that others have moved are where the run starts, or fixed there: undo by writing back
   // old points, for example. CGAL's class does not look at them.
   Outcome take_points_of_others(Report& report)
   {
     Scoped_seconds seconds(report.seconds.transfer);
-    if(m_rules.order == Minimization_order::global_first || !domain().is_in_place() ||
-       !m_are_points_written) // some may be those of a run that failed
+    if(!takes_points())
       return outcome(Status::success);
     const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
     for(const auto& [k, point] : changed)
@@ -503,6 +534,7 @@ protected:
   Session_rules m_rules;
   Options m_options;
   double m_energy = not_a_number;
+  std::shared_ptr<const char> m_identity = std::make_shared<char>();
   bool m_is_in_a_run = false;
   bool m_are_points_written = true; // those of the last run, all of them
   bool m_is_region_written = true; // whether note_region_as_written() was called since its change

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <CGAL/assertions.h>
 
@@ -211,9 +212,13 @@ public:
   {
     std::vector<std::pair<std::size_t, Point>> changed;
     for(std::size_t k = 0; k < m_entries.size(); ++k)
-      if(auto&& point = m_domain.point(m_entries[k].vertex);
-         Domain::coordinates(point) != Domain::coordinates(m_entries[k].present))
+    {
+      auto&& point = m_domain.point(m_entries[k].vertex);
+      const Coordinates now = Domain::coordinates(point),
+                        before = Domain::coordinates(m_entries[k].present);
+      if(now != before && (is_finite(now) || is_finite(before))) // NaN differs from itself
         changed.emplace_back(k, point);
+    }
     return changed;
   }
 
@@ -233,15 +238,7 @@ public:
 
   State state() const { return {m_entries, m_targets, m_first_points}; }
 
-  // whether a state has the same vertices, in the same order, as far as both go
-  bool has_vertices_of(const State& state) const
-  {
-    const std::size_t n = (std::min)(m_entries.size(), state.entries.size());
-    return std::equal(m_entries.data(), m_entries.data() + n, state.entries.begin(),
-                      [](const Entry& a, const Entry& b) { return a.vertex == b.vertex; });
-  }
-
-  // Returns to a state with the same vertices. Those that have entered since leave.
+  // Returns to an earlier state. Vertices that have entered since leave.
   void restore(State state)
   {
     for(std::size_t k = m_entries.size(); k < state.entries.size(); ++k)

@@ -43,7 +43,7 @@ template <typename Map, typename Vertex>
 using Call_find = decltype(std::declval<const Map&>().find(std::declval<Vertex>())->second);
 
 template <typename Map, typename Vertex>
-using Call_at = decltype(std::declval<const Map&>()[std::size_t()]);
+using Call_at = decltype(std::declval<const Map&>().at(std::size_t()));
 
 // Calls f(value) with the value of a vertex in a map: a function object, a property map, an
 // associative container, where a vertex may have none, or a container by the index of the vertex.
@@ -64,7 +64,7 @@ void with_value(const Map& map, Vertex v, std::size_t index, const Function& f)
     static_assert(is_valid<Call_at, Map, Vertex>,
                   "a map of vertices must be a function object, a property map, a map, or a vector "
                   "by the indices of the vertices");
-    f(map[index]);
+    f(map.at(index)); // throws std::out_of_range if it is too short
   }
 }
 

@@ -48,7 +48,7 @@ inline double& diagonal_entry(Sparse_matrix& matrix, int column)
 // a bound of the rounding error of a sum, as a share of the sum of the absolute values
 constexpr double rounding_of_a_sum = 16 * std::numeric_limits<double>::epsilon();
 
-// The factor by which the diagonal of a matrix is multiplied that is to be factorized. Rounding
+// The factor applied to the diagonal of a matrix before it is factorized. Rounding
 // changes each pivot by some units in the last place of the diagonal entry; where large weights are
 // next to small ones nothing else may be left of it. A sum of squares is positive semidefinite, and
 // is raised by as much: a pivot that is too small would throw vertices far away, and one that is
