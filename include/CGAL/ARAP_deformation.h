@@ -469,7 +469,7 @@ public:
   /// iterates again, up to rounding. What is prepared for the same region serves as it is. Linear
   /// time. Vertices that have entered the region of interest since return to where they were
   /// before. Returns `ARAP::Status::foreign_state`, and changes nothing, if the state is of another
-  /// mesh.
+  /// object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
 

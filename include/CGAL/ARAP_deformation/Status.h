@@ -33,7 +33,7 @@ enum class Status
   cancelled,            ///< a visitor cancelled the run; nothing was changed
   invalid_option,       ///< an option is out of range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
-  foreign_state,        ///< the state to restore is of an object with other vertices
+  foreign_state,        ///< the state to restore is of another object
   not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
   invalid_weight,       ///< the weight of a target is negative or not a number
   not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron

@@ -120,7 +120,7 @@ struct Simplex_residuals_kernel
       Double4 simplex_energy = Double4::zero();
       for(int a = 0; a < n; ++a)
         forces[a] = Double4::zero();
-      if(N == 0)
+      if constexpr(N == 0)
       {
         const Joint_cell cell(cells, s, stiffness, rotations);
         const Matrix_columns mean = Matrix_columns::of(cell.mean);
@@ -140,7 +140,7 @@ struct Simplex_residuals_kernel
             forces[b] = forces[b] + weighted;
           }
       }
-      for(int k = cells.begin[s]; k < cells.begin[s + 1] && N > 0; ++k)
+      else for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
       {
         const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
         const double* weight = simplices.weights + simplices.first_weight[s];

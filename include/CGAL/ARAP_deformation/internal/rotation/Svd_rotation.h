@@ -37,13 +37,13 @@ public:
   {
     // the entries are squared below: scaled to about one, they neither overflow nor underflow
     double largest = 0;
-    bool is_finite = true;
+    bool are_finite = true;
     for(double entry : c)
     {
       largest = (std::max)(largest, std::abs(entry));
-      is_finite &= std::isfinite(entry);
+      are_finite &= is_finite(entry);
     }
-    if(largest == 0 || !is_finite)
+    if(largest == 0 || !are_finite)
       return identity_matrix();
 
     Columns b; // becomes U Sigma, while v becomes V: always b = c v

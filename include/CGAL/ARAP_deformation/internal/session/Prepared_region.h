@@ -74,9 +74,7 @@ public:
                       const std::vector<std::pair<std::size_t, Point>>& changed)
   {
     const Domain& domain = vertices.domain();
-    for(const auto& [k, point] : changed)
-      if(const int v = region().find_vertex(domain, vertices.entries()[k].vertex); v >= 0)
-        m_prepared->positions[v] = Domain::coordinates(point);
+    take_points(vertices, changed, m_prepared->positions);
     for(int v = core().region().number_of_movable_vertices;
         v < core().region().number_of_vertices(); ++v)
       if(!vertices.find(region().vertices[v]))
@@ -87,6 +85,17 @@ public:
                          vertex_name(domain.index(region().vertices[v])));
       }
     return outcome(Status::success);
+  }
+
+  // the same for the entries only, in positions of the vertices of the region
+  void take_points(const Vertices& vertices,
+                   const std::vector<std::pair<std::size_t, Point>>& changed,
+                   Array<Coordinates>& positions) const
+  {
+    for(const auto& [k, point] : changed)
+      if(const int v = region().find_vertex(vertices.domain(), vertices.entries()[k].vertex);
+         v >= 0)
+        positions[v] = Domain::coordinates(point);
   }
 
   // how many vertices are in the region of interest, how many are controls, and those of these that
@@ -197,7 +206,7 @@ private:
   };
 
   Outcome update(const Vertices& vertices, const Traits& traits, const Options& options,
-                       Stages& stages)
+                 Stages& stages)
   {
     m_ready.constraints = none; // a failure may have released the factor
     const auto& entries = vertices.entries();

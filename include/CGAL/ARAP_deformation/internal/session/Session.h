@@ -245,14 +245,13 @@ public:
   {
     State state = {m_vertices.state(), m_prepared.state(), m_options.cells, m_energy, m_identity};
     if(takes_points())
-      for(const auto& [k, point] : m_vertices.changed_points())
-      {
+    {
+      const auto changed = m_vertices.changed_points();
+      for(const auto& [k, point] : changed)
         state.vertices.entries[k].present = point;
-        if(!state.prepared.positions.empty())
-          if(const int v = m_prepared.region().find_vertex(domain(),
-                                                           m_vertices.entries()[k].vertex); v >= 0)
-            state.prepared.positions[static_cast<std::size_t>(v)] = Domain::coordinates(point);
-      }
+      if(m_prepared.has_region())
+        m_prepared.take_points(m_vertices, changed, state.prepared.positions);
+    }
     return state;
   }
 
@@ -391,7 +390,8 @@ protected:
     return result;
   }
 
-  // CGAL's class does not, and after a run that failed in writing some points may be its own.
+  // Whether points are looked at that others may have moved. CGAL's class does not look at them,
+  // and after a run that failed in writing, some may be the run's own.
   bool takes_points() const
   {
     return m_rules.order == Minimization_order::local_first && domain().is_in_place() &&
@@ -399,7 +399,7 @@ protected:
   }
 
   // Points that others have moved are where the run starts, or fixed there: undo by writing back
-  // old points, for example. CGAL's class does not look at them.
+  // old points, for example.
   Outcome take_points_of_others(Report& report)
   {
     Scoped_seconds seconds(report.seconds.transfer);

@@ -46,13 +46,8 @@ auto domain_from_parameters(Shape& shape, const NamedParameters& np)
                   "parameter output_point_map");
     if constexpr(has_output)
     {
-      auto point_map =
-        parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                     get_const_property_map(vertex_point, shape));
-      auto index_map = get_initialized_vertex_index_map(std::as_const(shape), np);
-      auto output_map = parameters::get_parameter(np, internal_np::output_point_map);
-      return Face_graph_domain<const Mesh, decltype(point_map), decltype(index_map),
-                               decltype(output_map)>(shape, point_map, index_map, output_map);
+      const auto output_map = parameters::get_parameter(np, internal_np::output_point_map);
+      return make_face_graph_domain(shape, output_map, np);
     }
     else if constexpr(!std::is_const_v<Shape>)
       return make_face_graph_domain(shape, np);

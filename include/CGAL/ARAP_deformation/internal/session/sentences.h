@@ -88,7 +88,7 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::in_a_run:
     return about("a visitor must not change the object that it is visiting");
   case Status::foreign_state:
-    return about("the state is of an object with other vertices; nothing was changed");
+    return about("the state is of another object; nothing was changed");
   case Status::not_a_control_vertex:
     return about(" is not a control vertex and has no target; insert it as a control vertex first");
   case Status::invalid_weight:

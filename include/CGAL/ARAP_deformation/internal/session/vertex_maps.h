@@ -14,12 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <boost/property_map/property_map.hpp>
 
 #include <cstddef>
-#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -28,10 +28,7 @@ namespace ARAP {
 namespace internal {
 
 template <typename T>
-using Iteration_of = decltype(std::begin(std::declval<const T&>()));
-
-template <typename T>
-constexpr bool is_range = is_valid<Iteration_of, T>;
+constexpr bool is_range = is_valid<Begin_of, const T>;
 
 template <typename Map, typename Vertex>
 using Call_map = decltype(std::declval<const Map&>()(std::declval<Vertex>()));
