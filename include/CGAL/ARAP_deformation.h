@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
 #include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
+#include <CGAL/ARAP_deformation/internal/session/rotation_matrix.h>
 #include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 #include <CGAL/ARAP_deformation/parameters.h>
@@ -32,6 +33,7 @@
 #include <CGAL/assertions.h>
 
 #include <iterator>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -399,12 +401,87 @@ public:
     return m_session.weight(v);
   }
 
+  /// \brief makes the control vertex `v` a *frame*: it prescribes the rotation of its cell, or of
+  /// all simplices at it if cells are simplices, so that it turns what is around it.
+  ///
+  /// \tparam Rotation a quaternion, angle and axis or matrix as Eigen's, a
+  ///         `CGAL::Aff_transformation_3`, or an `ARAP::Matrix_3x3`
+  ///
+  /// The rotation is that from the rest shape; it counts for soft control vertices too. A new
+  /// rotation costs no preprocessing. Returns `ARAP::Status::invalid_rotation`, and changes
+  /// nothing, if it is not a rotation.
+  template <typename Rotation>
+  [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.set_rotation(v, ARAP::internal::rotation_matrix(rotation));
+  }
+
+  /// makes all control vertices of a range frames, with the rotation of the rigid motion that takes
+  /// them from the rest shape to their targets. Returns `ARAP::Status::invalid_rotation`, and
+  /// changes nothing, if there is no such motion up to \f$10^{-6}\f$ of their size, or if they lie
+  /// on a line, which leaves the rotation open.
+  template <typename VertexRange>
+  [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
+  {
+    return m_session.set_rotations_of_motion(
+      std::vector<vertex_descriptor>(std::begin(vertices), std::end(vertices)));
+  }
+
+  /// lets the rotation at the control vertex `v` be fitted again.
+  ARAP::Outcome erase_target_rotation(vertex_descriptor v)
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.set_rotation(v, std::nullopt);
+  }
+
   /// returns the target of the control vertex `v`; in Release, the point of any other vertex.
   /// \pre `is_control_vertex(v)`
   Point target_position(vertex_descriptor v) const
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.target(v);
+  }
+  /// @}
+
+  /// \name Stiffness and Rigid Parts
+  /// A map is a function object, a property map, an associative container, or a vector by indices.
+  /// It is copied, and asked when the region is prepared: call the function again after a change of
+  /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
+  /// simplices; maps with the other keys have no effect. @{
+
+  /// sets the stiffness \f$k_c \geq 0\f$ of cells, the weights \f$w_i\f$ of Equation (3) of the
+  /// paper; where the map has no value it is 1. Costs one numeric factorization.
+  /// `ARAP::Status::invalid_stiffness` is what a run returns if a value is negative or not finite.
+  template <typename StiffnessMap>
+  ARAP::Outcome set_stiffness(StiffnessMap stiffness)
+  {
+    return m_session.change_cell_values([&](auto& values) {
+      values.set_stiffness(std::move(stiffness));
+    });
+  }
+
+  /// makes all cells equally stiff again.
+  ARAP::Outcome clear_stiffness()
+  {
+    return m_session.change_cell_values([](auto& values) { values.clear_stiffness(); });
+  }
+
+  /// lets all cells to which the map gives the same number from 0 on share one rotation, as rigid
+  /// parts do; those with a negative number, or none, have their own. What is not in the region of
+  /// interest or next to it does not count. Preprocesses again.
+  template <typename GroupMap>
+  ARAP::Outcome set_groups(GroupMap groups)
+  {
+    return m_session.change_cell_values([&](auto& values) {
+      values.set_groups(std::move(groups));
+    });
+  }
+
+  /// gives each cell its own rotation again.
+  ARAP::Outcome clear_groups()
+  {
+    return m_session.change_cell_values([](auto& values) { values.clear_groups(); });
   }
   /// @}
 

@@ -70,8 +70,16 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
                    if(is_constrained) deformation.insert_control_vertex(v);
                  });
   static_cast<Outcome&>(report) = insert(deformation);
+  if constexpr(has_parameter<NamedParameters, internal_np::target_rotations_t>)
+    for(const auto& [v, rotation] : get_parameter(np, internal_np::target_rotations))
+      if(report)
+        static_cast<Outcome&>(report) = deformation.set_target_rotation(v, rotation);
   if(!report)
     return report;
+  if constexpr(has_parameter<NamedParameters, internal_np::cell_stiffness_t>)
+    deformation.set_stiffness(get_parameter(np, internal_np::cell_stiffness));
+  if constexpr(has_parameter<NamedParameters, internal_np::cell_groups_t>)
+    deformation.set_groups(get_parameter(np, internal_np::cell_groups));
   Default_visitor default_visitor;
   Visitor visitor = parameters::choose_parameter(
     parameters::get_parameter_reference(np, internal_np::visitor), default_visitor);

@@ -39,6 +39,11 @@ public:
   /// edges to its neighbours.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
+  /// one cell for each vertex, with the stars of all vertices within `k` rings around it: the
+  /// larger the cells, the smoother the rotations, and the stiffer the shape. `k_ring(0)` is
+  /// `spokes()`. A local step costs about as many times more as a cell has stars.
+  static constexpr Cell_scheme k_ring(unsigned int k) { return Cell_scheme(Edge_set::star, false, k); }
+
   /// one cell for each vertex, with the edges of all incident simplices
   /// \cgalCite{Chao2010SimpleGeomModel}. The energy is never negative with cotangent weights. The
   /// default.
@@ -55,6 +60,9 @@ public:
   /// cell.
   constexpr bool grouped_at_vertices() const { return m_grouped_at_vertices; }
 
+  /// returns within how many rings around a vertex the stars are that make its cell.
+  constexpr unsigned int rings() const { return m_rings; }
+
   /// returns `true` if there is one cell for each vertex, `false` if one for each simplex.
   constexpr bool has_vertex_cells() const
   {
@@ -63,18 +71,20 @@ public:
 
   friend constexpr bool operator==(Cell_scheme a, Cell_scheme b)
   {
-    return a.m_edge_set == b.m_edge_set && a.m_grouped_at_vertices == b.m_grouped_at_vertices;
+    return a.m_edge_set == b.m_edge_set && a.m_grouped_at_vertices == b.m_grouped_at_vertices &&
+           a.m_rings == b.m_rings;
   }
 
   friend constexpr bool operator!=(Cell_scheme a, Cell_scheme b) { return !(a == b); }
 
 private:
-  constexpr Cell_scheme(Edge_set edge_set, bool grouped_at_vertices)
-    : m_edge_set(edge_set), m_grouped_at_vertices(grouped_at_vertices)
+  constexpr Cell_scheme(Edge_set edge_set, bool grouped_at_vertices, unsigned int rings = 0)
+    : m_edge_set(edge_set), m_grouped_at_vertices(grouped_at_vertices), m_rings(rings)
   {}
 
   Edge_set m_edge_set;
   bool m_grouped_at_vertices;
+  unsigned int m_rings;
 };
 
 } // namespace ARAP

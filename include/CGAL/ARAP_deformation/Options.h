@@ -54,6 +54,16 @@ struct Options
   /// which edges share a rotation. A new value requires preprocessing again.
   Cell_scheme cells = Cell_scheme::spokes_and_rims();
 
+  /// \f$b\f$, the length over which a sharp bend is spread, in the unit of the points; 0 for none,
+  /// else positive and finite. See \ref ARAPDeformation_Bending for which to choose. Needs cells at
+  /// vertices. A new value requires a factorization.
+  double bending_length = 0;
+
+  /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
+  /// none, else positive and finite. With it rotations are part of the state, and the energy is
+  /// minimized over positions and rotations in turns: see \ref ARAPDeformation_SmoothRotations.
+  double smoothing_length = 0;
+
   /// the initial guess of each run.
   Initial_guess initial_guess = Initial_guess::previous;
 
@@ -80,6 +90,15 @@ struct Options
     if(!(tolerance >= 0) || !std::isfinite(tolerance))
       return Outcome(Status::invalid_option, "the option tolerance is " +
                      std::to_string(tolerance) + "; it must be finite and not negative");
+    const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+    const char* const wrong = !is_length(bending_length)     ? "bending_length"
+                              : !is_length(smoothing_length) ? "smoothing_length" : nullptr;
+    if(wrong)
+      return Outcome(Status::invalid_option,
+                     "the option " + std::string(wrong) + " must be finite and not negative");
+    if(bending_length > 0 && !cells.has_vertex_cells())
+      return Outcome(Status::invalid_option, "the option bending_length needs cells at vertices; "
+                     "choose spokes, k_ring or spokes_and_rims for the option cells");
     return Outcome(Status::success, "the options are valid");
   }
 };

@@ -36,6 +36,8 @@ enum class Status
   foreign_state,        ///< the state to restore is of another object
   not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
   invalid_weight,       ///< the weight of a target is negative or not a number
+  invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
+  invalid_rotation,     ///< the rotation of a control vertex is not a rotation
   not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron
   too_many_corners,     ///< a face of the region has more than 2048 corners
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
@@ -75,6 +77,8 @@ inline const char* to_string(Status status)
   case Status::foreign_state: return "foreign_state";
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::invalid_weight: return "invalid_weight";
+  case Status::invalid_stiffness: return "invalid_stiffness";
+  case Status::invalid_rotation: return "invalid_rotation";
   case Status::not_a_simplex: return "not_a_simplex";
   case Status::too_many_corners: return "too_many_corners";
   case Status::no_tetrahedron: return "no_tetrahedron";

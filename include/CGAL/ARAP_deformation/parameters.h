@@ -27,6 +27,9 @@ enum deformation_traits_t { deformation_traits };
 enum region_of_interest_t { region_of_interest };
 enum target_weight_t { target_weight };
 enum output_point_map_t { output_point_map };
+enum target_rotations_t { target_rotations };
+enum cell_stiffness_t { cell_stiffness };
+enum cell_groups_t { cell_groups };
 
 template <typename Tag, typename T>
 Named_function_parameters<T, Tag> prepend(const T& value)
@@ -88,6 +91,30 @@ template <typename OutputPointMap, typename... NP>
 auto output_point_map(const OutputPointMap& points, const NP&... np)
 {
   return internal_np::prepend<internal_np::output_point_map_t>(points, np...);
+}
+
+/// the rotations that control vertices prescribe, see `ARAP_deformation::set_target_rotation()`: a
+/// range of pairs of a vertex and a rotation, such as a `std::map`; default none.
+template <typename RotationRange, typename... NP>
+auto target_rotations(const RotationRange& rotations, const NP&... np)
+{
+  return internal_np::prepend<internal_np::target_rotations_t>(rotations, np...);
+}
+
+/// the stiffness of cells, a map from vertices or simplices to numbers, see
+/// `ARAP_deformation::set_stiffness()`; default 1.
+template <typename StiffnessMap, typename... NP>
+auto cell_stiffness(const StiffnessMap& stiffness, const NP&... np)
+{
+  return internal_np::prepend<internal_np::cell_stiffness_t>(stiffness, np...);
+}
+
+/// the groups of cells that share a rotation, a map from vertices or simplices to integers, see
+/// `ARAP_deformation::set_groups()`; default none.
+template <typename GroupMap, typename... NP>
+auto cell_groups(const GroupMap& groups, const NP&... np)
+{
+  return internal_np::prepend<internal_np::cell_groups_t>(groups, np...);
 }
 /// @}
 

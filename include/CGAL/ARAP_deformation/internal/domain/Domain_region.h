@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -46,11 +47,13 @@ struct Domain_region
   Array<int> first_simplex;
   Paged_index_map numbers; // from Domain::index() to the number in the region
 
-  // Collects the region of the given movable vertices, which are distinct; positions are filled in
-  // later. Movable vertices are numbered in breadth-first order, so that what is near in the
-  // mesh is near in memory. Returns false if there is something that is not a simplex, or has too
-  // many corners: refused_vertex() is at it, and refusal() says which.
-  bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices)
+  // Collects the region of the given movable vertices, which are distinct, for cells of the stars
+  // within `cell_rings` rings; positions are filled in later. Movable vertices are numbered in
+  // breadth-first order, so that what is near in the mesh is near in memory. Returns false if there
+  // is something that is not a simplex, or has too many corners: refused_vertex() is at it, and
+  // refusal() says which.
+  bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices,
+               int cell_rings = 0)
   {
     flat.dimension = Domain::dimension;
     flat.number_of_movable_vertices = static_cast<int>(movable_vertices.size());
@@ -68,9 +71,16 @@ struct Domain_region
       number_of_visited = m_number_of_found;
     }
     flat.number_of_movable_simplices = static_cast<int>(simplices.size());
-    flat.number_of_centres = static_cast<int>(vertices.size());
-    if(!collect_simplices(domain, flat.number_of_movable_vertices, flat.number_of_centres))
-      return false;
+    // a cell that has a movable vertex is within cell_rings + 1 rings, and so many more its stars
+    flat.number_of_centres = flat.number_of_movable_vertices;
+    for(int ring = 1; ring <= 2 * cell_rings + 1; ++ring)
+    {
+      const int begin = std::exchange(flat.number_of_centres, static_cast<int>(vertices.size()));
+      if(ring == cell_rings + 1)
+        flat.number_of_vertex_cells = flat.number_of_centres;
+      if(!collect_simplices(domain, begin, flat.number_of_centres))
+        return false;
+    }
     first_simplex.push_back(static_cast<int>(simplices.size()));
     shrink();
     return true;

@@ -14,18 +14,17 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
-#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
-#include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
-#include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -43,11 +42,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rigidity, the first sum of the energy that is minimized,
+// The energy that is minimized, but for the rows of the constraints: the rigidity
 //   E(x, R) = sum over cells c, over edge sets u in c, over edges (i, j) in u of
 //             k_c w_ij || (x_i - x_j) - R_c (p_i - p_j) ||^2,
-// with p the rest shape and x the current positions. Cells in which nothing moves do not count. All
-// loops run over flat arrays, block by block and in parallel.
+// with p the rest shape and x the current positions, bending, and smooth rotations. Cells in which
+// nothing moves do not count. All loops run over flat arrays, block by block and in parallel.
 class Deformation_energy
 {
 public:
@@ -61,6 +60,28 @@ public:
   {
     assign(m_rest, rest);
   }
+
+  void set_bending(Bending bending) { m_bending = std::move(bending); }
+  void set_smooth_rotations(Smooth_rotations smooth) { m_smooth = std::move(smooth); }
+
+  // the cells of each group share a rotation
+  void set_groups(Index_lists groups)
+  {
+    m_groups = std::move(groups);
+    m_group_of = Array<int>(number_of_cells(), -1);
+    for(int g = 0; g < m_groups.size(); ++g)
+      for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
+        m_group_of[m_groups.items[k]] = g;
+  }
+
+  // The rotations of some cells are given, not fitted. For two of one group the last counts.
+  void set_given_rotations(std::vector<std::pair<int, Matrix_3x3>> given)
+  {
+    m_given = std::move(given);
+  }
+
+  // whether the fit depends on the rotations before
+  bool are_rotations_state() const { return !m_smooth.is_none(); }
 
   int number_of_movable_vertices() const { return m_number_of_movable_vertices; }
 
@@ -79,16 +100,22 @@ public:
     Array<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
     std::visit([&](const auto& cells) {
       for(int c = 0; c < cells.number_of_cells(); ++c)
-      {
-        is_chosen[c] = are_all_cells_counted || cells.is_moving(c, is_free);
-        if(!is_chosen[c])
-          rotations[static_cast<std::size_t>(c)] = identity_matrix();
-      }
+        is_chosen[c] =
+          are_all_cells_counted || are_rotations_state() || cells.is_moving(c, is_free);
     }, m_cells);
+    for_each_group([&](const int* begin, const int* end) {
+      if(std::any_of(begin, end, [&](int c) { return is_chosen[c] != 0; }))
+        std::for_each(begin, end, [&](int c) { is_chosen[c] = true; });
+    });
+    for(std::size_t c = 0; c < is_chosen.size(); ++c)
+      if(!is_chosen[c])
+        rotations[c] = identity_matrix();
     m_number_of_free_vertices = static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
     if(is_chosen == m_is_chosen)
       return;
     std::visit([&](auto& cells) { cells.choose_cells(is_chosen); }, m_cells);
+    if(!m_bending.is_none())
+      m_bending.choose_cells(is_chosen);
     m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
     m_is_chosen = std::move(is_chosen);
     measure();
@@ -130,11 +157,13 @@ public:
     return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
   }
 
-  // calls f(i, j, w) for each edge of each edge set; the stiffness of its cells is in the weight
+  // Calls f(i, j, w) for each edge of each edge set, with the stiffness of its cells in the weight,
+  // and for edges whose Laplacian is the matrix of the bending.
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
     std::visit([&f](const auto& cells) { cells.for_each_edge(f); }, m_cells);
+    m_bending.for_each_edge(f);
   }
 
   // whether no edge set has a negative energy, up to rounding
@@ -164,15 +193,38 @@ public:
                           std::vector<Coordinates>& force)
   {
     assign(m_x, x);
+    m_bending.prepare(m_x.data());
+    m_smooth.keep(rotations);
     std::visit([&](auto& cells) {
       cells.prepare_covariances(m_rest.data(), m_x.data());
+      const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
+        cells.compute_covariances(m_rest.data(), m_x.data(), begin, end, covariances);
+        m_bending.add_covariances(begin, end, covariances);
+        m_smooth.add_covariances(begin, end, covariances);
+      };
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        cells.compute_covariances(m_rest.data(), m_x.data(), begin, end, covariances.data());
+        compute_covariances(begin, end, covariances.data());
         closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
                           rotations.data() + begin);
       });
+      for_each_group([&](const int* begin, const int* end) {
+        if(!m_is_chosen[*begin])
+          return;
+        Matrix_3x3 sum{}, covariance;
+        for(const int* c = begin; c != end; ++c)
+        {
+          compute_covariances(*c, *c + 1, &covariance);
+          for(std::size_t entry = 0; entry < 9; ++entry)
+            sum[entry] += covariance[entry];
+        }
+        closest_rotations(1, &sum, &rotations[static_cast<std::size_t>(*begin)]);
+        set_rotation_of_group(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
+      });
     }, m_cells);
+    for(const auto& [c, rotation] : m_given)
+      if(m_is_chosen[c])
+        set_rotation_of_group(c, rotation, rotations);
     return evaluate(rotations, force);
   }
 
@@ -181,6 +233,7 @@ public:
                   std::vector<Coordinates>& force)
   {
     assign(m_x, x);
+    m_bending.prepare(m_x.data());
     return evaluate(rotations, force);
   }
 
@@ -191,7 +244,7 @@ private:
   void measure()
   {
     std::visit([&](const auto& cells) {
-      const Edge_sums sums = cells.edge_sums(m_rest.data());
+      const Edge_sums sums = cells.edge_sums(m_rest.data()) + m_bending.sums();
       m_sum_of_weights = sums.weights;
       m_scale = sums.squares;
       m_is_in_cell = cells.vertices_of(m_is_chosen);
@@ -222,12 +275,40 @@ private:
   double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
   {
     force.resize(static_cast<std::size_t>(m_number_of_movable_vertices));
-    return std::visit([&](auto& cells) {
+    const double rigidity = std::visit([&](auto& cells) {
       return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
     }, m_cells);
+    return rigidity + m_bending.evaluate(rotations.data(), force.data()) +
+           m_smooth.evaluate(rotations);
+  }
+
+  // calls f(begin, end) for the cells of each group
+  template <typename Function>
+  void for_each_group(const Function& f) const
+  {
+    for(int g = 0; g < m_groups.size(); ++g)
+      f(m_groups.items.data() + m_groups.begin[g], m_groups.items.data() + m_groups.begin[g + 1]);
+  }
+
+  // of a cell, and those that share it
+  void set_rotation_of_group(int c, const Matrix_3x3& rotation,
+                             std::vector<Matrix_3x3>& rotations) const
+  {
+    const Matrix_3x3 copy = rotation;
+    const int g = m_group_of.empty() ? -1 : m_group_of[c];
+    if(g < 0)
+      rotations[static_cast<std::size_t>(c)] = copy;
+    else
+      for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
+        rotations[static_cast<std::size_t>(m_groups.items[k])] = copy;
   }
 
   std::variant<Star_energy, Simplex_energy> m_cells;
+  Bending m_bending;
+  Smooth_rotations m_smooth;
+  Index_lists m_groups;   // of cells
+  Array<int> m_group_of;  // each cell, or -1; empty if there are no groups
+  std::vector<std::pair<int, Matrix_3x3>> m_given; // rotations of cells
   int m_number_of_movable_vertices = 0;
   int m_number_of_free_vertices = 0;
   Array<char> m_is_chosen;  // for each cell whether it counts
@@ -239,22 +320,6 @@ private:
   double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;
 };
-
-inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,
-                                                  Simplices simplices, Cell_scheme scheme,
-                                                  const Region& region)
-{
-  const int n = region.number_of_movable_vertices;
-  if(scheme.edge_set() == Edge_set::star)
-    return Deformation_energy(Star_energy(star_edge_sets(model, simplices, region), n), region.rest,
-                              n);
-  simplices = simplex_edge_sets(model, std::move(simplices), region);
-  Cells cells = scheme.grouped_at_vertices()
-                  ? vertex_cells(simplices.corners, region.number_of_centres)
-                  : separate_cells(region.number_of_movable_simplices);
-  return Deformation_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest,
-                            n);
-}
 
 } // namespace internal
 } // namespace ARAP

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -22,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 namespace CGAL {
@@ -191,6 +193,49 @@ inline Cells separate_cells(int number_of_sets)
 inline Cells vertex_cells(const Index_lists& corners, int number_of_centres)
 {
   return {lists_with(corners, number_of_centres), Array<double>(number_of_centres, 1)};
+}
+
+// the stars within k rings around each of the first `number_of_cells` vertices
+inline Cells ring_cells(const Index_lists& neighbours, int number_of_cells, unsigned int k)
+{
+  Cells cells;
+  cells.stiffness = Array<double>(number_of_cells, 1);
+  Array<int> last_cell(neighbours.size(), -1);
+  for(int c = 0; c < number_of_cells; ++c)
+  {
+    Array<int>& items = cells.sets.items;
+    std::size_t begin = items.size();
+    items.push_back(c);
+    last_cell[c] = c;
+    for(unsigned int ring = 0; ring < k; ++ring)
+      for(const std::size_t end = items.size(); begin < end; ++begin)
+        for(int e = neighbours.begin[items[begin]]; e < neighbours.begin[items[begin] + 1]; ++e)
+          if(const int j = neighbours.items[e]; last_cell[j] != c)
+          {
+            last_cell[j] = c;
+            items.push_back(j);
+          }
+    cells.sets.begin.push_back(static_cast<int>(items.size()));
+  }
+  return cells;
+}
+
+// Sums the covariances of the edge sets of each cell in [begin, end), times the stiffness of the
+// cell.
+inline void add_up_covariances(const Cells& cells, const Array<Matrix_3x3>& of_sets, int begin,
+                               int end, Matrix_3x3* covariances)
+{
+  for(int c = begin; c < end; ++c)
+  {
+    Matrix_3x3& sum = covariances[c - begin];
+    sum.fill(0);
+    for(int k = cells.sets.begin[c]; k < cells.sets.begin[c + 1]; ++k)
+      for(std::size_t entry = 0; entry < 9; ++entry)
+        sum[entry] += of_sets[cells.sets.items[k]][entry];
+    if(cells.stiffness[c] != 1)
+      for(double& entry : sum)
+        entry *= cells.stiffness[c];
+  }
 }
 
 } // namespace internal

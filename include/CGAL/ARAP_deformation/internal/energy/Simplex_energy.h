@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -67,35 +68,6 @@ struct Simplex_covariances_kernel
         }
       sum.store(covariances[s - begin]);
     }
-  }
-};
-
-// The cells of a simplex as one, for polygons, which are in many: with the mean rotation M and the
-// spread S of their rotations R,
-//   sum of k || d' - R d ||^2 = (sum of k) || d' - M d ||^2 + d^T S d.
-struct Joint_cell
-{
-  double stiffness = 0;
-  Matrix_3x3 mean = {}, spread = {};
-
-  Joint_cell(const Index_lists& cells, int s, const double* stiffnesses,
-             const Matrix_3x3* rotations)
-  {
-    for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
-      stiffness += stiffnesses[cells.items[k]];
-    for(int k = cells.begin[s]; k < cells.begin[s + 1] && stiffness > 0; ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        mean[entry] += stiffnesses[cells.items[k]] * rotations[cells.items[k]][entry] / stiffness;
-    for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
-      for(std::size_t a = 0; a < 3; ++a)
-        for(std::size_t b = 0; b < 3; ++b)
-          for(std::size_t row = 0; row < 3; ++row)
-          {
-            const Matrix_3x3& r = rotations[cells.items[k]];
-            spread[3 * a + b] += stiffnesses[cells.items[k]] *
-                                 (r[3 * row + a] - mean[3 * row + a]) *
-                                 (r[3 * row + b] - mean[3 * row + b]);
-          }
   }
 };
 
@@ -306,16 +278,13 @@ public:
   void compute_covariances(const Double4* rest, const Double4* x, int begin, int end,
                            Matrix_3x3* covariances) const
   {
-    if(m_is_each_a_cell)
-      return run<Simplex_covariances_kernel>(view(rest, x), begin, end, covariances);
+    if(!m_is_each_a_cell)
+      return add_up_covariances(m_cells, m_covariances, begin, end, covariances);
+    run<Simplex_covariances_kernel>(view(rest, x), begin, end, covariances);
     for(int c = begin; c < end; ++c)
-    {
-      Matrix_3x3& sum = covariances[c - begin];
-      sum.fill(0);
-      for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sum[entry] += m_covariances[m_cells.sets.items[k]][entry];
-    }
+      if(m_cells.stiffness[c] != 1)
+        for(double& entry : covariances[c - begin])
+          entry *= m_cells.stiffness[c];
   }
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each

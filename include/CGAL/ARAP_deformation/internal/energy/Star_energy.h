@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -108,32 +110,62 @@ struct Star_residuals_kernel
   }
 };
 
-// The energy of cells of which each is one star: cell i is the star of vertex i. Forces are
-// gathered, so that no two vertices write to one place.
+// The energy of cells that consist of stars. Forces are gathered, so that no two vertices write to
+// one place.
 class Star_energy
 {
 public:
   Star_energy() = default;
 
-  // All neighbours of the first `number_of_movable_vertices` vertices have stars.
+  // Cell i is the star of vertex i. All neighbours of the first `number_of_movable_vertices`
+  // vertices have stars.
   Star_energy(Stars stars, int number_of_movable_vertices)
     : m_stars(std::move(stars)), m_number_of_movable_vertices(number_of_movable_vertices)
   {
-    find_opposite_weights();
+    m_opposite_weights = opposite_weights(m_stars.weights);
   }
 
-  int number_of_cells() const { return m_stars.size(); }
-  // calls f(i, j, w) for each edge of each cell
-  template <typename Function>
-  void for_each_edge(const Function& f) const { m_stars.for_each_edge(f); }
-
-  // whether a vertex of cell i moves; is_free(v) tells for all vertices
-  template <typename Predicate>
-  bool is_moving(int i, const Predicate& is_free) const
+  // Cells consist of several stars, and stars may be in several cells.
+  Star_energy(Stars stars, Cells cells, const std::vector<Coordinates>& rest,
+              int number_of_movable_vertices)
+    : m_stars(std::move(stars)), m_cells(std::move(cells)),
+      m_cells_of_stars(lists_with(m_cells.sets, m_stars.size())),
+      m_number_of_movable_vertices(number_of_movable_vertices),
+      m_covariances(m_stars.size()), m_means(m_stars.size()), m_rest_covariances(m_stars.size())
   {
-    const auto begin = m_stars.neighbours.items.begin();
-    return is_free(i) || std::any_of(begin + m_stars.neighbours.begin[i],
-                                     begin + m_stars.neighbours.begin[i + 1], is_free);
+    Array<Double4> points;
+    for(const Coordinates& p : rest)
+      points.push_back(Double4::of(p[0], p[1], p[2]));
+    run_kernel<Star_covariances_kernel>(view(points.data(), points.data()), 0, m_stars.size(),
+                                        m_rest_covariances.data());
+  }
+
+  int number_of_cells() const { return has_stars_as_cells() ? m_stars.size() : m_cells.size(); }
+
+  // calls f(i, j, w) for each edge of each star, with w the sum over the cells of the star
+  template <typename Function>
+  void for_each_edge(const Function& f) const
+  {
+    if(has_stars_as_cells())
+      return m_stars.for_each_edge(f);
+    const Array<double> stiffness = total_stiffness(m_cells.stiffness);
+    m_stars.for_each_edge([&](int i, int j, double w) { f(i, j, stiffness[i] * w); });
+  }
+
+  // whether a vertex of cell c moves; is_free(v) tells for all vertices
+  template <typename Predicate>
+  bool is_moving(int c, const Predicate& is_free) const
+  {
+    const auto is_star_moving = [&](int i) {
+      const auto begin = m_stars.neighbours.items.begin();
+      return is_free(i) || std::any_of(begin + m_stars.neighbours.begin[i],
+                                       begin + m_stars.neighbours.begin[i + 1], is_free);
+    };
+    if(has_stars_as_cells())
+      return is_star_moving(c);
+    const auto begin = m_cells.sets.items.begin();
+    return std::any_of(begin + m_cells.sets.begin[c], begin + m_cells.sets.begin[c + 1],
+                       is_star_moving);
   }
 
   // over the cells that count
@@ -143,7 +175,7 @@ public:
       Edge_sums sums;
       for(int i = begin; i < end; ++i)
         for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-          sums.add(m_stars.weights[e], rest[i] - rest[m_stars.neighbours.items[e]]);
+          sums.add(weights_of_cells()[e], rest[i] - rest[m_stars.neighbours.items[e]]);
       return sums;
     });
   }
@@ -157,18 +189,44 @@ public:
   // the cells that count
   void choose_cells(const Array<char>& is_chosen)
   {
-    m_chosen.choose(number_of_cells(), [&](int i) { return is_chosen[i] != 0; },
-                    static_cast<int>(default_block_size));
+    const auto block_size = static_cast<int>(default_block_size);
+    if(has_stars_as_cells())
+      return m_chosen.choose(number_of_cells(), [&](int i) { return is_chosen[i] != 0; },
+                             block_size);
+    m_stiffness = m_cells.stiffness;
+    for(int c = 0; c < m_cells.size(); ++c)
+      if(!is_chosen[c])
+        m_stiffness[c] = 0;
+    const Array<double> stiffness = total_stiffness(m_stiffness);
+    m_weights_of_cells = m_stars.weights;
+    for(int i = 0; i < m_stars.size(); ++i)
+      for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+        m_weights_of_cells[e] *= stiffness[i];
+    m_opposite_weights = opposite_weights(m_weights_of_cells);
+    m_chosen.choose(m_stars.size(), [&](int i) {
+      const auto begin = m_cells_of_stars.items.begin();
+      return std::any_of(begin + m_cells_of_stars.begin[i], begin + m_cells_of_stars.begin[i + 1],
+                         [&](int c) { return is_chosen[c] != 0; });
+    }, block_size);
   }
 
-  // nothing to do: cells that consist of several edge sets have
-  void prepare_covariances(const Double4*, const Double4*) {}
+  // to be called once before compute_covariances() is called for the same positions
+  void prepare_covariances(const Double4* rest, const Double4* x)
+  {
+    if(!has_stars_as_cells())
+      m_chosen.for_each([&](int begin, int end) {
+        run_kernel<Star_covariances_kernel>(view(rest, x), begin, end,
+                                            m_covariances.data() + begin);
+      });
+  }
 
   // for the cells in [begin, end)
   void compute_covariances(const Double4* rest, const Double4* x, int begin, int end,
                            Matrix_3x3* covariances) const
   {
-    run_kernel<Star_covariances_kernel>(view(rest, x), begin, end, covariances);
+    if(has_stars_as_cells())
+      return run_kernel<Star_covariances_kernel>(view(rest, x), begin, end, covariances);
+    add_up_covariances(m_cells, m_covariances, begin, end, covariances);
   }
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
@@ -176,8 +234,27 @@ public:
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
-    const Star_view stars = view(rest, x);
-    return m_chosen.sum([&](int begin, int end) {
+    Star_view stars = view(rest, x);
+    double spread_energy = 0;
+    if(!has_stars_as_cells())
+    {
+      spread_energy = m_chosen.sum([&](int begin, int end) {
+        double sum = 0;
+        for(int i = begin; i < end; ++i)
+        {
+          const Joint_cell cell(m_cells_of_stars, i, m_stiffness.data(), rotations);
+          m_means[i] = cell.mean;
+          for(std::size_t entry = 0; entry < 9; ++entry)
+            sum += cell.spread[entry] * m_rest_covariances[i][entry];
+        }
+        return sum;
+      });
+      rotations = m_means.data();
+      stars.weights = m_weights_of_cells.data();
+      stars.opposite_weights =
+        (m_opposite_weights.empty() ? m_weights_of_cells : m_opposite_weights).data();
+    }
+    return spread_energy + m_chosen.sum([&](int begin, int end) {
       const int middle = (std::max)(begin, (std::min)(m_number_of_movable_vertices, end));
       double movable_energy, other_energy;
       run_kernel<Star_residuals_kernel<true>>(stars, begin, middle, rotations, force,
@@ -189,19 +266,37 @@ public:
   }
 
 private:
-  // Most weights are symmetric: then there is nothing else to store.
-  void find_opposite_weights()
+  bool has_stars_as_cells() const { return m_cells.sets.items.empty(); }
+
+  // with the stiffness of the cells that count
+  const Array<double>& weights_of_cells() const
+  {
+    return has_stars_as_cells() ? m_stars.weights : m_weights_of_cells;
+  }
+
+  // for each star the sum over its cells
+  Array<double> total_stiffness(const Array<double>& stiffness) const
+  {
+    Array<double> sums(m_stars.size(), 0);
+    for(int i = 0; i < m_stars.size(); ++i)
+      for(int k = m_cells_of_stars.begin[i]; k < m_cells_of_stars.begin[i + 1]; ++k)
+        sums[i] += stiffness[m_cells_of_stars.items[k]];
+    return sums;
+  }
+
+  // Those of the edges at movable vertices. Most weights are symmetric: then there is nothing to
+  // store.
+  Array<double> opposite_weights(const Array<double>& weights) const
   {
     Array<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
     bool is_symmetric = true;
     for(int i = 0; i < m_number_of_movable_vertices; ++i)
       for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
       {
-        opposite[e] = m_stars.weights[m_stars.find(m_stars.neighbours.items[e], i)];
-        is_symmetric &= opposite[e] == m_stars.weights[e];
+        opposite[e] = weights[m_stars.find(m_stars.neighbours.items[e], i)];
+        is_symmetric &= opposite[e] == weights[e];
       }
-    if(!is_symmetric)
-      m_opposite_weights = std::move(opposite);
+    return is_symmetric ? Array<double>() : opposite;
   }
 
   Star_view view(const Double4* rest, const Double4* x) const
@@ -213,9 +308,16 @@ private:
   }
 
   Stars m_stars;
+  Cells m_cells;                // empty if each star is a cell
+  Index_lists m_cells_of_stars;
   Array<double> m_opposite_weights; // of the movable vertices; empty if they are the same
   int m_number_of_movable_vertices = 0;
-  Index_ranges m_chosen;
+  Index_ranges m_chosen;         // the stars of the cells that count
+  Array<double> m_stiffness;     // of the cells, 0 for those that do not count
+  Array<double> m_weights_of_cells;
+  Array<Matrix_3x3> m_covariances; // of the stars, all that follows too
+  Array<Matrix_3x3> m_means;       // of the rotations of its cells
+  Array<Matrix_3x3> m_rest_covariances;
 };
 
 } // namespace internal

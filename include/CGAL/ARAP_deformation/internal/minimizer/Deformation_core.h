@@ -14,13 +14,13 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
+#include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
@@ -28,6 +28,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -51,6 +52,13 @@ struct Core_models
   bool is_parallel;
 };
 
+// the rotation that a handle gives the cells at a vertex
+struct Frame
+{
+  int vertex;
+  Matrix_3x3 rotation;
+};
+
 // What becomes of components of free vertices that nothing constrains: they are refused, become
 // fixed, or become fixed if there are other free vertices.
 enum class Unconstrained_components { refused, fixed, fixed_beside_others };
@@ -66,7 +74,7 @@ class Deformation_core
 public:
   // Computes what depends on the region and not on constraints or positions: weights, edge sets,
   // cells, the Laplacian.
-  Deformation_core(const Core_models& models, Region region, Cell_scheme cells,
+  Deformation_core(const Core_models& models, Region region, Energy_model energy_model,
                    Minimization_order order, unsigned int number_of_threads);
   ~Deformation_core();
 
@@ -76,9 +84,9 @@ public:
   // whether the weights have changed since they were computed
   bool are_weights_stale() const { return m_models.weight->version() != m_weights_version; }
 
-  // Computes the weights again, and all that depends on them. The order of the factor is kept;
-  // set_constraints() must be called before another run.
-  void update_weights(unsigned int number_of_threads);
+  // Computes the weights again, and all that depends on them. The cells must be the same. The order
+  // of the factor is kept; set_constraints() must be called before another run.
+  void update_weights(Energy_model energy_model, unsigned int number_of_threads);
 
   const Region& region() const { return m_region; }
 
@@ -108,10 +116,11 @@ public:
   void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations; there is a target for each row of the constraints. Keeps only the
-  // factorization for the initial guess.
+  // rotations but for those that the frames give; there is a target for each row of the
+  // constraints. Keeps only the factorization for the initial guess.
   Diagnosis run(const Options& options, const Observer& observe,
-                const std::vector<Coordinates>& targets, std::vector<Coordinates>& x,
+                const std::vector<Coordinates>& targets, const std::vector<Frame>& frames,
+                std::vector<Coordinates>& x,
                 std::vector<Matrix_3x3>& rotations, Report& report);
 
   // the number of tetrahedra that are inside out at the positions x; 0 on a surface
@@ -124,13 +133,15 @@ private:
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
   Diagnosis run_in_arena(const Options& options, const Observer& observe,
-                         const std::vector<Coordinates>& targets, std::vector<Coordinates>& x,
+                         const std::vector<Coordinates>& targets,
+                         const std::vector<Frame>& frames, std::vector<Coordinates>& x,
                          std::vector<Matrix_3x3>& rotations, Report& report);
+  std::vector<std::pair<int, Matrix_3x3>> rotations_of_cells(const std::vector<Frame>& frames) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }
 
   Core_models m_models;
   Region m_region;
-  Cell_scheme m_cells;
+  Energy_model m_energy_model;
   Minimization_order m_order;
   std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;

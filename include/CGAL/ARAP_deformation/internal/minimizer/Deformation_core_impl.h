@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
+#include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
@@ -29,6 +30,7 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
 
@@ -49,9 +51,10 @@ struct Deformation_core::State
 };
 
 CGAL_ARAP_INLINE_FUNCTION
-Deformation_core::Deformation_core(const Core_models& models, Region region, Cell_scheme cells,
-                                   Minimization_order order, unsigned int number_of_threads)
-  : m_models(models), m_region(std::move(region)), m_cells(cells), m_order(order)
+Deformation_core::Deformation_core(const Core_models& models, Region region,
+                                   Energy_model energy_model, Minimization_order order,
+                                   unsigned int number_of_threads)
+  : m_models(models), m_region(std::move(region)), m_order(order)
 {
   m_is_isolated = Array<char>(m_region.number_of_movable_vertices, true);
   for(int v : m_region.corners)
@@ -60,12 +63,13 @@ Deformation_core::Deformation_core(const Core_models& models, Region region, Cel
   Bounding_box box;
   box.include(m_region.rest);
   m_squared_size = box.squared_length();
-  update_weights(number_of_threads);
+  update_weights(std::move(energy_model), number_of_threads);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Deformation_core::update_weights(unsigned int number_of_threads)
+void Deformation_core::update_weights(Energy_model energy_model, unsigned int number_of_threads)
 {
+  m_energy_model = std::move(energy_model);
   run_with_threads(threads(number_of_threads), [&] { m_diagnosis = prepare(); });
 }
 
@@ -82,7 +86,7 @@ Diagnosis Deformation_core::prepare()
   if(const int s = find_non_finite_simplex(simplices); s >= 0)
     return {Status::non_finite_weight, -1, s};
   Deformation_energy energy =
-    make_deformation_energy(*m_models.weight, std::move(simplices), m_cells, m_region);
+    make_deformation_energy(*m_models.weight, std::move(simplices), m_energy_model, m_region);
   if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
     return {Status::non_finite_weight, v};
   m_rotations.resize(static_cast<std::size_t>(energy.number_of_cells()), identity_matrix());
@@ -172,19 +176,56 @@ void Deformation_core::reset_rotations()
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
                                 const std::vector<Coordinates>& targets,
-                                std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
-                                Report& report)
+                                const std::vector<Frame>& frames, std::vector<Coordinates>& x,
+                                std::vector<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
   run_with_threads(threads(options.threads), [&] {
-    diagnosis = run_in_arena(options, observe, targets, x, rotations, report);
+    diagnosis = run_in_arena(options, observe, targets, frames, x, rotations, report);
   });
   return diagnosis;
+}
+
+// A frame holds for the cell of its vertex, or for all simplices at it; a simplex with several
+// frames gets their mean.
+CGAL_ARAP_INLINE_FUNCTION
+std::vector<std::pair<int, Matrix_3x3>>
+Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
+{
+  std::vector<std::pair<int, Matrix_3x3>> given;
+  if(m_energy_model.cells.has_vertex_cells())
+  {
+    for(const Frame& frame : frames)
+      if(frame.vertex < static_cast<int>(m_rotations.size()))
+        given.emplace_back(frame.vertex, frame.rotation);
+    return given;
+  }
+  if(frames.empty())
+    return given;
+  Array<const Matrix_3x3*> frame_of(m_region.number_of_vertices(), nullptr);
+  for(const Frame& frame : frames)
+    frame_of[frame.vertex] = &frame.rotation;
+  for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
+  {
+    Matrix_3x3 sum{};
+    bool is_given = false;
+    for(int k = 0; k < m_region.number_of_corners(s); ++k)
+      if(const Matrix_3x3* const rotation = frame_of[m_region.corners_of(s)[k]])
+      {
+        is_given = true;
+        for(std::size_t entry = 0; entry < 9; ++entry)
+          sum[entry] += (*rotation)[entry];
+      }
+    if(is_given)
+      given.emplace_back(s, Svd_rotation::closest(sum));
+  }
+  return given;
 }
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
                                          const std::vector<Coordinates>& targets,
+                                         const std::vector<Frame>& frames,
                                          std::vector<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
@@ -208,10 +249,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(!(box.squared_length() <= 4 * size))
       x = before;
   }
-  if(options.initial_guess == Initial_guess::previous &&
+  if(options.initial_guess == Initial_guess::previous && frames.empty() &&
      m_order == Minimization_order::local_first &&
      m_constraints.number_of_free_vertices() > 0)
     start_rigidly(m_region, m_squared_size, m_constraints, m_is_untied, targets, x);
+  m_state->energy.set_given_rotations(rotations_of_cells(frames));
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   if(m_order == Minimization_order::global_first)

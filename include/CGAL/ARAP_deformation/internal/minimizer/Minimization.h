@@ -61,6 +61,8 @@ public:
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
         m_fixed_vertices.push_back(v);
+    if(m_energy.are_rotations_state())
+      m_last_rotations = m_rotations;
     measure();
   }
 
@@ -68,6 +70,8 @@ public:
   double evaluate()
   {
     Scoped_seconds local(report.seconds.local_steps);
+    if(m_energy.are_rotations_state()) // each trial starts from those of the last iterate
+      m_rotations = m_last_rotations;
     return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
 
@@ -128,6 +132,8 @@ public:
       m_gap.add(decrease, report);
     }
     report.energy.push_back(m_value);
+    if(m_energy.are_rotations_state())
+      m_last_rotations = m_rotations;
     if(!std::isfinite(m_value))
       return Status::non_finite_energy;
     estimate_gap();
@@ -192,6 +198,7 @@ private:
   const Observer& m_observe;
   const std::vector<Coordinates>& m_targets;
   std::vector<Matrix_3x3>& m_rotations;
+  std::vector<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
   std::vector<Coordinates> m_force;
   double m_value = 0;
   Gap_estimate m_gap;

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -60,6 +61,8 @@ public:
     return q;
   }
 
+  const Matrix_3x3& rotation() const { return m_rotation; }
+
   // the largest squared distance that is left between two corresponding points
   double squared_error() const { return m_squared_error; }
 
@@ -76,6 +79,32 @@ private:
   Matrix_3x3 m_rotation;
   double m_squared_error = 0;
 };
+
+// The rotation of the rigid motion that takes points to others, if there is one and only one.
+inline std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinates>& from,
+                                                    const std::vector<Coordinates>& to)
+{
+  double length = 0, area = 0; // squares, of the triangles at the first point
+  Coordinates longest = {0, 0, 0};
+  for(const Coordinates& p : from)
+    if(const Coordinates edge = difference(p, from[0]); dot(edge, edge) > length)
+    {
+      longest = edge;
+      length = dot(edge, edge);
+    }
+  for(const Coordinates& p : from)
+  {
+    const Coordinates normal = cross(longest, difference(p, from[0]));
+    area = (std::max)(area, dot(normal, normal));
+  }
+  constexpr double tolerance = 1e-12; // of squares
+  if(!(area > tolerance * length * length))
+    return std::nullopt;
+  const Rigid_fit fit(from, to);
+  if(!(fit.squared_error() <= tolerance * length))
+    return std::nullopt;
+  return fit.rotation();
+}
 
 // Where the free vertices are a rigid copy of the rest shape, and all that constrains them is
 // another one, moves them there: the minimum is zero, and many iterations of any minimizer away.

@@ -65,6 +65,25 @@ constexpr Matrix_3x3 identity_matrix()
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};
 }
 
+inline double determinant(const Matrix_3x3& m)
+{
+  return dot({m[0], m[1], m[2]}, cross({m[3], m[4], m[5]}, {m[6], m[7], m[8]}));
+}
+
+// whether a matrix is a rotation, but for what single precision leaves of one
+inline bool is_rotation(const Matrix_3x3& m)
+{
+  const Coordinates rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  double error = 0;
+  for(int r = 0; r < 3; ++r)
+    for(int c = 0; c < 3; ++c)
+    {
+      const double off = dot(rows[r], rows[c]) - (r == c ? 1 : 0);
+      error += off * off;
+    }
+  return error < 1e-10 && determinant(m) > 0; // not if there is an NaN
+}
+
 // tells by the exponent, since -ffast-math takes std::isfinite() to be true
 inline bool is_finite(double x)
 {

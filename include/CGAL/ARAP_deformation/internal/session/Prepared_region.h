@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/session/core_models.h>
@@ -51,7 +52,7 @@ public:
   // same.
   struct Versions
   {
-    std::size_t region, constraints;
+    std::size_t region, values, constraints;
   };
 
   explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
@@ -110,31 +111,43 @@ public:
   // To be called when vertices were fixed or freed, or the weight of a target was changed.
   void constraints_changed() { m_present.constraints = ++m_last_version; }
 
+  // To be called when the stiffness of cells or the length of an option was changed.
+  void values_changed()
+  {
+    m_present.values = ++m_last_version;
+    constraints_changed();
+  }
+
   // To be called when the region of interest, the cells or the rest shape were changed.
   void region_changed()
   {
     m_present.region = ++m_last_version;
-    constraints_changed();
+    values_changed();
   }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
-  Outcome prepare(const Vertices& vertices, const Traits& traits, const Options& options,
-                  Stages& stages)
+  Outcome prepare(const Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+                  const Options& options, Stages& stages)
   {
-    if(has_region() && core().are_weights_stale())
+    if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
     {
       stages.weights = true;
       m_ready.constraints = none;
-      core().update_weights(options.threads);
+      Energy_model model;
+      m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
+      if(!m_outcome)
+        return m_outcome;
+      core().update_weights(std::move(model), options.threads);
       if(core().diagnosis().status != Status::success)
       {
         m_outcome = explain(core().diagnosis(), vertices.domain());
         m_ready.region = none;
         return m_outcome;
       }
+      m_ready.values = m_present.values;
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
-      m_outcome = update(vertices, traits, options, stages);
+      m_outcome = update(vertices, values, traits, options, stages);
     return m_outcome;
   }
 
@@ -167,7 +180,9 @@ public:
   // The entries of the vertices have been restored before. Stages that are the same stay ready.
   void restore(State state, const Vertices& vertices)
   {
+    const std::size_t values = m_present.values; // stiffness and options are no part of it
     m_present = state.present;
+    m_present.values = values;
     if(!has_region())
       return;
     if(m_prepared->numbering == state.numbering)
@@ -205,9 +220,10 @@ private:
     }
   };
 
-  Outcome update(const Vertices& vertices, const Traits& traits, const Options& options,
-                 Stages& stages)
+  Outcome update(const Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+                 const Options& options, Stages& stages)
   {
+    m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
     m_ready.constraints = none; // a failure may have released the factor
     const auto& entries = vertices.entries();
     std::size_t roi_size = 0, number_of_fixed = 0, number_of_controls = 0;
@@ -231,7 +247,7 @@ private:
       next.emplace();
       next->numbering = ++m_last_numbering;
       next->is_whole = is_whole(roi_size, number_of_fixed);
-      if(Outcome made = make_region(vertices, traits, options, *next); !made)
+      if(Outcome made = make_region(vertices, values, traits, options, *next); !made)
         return made;
     }
     Prepared& prepared = next ? *next : *m_prepared;
@@ -263,10 +279,11 @@ private:
 
   // Movable is all of the region of interest, so that handles may change without another region.
   // But where most of it is fixed, these are the free vertices and their neighbours: the cost
-  // follows what can move.
+  // follows what can move. Not so if rotations depend on those of cells that are far away.
   bool is_whole(std::size_t roi_size, std::size_t number_of_fixed) const
   {
-    return m_rules.order == Minimization_order::global_first || 2 * number_of_fixed <= roi_size;
+    return m_rules.order == Minimization_order::global_first || m_are_rotations_coupled ||
+           2 * number_of_fixed <= roi_size;
   }
 
   bool needs_region(const Vertices& vertices, std::size_t roi_size,
@@ -286,8 +303,8 @@ private:
            });
   }
 
-  Outcome make_region(const Vertices& vertices, const Traits& traits, const Options& options,
-                      Prepared& prepared) const
+  Outcome make_region(const Vertices& vertices, const Cell_values<Domain>& values,
+                      const Traits& traits, const Options& options, Prepared& prepared) const
   {
     const Domain& domain = vertices.domain();
     const auto name = [&](vertex_descriptor v) { return vertex_name(domain.index(v)); };
@@ -297,7 +314,7 @@ private:
     if(!prepared.is_whole)
       append_neighbours(vertices, movable);
     auto& region = prepared.region;
-    if(!region.collect(domain, movable))
+    if(!region.collect(domain, movable, static_cast<int>(options.cells.rings())))
       return outcome(region.refusal(), name(region.refused_vertex()));
 
     prepared.positions.reserve(region.vertices.size());
@@ -318,8 +335,12 @@ private:
     }
     if(const int v = find_non_finite(prepared.positions); v >= 0)
       return outcome(Status::non_finite_point, name(region.vertices[v]));
-    prepared.core = std::make_unique<Deformation_core>(
-      core_models(traits), std::move(region.flat), options.cells, m_rules.order, options.threads);
+    Energy_model model;
+    if(Outcome filled = values.fill_in(model, options, domain, region, region.flat); !filled)
+      return filled;
+    prepared.core = std::make_unique<Deformation_core>(core_models(traits), std::move(region.flat),
+                                                       std::move(model), m_rules.order,
+                                                       options.threads);
     return explain(prepared.core->diagnosis(), domain, prepared);
   }
 
@@ -399,7 +420,8 @@ private:
   std::vector<int> m_soft_vertices;
   std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
-  Versions m_present = {1, 1}, m_ready = {none, none};
+  bool m_are_rotations_coupled = false;
+  Versions m_present = {1, 1, 1}, m_ready = {none, none, none};
   std::size_t m_last_version = 1, m_last_numbering = none;
 };
 

@@ -20,7 +20,9 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
@@ -68,8 +70,12 @@ public:
     Outcome checked = options.check();
     if(checked)
     {
-      if(options.cells != m_options.cells)
+      if(options.cells != m_options.cells ||
+         (options.smoothing_length > 0) != (m_options.smoothing_length > 0))
         region_changed();
+      else if(options.bending_length != m_options.bending_length ||
+              options.smoothing_length != m_options.smoothing_length)
+        values_changed();
       m_options = options;
     }
     return checked;
@@ -166,9 +172,60 @@ public:
     return Outcome(Status::success, std::string());
   }
 
+  // the rotation of the cells at a control vertex, or none: then it is fitted
+  Outcome set_rotation(vertex_descriptor v, const std::optional<Matrix_3x3>& rotation)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    auto* entry = m_vertices.find_control(v);
+    if(entry == nullptr)
+      return outcome(Status::not_a_control_vertex, name(v));
+    if(rotation && !is_rotation(*rotation))
+      return outcome(Status::invalid_rotation, name(v));
+    m_vertices.rotation(*entry) = rotation;
+    return Outcome(Status::success, std::string());
+  }
+
+  // the same for each of some control vertices: the rotation of their rigid motion
+  Outcome set_rotations_of_motion(const std::vector<vertex_descriptor>& vertices)
+  {
+    std::vector<Coordinates> rest, targets;
+    for(vertex_descriptor v : vertices)
+    {
+      const auto* entry = m_vertices.find_control(v);
+      if(entry == nullptr)
+        return outcome(Status::not_a_control_vertex, name(v));
+      rest.push_back(Domain::coordinates(entry->rest));
+      targets.push_back(Domain::coordinates(m_vertices.target(*entry)));
+    }
+    const std::optional<Matrix_3x3> rotation = rotation_of_motion(rest, targets);
+    if(!rotation)
+      return Outcome(Status::invalid_rotation, "the targets are no rigid motion of the rest shape, "
+                     "or the vertices lie on a line");
+    Outcome result(Status::success, std::string());
+    for(auto v = vertices.begin(); v != vertices.end() && result; ++v)
+      result = set_rotation(*v, rotation);
+    return result;
+  }
+
+  // The stiffness of cells, and which share a rotation. `change` is called with the values.
+  template <typename Function>
+  Outcome change_cell_values(const Function& change)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    const bool had_groups = m_cell_values.has_groups();
+    change(m_cell_values);
+    if(had_groups || m_cell_values.has_groups())
+      region_changed();
+    else
+      values_changed();
+    return Outcome(Status::success, std::string());
+  }
+
   Outcome preprocess()
   {
-    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
+    Outcome prepared = m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
@@ -322,12 +379,19 @@ protected:
     return m_is_in_a_run;
   }
 
-  // these two return true, for the functions that say whether they changed something
+  // these return true, for the functions that say whether they changed something
 
   bool region_changed()
   {
     m_prepared.region_changed();
     m_is_region_written = false;
+    m_energy = not_a_number;
+    return true;
+  }
+
+  bool values_changed()
+  {
+    m_prepared.values_changed();
     m_energy = not_a_number;
     return true;
   }
@@ -353,7 +417,7 @@ protected:
       return taken;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      const Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
+      const Outcome prepared = m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
       report.stages = std::exchange(m_stages, {});
       if(!prepared)
         return prepared;
@@ -374,7 +438,7 @@ protected:
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = core.run(options, observe, targets, positions, rotations, report);
+    const Diagnosis diagnosis = core.run(options, observe, targets, frames(), positions, rotations, report);
     Outcome result = m_prepared.explain(diagnosis, domain());
     if(result)
     {
@@ -447,6 +511,17 @@ protected:
       targets.push_back(
         Domain::coordinates(m_vertices.target(*m_vertices.find(region.vertices[v]))));
     return outcome(Status::success);
+  }
+
+  // the rotations that are given to cells at control vertices
+  std::vector<Frame> frames() const
+  {
+    std::vector<Frame> frames;
+    for(const auto& entry : m_vertices.entries())
+      if(entry.is_control && m_vertices.rotation(entry))
+        if(const int v = m_prepared.region().find_vertex(domain(), entry.vertex); v >= 0)
+          frames.push_back({v, *m_vertices.rotation(entry)});
+    return frames;
   }
 
   // adds to the message what a user would not expect
@@ -539,6 +614,7 @@ protected:
   bool m_are_points_written = true; // those of the last run, all of them
   bool m_is_region_written = true; // whether note_region_as_written() was called since its change
   Stages m_stages;                 // since the last run
+  Cell_values<Domain> m_cell_values;
   Prepared_region<Domain, Traits> m_prepared;
 };
 

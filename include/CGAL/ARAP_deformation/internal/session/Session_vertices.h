@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -71,6 +72,16 @@ public:
   // the weight of the target of a control vertex
   double& weight(const Entry& entry) { return m_targets[entry.target].weight; }
   double weight(const Entry& entry) const { return m_targets[entry.target].weight; }
+
+  // the rotation of the cells at a control vertex, if it is given
+  std::optional<Matrix_3x3>& rotation(const Entry& entry)
+  {
+    return m_targets[entry.target].rotation;
+  }
+  const std::optional<Matrix_3x3>& rotation(const Entry& entry) const
+  {
+    return m_targets[entry.target].rotation;
+  }
 
   bool is_hard_control(const Entry& entry) const
   {
@@ -137,7 +148,7 @@ public:
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
       m_targets.reserve(2 * m_targets.size() + 1);
-    Target target = {present(v), hard};
+    Target target = {present(v), hard, {}};
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {
@@ -226,6 +237,7 @@ public:
   {
     Point point;
     double weight;
+    std::optional<Matrix_3x3> rotation; // of the cells there, if it is given
   };
 
   // all of it, as a value

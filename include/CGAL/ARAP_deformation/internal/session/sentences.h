@@ -93,6 +93,11 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
     return about(" is not a control vertex and has no target; insert it as a control vertex first");
   case Status::invalid_weight:
     return about(" was given a target weight that is negative or not a number");
+  case Status::invalid_stiffness:
+    return about(" has a stiffness that is negative, infinite or not a number");
+  case Status::invalid_rotation:
+    return about(" was given a target rotation that is not a rotation: its columns must have "
+                 "length 1, be orthogonal, and be right-handed");
   case Status::not_a_simplex:
     return about(" is incident to a face that is not a polygon, or to a cell that is not a "
                  "tetrahedron: the number of corners is wrong, or a corner is repeated or missing");

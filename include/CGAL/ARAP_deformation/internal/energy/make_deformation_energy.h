@@ -1,0 +1,269 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_MAKE_DEFORMATION_ENERGY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_MAKE_DEFORMATION_ENERGY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Bending.h>
+#include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
+#include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
+#include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
+#include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// the area or volume of simplex s of the rest shape
+inline double content_of(const Region& region, int s)
+{
+  const int* const corners = region.corners_of(s);
+  const auto edge = [&](int k) {
+    return difference(region.rest[corners[k]], region.rest[corners[0]]);
+  };
+  if(region.dimension == 3)
+    return std::abs(dot(edge(1), cross(edge(2), edge(3)))) / 6;
+  Coordinates normal = {0, 0, 0};
+  for(int k = 1; k + 1 < region.number_of_corners(s); ++k)
+    add(normal, 0.5, cross(edge(k), edge(k + 1)));
+  return std::sqrt(dot(normal, normal));
+}
+
+// Calls f(facet) for each edge of polygon s, or triangle of tetrahedron s: the sorted numbers of
+// its vertices, the last of which is -1 for an edge.
+template <typename Function>
+void for_each_facet(const Region& region, int s, const Function& f)
+{
+  const int* const corners = region.corners_of(s);
+  const int n = region.number_of_corners(s);
+  for(int k = 0; k < n; ++k)
+  {
+    std::array<int, 3> facet = {corners[k], corners[(k + 1) % n], -1};
+    if(region.dimension == 3)
+      facet[2] = corners[(k + 2) % n];
+    std::sort(facet.begin(), facet.end(), std::greater<int>());
+    f(facet);
+  }
+}
+
+// for each centre whether it is on the border: a facet there has one simplex only
+inline Array<char> find_border(const Region& region)
+{
+  std::vector<std::array<int, 3>> facets;
+  facets.reserve(region.corners.size());
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+    for_each_facet(region, s, [&](const std::array<int, 3>& facet) { facets.push_back(facet); });
+  std::sort(facets.begin(), facets.end());
+  Array<char> is_on_border(region.number_of_centres, false);
+  for(auto begin = facets.begin(); begin != facets.end();)
+  {
+    const auto end = std::upper_bound(begin, facets.end(), *begin);
+    if(end - begin == 1)
+      for(int v : *begin)
+        if(0 <= v && v < region.number_of_centres)
+          is_on_border[v] = true;
+    begin = end;
+  }
+  return is_on_border;
+}
+
+// the stiffness of a cell, 1 where nothing is said
+inline double stiffness_of(const Energy_model& model, int c)
+{
+  return model.stiffness.empty() ? 1 : model.stiffness[c];
+}
+
+inline Bending make_bending(const Energy_model& energy_model, const Region& region)
+{
+  // a vertex with less of an area than this share of its squared edges has none
+  constexpr double negligible = 1e-10;
+  const Edge_weight_model_of<Cotangent_weight> cotangent{Cotangent_weight()};
+  Stars stars = star_edge_sets(cotangent, weighted_simplices(cotangent, region), region);
+  Array<double> masses(region.number_of_centres, 0);
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+  {
+    const int n = region.number_of_corners(s);
+    const double share = content_of(region, s) / n;
+    for(int k = 0; k < n; ++k)
+      if(const int v = region.corners_of(s)[k]; v < region.number_of_centres)
+        masses[v] += share;
+  }
+  const Array<char> is_on_border = find_border(region);
+  Array<double> factors(region.number_of_centres, 0);
+  for(int i = 0; i < region.number_of_centres; ++i)
+  {
+    double square = 0;
+    for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e)
+    {
+      const Coordinates edge = difference(region.rest[i], region.rest[stars.neighbours.items[e]]);
+      square = (std::max)(square, dot(edge, edge));
+    }
+    if(is_on_border[i] || i >= region.number_of_vertex_cells ||
+       !(masses[i] > negligible * std::pow(square, 0.5 * region.dimension)))
+      masses[i] = 0;
+    else
+      factors[i] = energy_model.bending_length * energy_model.bending_length *
+                   stiffness_of(energy_model, i);
+  }
+  return Bending(std::move(stars), std::move(masses), std::move(factors), region.rest,
+                 region.number_of_movable_vertices);
+}
+
+// The weights approximate the integral of the squared gradient of the rotations, times the squared
+// smoothing length: for cells at vertices they are cotangents, where these are positive, and for
+// cells that are simplices the content of the common facet over the distance of the centroids.
+inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
+                                              const Region& region, int number_of_cells)
+{
+  const double factor = energy_model.smoothing_length * energy_model.smoothing_length;
+  Index_lists neighbours;
+  Array<double> weights;
+  if(energy_model.cells.has_vertex_cells())
+  {
+    const Edge_weight_model_of<Clamped_cotangent_weight> cotangent{Clamped_cotangent_weight()};
+    const Stars stars =
+      star_edge_sets(cotangent, weighted_simplices(cotangent, region), region);
+    for(int c = 0; c < number_of_cells; ++c)
+    {
+      for(int e = stars.neighbours.begin[c]; e < stars.neighbours.begin[c + 1]; ++e)
+        if(stars.neighbours.items[e] < number_of_cells)
+        {
+          neighbours.items.push_back(stars.neighbours.items[e]);
+          weights.push_back(factor * stars.weights[e]);
+        }
+      neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+    }
+    return Smooth_rotations(std::move(neighbours), std::move(weights));
+  }
+
+  Array<Coordinates> centroids(number_of_cells, Coordinates{0, 0, 0});
+  std::map<std::array<int, 3>, std::vector<int>> simplices_at; // each facet
+  for(int s = 0; s < number_of_cells; ++s)
+  {
+    const int n = region.number_of_corners(s);
+    for(int k = 0; k < n; ++k)
+      add(centroids[s], 1.0 / n, region.rest[region.corners_of(s)[k]]);
+    for_each_facet(region, s,
+                   [&](const std::array<int, 3>& facet) { simplices_at[facet].push_back(s); });
+  }
+  std::vector<std::vector<std::pair<int, double>>> lists(static_cast<std::size_t>(number_of_cells));
+  for(const auto& [facet, simplices] : simplices_at)
+    for(int s : simplices)
+      for(int other : simplices)
+        if(s != other)
+        {
+          const Coordinates side = difference(region.rest[facet[1]], region.rest[facet[0]]),
+                            apart = difference(centroids[s], centroids[other]);
+          Coordinates content = side;
+          if(facet[2] >= 0)
+            content = scaled(
+              cross(side, difference(region.rest[facet[2]], region.rest[facet[0]])), 0.5);
+          const double weight = std::sqrt(dot(content, content) / dot(apart, apart));
+          if(is_finite(weight))
+            lists[static_cast<std::size_t>(s)].emplace_back(other, factor * weight);
+        }
+  for(const auto& list : lists)
+  {
+    for(const auto& [other, weight] : list)
+    {
+      neighbours.items.push_back(other);
+      weights.push_back(weight);
+    }
+    neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+  }
+  return Smooth_rotations(std::move(neighbours), std::move(weights));
+}
+
+inline Deformation_energy make_rigidity(const Edge_weight_model& model, Simplices simplices,
+                                        const Energy_model& energy_model, const Region& region)
+{
+  const int n = region.number_of_movable_vertices;
+  const Cell_scheme scheme = energy_model.cells;
+  if(scheme.edge_set() == Edge_set::star)
+  {
+    Stars stars = star_edge_sets(model, simplices, region);
+    if(scheme.rings() > 0)
+    {
+      Cells cells = ring_cells(stars.neighbours, region.number_of_vertex_cells, scheme.rings());
+      for(int c = 0; c < cells.size(); ++c)
+        cells.stiffness[c] = stiffness_of(energy_model, c);
+      return Deformation_energy(Star_energy(std::move(stars), std::move(cells), region.rest, n),
+                                region.rest, n);
+    }
+    for(int i = 0; i < stars.size() && !energy_model.stiffness.empty(); ++i)
+      for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e)
+        stars.weights[e] *= energy_model.stiffness[i];
+    return Deformation_energy(Star_energy(std::move(stars), n), region.rest, n);
+  }
+  simplices = simplex_edge_sets(model, std::move(simplices), region);
+  Cells cells = scheme.grouped_at_vertices()
+                  ? vertex_cells(simplices.corners, region.number_of_centres)
+                  : separate_cells(region.number_of_movable_simplices);
+  for(int c = 0; c < cells.size(); ++c)
+    cells.stiffness[c] = stiffness_of(energy_model, c);
+  return Deformation_energy(Simplex_energy(std::move(simplices), std::move(cells), n), region.rest,
+                            n);
+}
+
+inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,
+                                                  Simplices simplices,
+                                                  const Energy_model& energy_model,
+                                                  const Region& region)
+{
+  Deformation_energy energy = make_rigidity(model, std::move(simplices), energy_model, region);
+  if(energy_model.bending_length > 0)
+    energy.set_bending(make_bending(energy_model, region));
+  if(energy_model.smoothing_length > 0)
+    energy.set_smooth_rotations(
+      make_smooth_rotations(energy_model, region, energy.number_of_cells()));
+  if(!energy_model.group.empty())
+  {
+    std::map<int, std::vector<int>> groups;
+    for(int c = 0; c < energy.number_of_cells(); ++c)
+      if(energy_model.group[c] >= 0)
+        groups[energy_model.group[c]].push_back(c);
+    Index_lists lists;
+    for(const auto& group : groups)
+    {
+      lists.items.insert(lists.items.end(), group.second.begin(), group.second.end());
+      lists.begin.push_back(static_cast<int>(lists.items.size()));
+    }
+    energy.set_groups(std::move(lists));
+  }
+  return energy;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_MAKE_DEFORMATION_ENERGY_H

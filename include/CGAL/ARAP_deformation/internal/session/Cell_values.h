@@ -1,0 +1,130 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_CELL_VALUES_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_CELL_VALUES_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
+#include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+#include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
+
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// What a user says of cells: their stiffness, and which share a rotation. Cells are at vertices or
+// are simplices, so that a map of the other kind is not asked.
+template <typename Domain>
+class Cell_values
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using simplex_descriptor = typename Domain::simplex_descriptor;
+
+  template <typename Map>
+  void set_stiffness(Map map) { m_stiffness.set(std::move(map), 1.0); }
+  template <typename Map>
+  void set_groups(Map map) { m_group.set(std::move(map), -1); }
+
+  void clear_stiffness() { m_stiffness = Values<double>(); }
+  void clear_groups() { m_group = Values<int>(); }
+  bool has_groups() const { return !m_group.is_empty(); }
+
+  // Fills in the model for the cells of a region, if there is nothing wrong with the values.
+  Outcome fill_in(Energy_model& model, const Options& options, const Domain& domain,
+                  const Domain_region<Domain>& region, const Region& flat) const
+  {
+    model.cells = options.cells;
+    model.bending_length = options.bending_length;
+    model.smoothing_length = options.smoothing_length;
+    const bool is_at_vertices = options.cells.has_vertex_cells();
+    model.stiffness = m_stiffness.of(is_at_vertices, domain, region, flat);
+    model.group = m_group.of(is_at_vertices, domain, region, flat);
+    for(std::size_t c = 0; c < model.stiffness.size(); ++c)
+      if(!(model.stiffness[c] >= 0) || !is_finite(model.stiffness[c]))
+        return outcome(Status::invalid_stiffness,
+                       is_at_vertices ? vertex_name(flat.indices[c])
+                                      : simplex_name(flat, static_cast<int>(c)));
+    return outcome(Status::success);
+  }
+
+private:
+  template <typename T>
+  class Values
+  {
+  public:
+    bool is_empty() const { return !m_of_vertex && !m_of_simplex; }
+
+    template <typename Map>
+    void set(Map map, T otherwise)
+    {
+      *this = Values();
+      constexpr bool are_both_indices = std::is_same_v<simplex_descriptor, std::size_t>;
+      constexpr bool has_simplices = are_both_indices || is_value_of<Map, simplex_descriptor>;
+      if constexpr(has_simplices)
+        m_of_simplex = [map, otherwise](simplex_descriptor s) {
+          std::size_t index = 0;
+          if constexpr(are_both_indices)
+            index = s;
+          T result = otherwise;
+          with_value(map, s, index, [&](T value) { result = value; });
+          return result;
+        };
+      if constexpr(are_both_indices || !has_simplices || is_value_of<Map, vertex_descriptor>)
+        m_of_vertex = [map, otherwise](vertex_descriptor v, std::size_t index) {
+          T result = otherwise;
+          with_value(map, v, index, [&](T value) { result = value; });
+          return result;
+        };
+    }
+
+    Array<T> of(bool is_at_vertices, const Domain& domain, const Domain_region<Domain>& region,
+                const Region& flat) const
+    {
+      Array<T> values;
+      if(is_at_vertices && m_of_vertex)
+        for(int v = 0; v < flat.number_of_centres; ++v)
+          values.push_back(m_of_vertex(region.vertices[v], domain.index(region.vertices[v])));
+      else if(!is_at_vertices && m_of_simplex)
+        for(int s = 0; s < flat.number_of_movable_simplices; ++s)
+          values.push_back(m_of_simplex(region.simplices[static_cast<std::size_t>(s)]));
+      return values;
+    }
+
+  private:
+    std::function<T(vertex_descriptor, std::size_t)> m_of_vertex;
+    std::function<T(simplex_descriptor)> m_of_simplex;
+  };
+
+  template <typename Map, typename Key>
+  static constexpr bool is_value_of =
+    is_valid<Call_map, Map, Key> || is_valid<Call_get, Map, Key> || is_valid<Call_find, Map, Key>;
+
+  Values<double> m_stiffness;
+  Values<int> m_group;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_CELL_VALUES_H
