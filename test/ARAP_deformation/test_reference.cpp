@@ -193,8 +193,8 @@ void test()
       std::vector<Dense_reference::Simplex> triangles;
       for(const auto& t : shape.triangles)
         triangles.emplace_back(t.begin(), t.end());
-      const Dense_reference reference(shape.points, triangles, 2, s.selection,
-                                      Dense_reference::SPOKES, Dense_reference::CLAMPED);
+      Dense_reference reference(shape.points, triangles, 2, s.selection,
+                                Dense_reference::SPOKES, Dense_reference::CLAMPED);
       std::vector<Eigen::Vector3d> x = s.targets, step = s.targets;
       reference.laplacian_guess(x);
       reference.iterate(step);

@@ -42,7 +42,10 @@ public:
   /// one cell for each vertex, with the stars of all vertices within `k` rings around it: the
   /// larger the cells, the smoother the rotations, and the stiffer the shape. `k_ring(0)` is
   /// `spokes()`. A local step costs about as many times more as a cell has stars.
-  static constexpr Cell_scheme k_ring(unsigned int k) { return Cell_scheme(Edge_set::star, false, k); }
+  static constexpr Cell_scheme k_ring(unsigned int k)
+  {
+    return Cell_scheme(Edge_set::star, false, k);
+  }
 
   /// one cell for each vertex, with the edges of all incident simplices
   /// \cgalCite{Chao2010SimpleGeomModel}. The energy is never negative with cotangent weights. The

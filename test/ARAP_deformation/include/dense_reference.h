@@ -21,8 +21,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 class Dense_reference
@@ -39,11 +41,29 @@ public:
 
   using Simplex = std::vector<std::size_t>; // a polygon, or a tetrahedron if the dimension is 3
 
+  // what is more than the paper's energy
+  struct Terms
+  {
+    unsigned int rings = 0;
+    std::vector<double> stiffness; // of each vertex or simplex, else 1
+    std::vector<int> group;        // of each vertex or simplex; negative: none
+    double bending_length = 0;
+    double smoothing_length = 0;
+    std::map<std::size_t, Eigen::Matrix3d> frames; // rotations given at vertices
+  };
+
   Dense_reference(const std::vector<Eigen::Vector3d>& points,
                   const std::vector<Simplex>& simplices, int dimension,
                   const std::vector<int>& selection, Cells cells, Weights weights)
+    : Dense_reference(points, simplices, dimension, selection, cells, weights, Terms())
+  {}
+
+  Dense_reference(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<Simplex>& simplices, int dimension,
+                  const std::vector<int>& selection, Cells cells, Weights weights,
+                  const Terms& terms)
     : m_rest(points), m_simplices(simplices), m_dimension(dimension), m_selection(selection),
-      m_weights(weights)
+      m_weights(weights), m_terms(terms)
   {
     for(std::size_t v = 0; v < m_rest.size(); ++v)
       if(selection[v] == 1)
@@ -53,6 +73,7 @@ public:
       }
       else
         m_row.push_back(-1);
+    m_is_element = cells == ELEMENTS;
     make_cells(cells);
   }
 
@@ -62,48 +83,45 @@ public:
     m_soft_positions.push_back({v, weight, target});
   }
 
-  // the energy with the best rotations
-  double energy(const std::vector<Eigen::Vector3d>& x) const
+  // The energy with the best rotations. If rotations are smooth these are what one step from the
+  // last ones, the identities at first, makes of them; they are those of the next iterate().
+  double energy(const std::vector<Eigen::Vector3d>& x)
   {
+    fit(x);
     double sum = 0;
     for(const Soft_position& soft : m_soft_positions)
       sum += soft.weight * (x[soft.vertex] - soft.target).squaredNorm();
-    for(const auto& cell : m_cells)
-    {
-      const Eigen::Matrix3d r = rotation(cell, x);
-      for(const Edge& e : cell)
-        sum += e.weight * ((x[e.i] - x[e.j]) - r * (m_rest[e.i] - m_rest[e.j])).squaredNorm();
-    }
+    for(std::size_t c = 0; c < m_cells.size(); ++c)
+      for(const Form& form : m_cells[c].forms)
+        sum += form.weight * (form.value(x) - m_rotations[c] * form.value(m_rest)).squaredNorm();
+    for(const auto& [pair, weight] : m_couplings)
+      sum += weight * (m_rotations[pair.first] - m_rotations[pair.second]).squaredNorm();
     return sum;
   }
 
   // one step of local/global: the minimizer of the energy for the rotations at x
-  void iterate(std::vector<Eigen::Vector3d>& x) const
+  void iterate(std::vector<Eigen::Vector3d>& x)
   {
+    if(m_terms.smoothing_length == 0)
+      fit(x);
     const auto n = Eigen::Index(m_free.size());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
-    const auto add = [&](std::size_t i, std::size_t j, double w, const Eigen::Vector3d& d) {
-      // the derivative of w || x_i - x_j - d ||^2 by x_i
-      const int row = m_row[i];
-      if(row < 0)
-        return;
-      a(row, row) += w;
-      b.row(row) += w * d.transpose();
-      if(m_row[j] >= 0)
-        a(row, m_row[j]) -= w;
-      else
-        b.row(row) += w * x[j].transpose();
-    };
-    for(const auto& cell : m_cells)
-    {
-      const Eigen::Matrix3d r = rotation(cell, x);
-      for(const Edge& e : cell)
+    for(std::size_t c = 0; c < m_cells.size(); ++c)
+      for(const Form& form : m_cells[c].forms) // weight || sum of coefficients x - target ||^2
       {
-        const Eigen::Vector3d d = r * (m_rest[e.i] - m_rest[e.j]);
-        add(e.i, e.j, e.weight, d);
-        add(e.j, e.i, e.weight, -d);
+        Eigen::Vector3d target = m_rotations[c] * form.value(m_rest);
+        for(const auto& [v, coefficient] : form.coefficients)
+          if(m_row[v] < 0)
+            target -= coefficient * x[v];
+        for(const auto& [v, coefficient] : form.coefficients)
+          if(m_row[v] >= 0)
+          {
+            b.row(m_row[v]) += form.weight * coefficient * target.transpose();
+            for(const auto& [w, other] : form.coefficients)
+              if(m_row[w] >= 0)
+                a(m_row[v], m_row[w]) += form.weight * coefficient * other;
+          }
       }
-    }
     for(const Soft_position& soft : m_soft_positions)
     {
       a(m_row[soft.vertex], m_row[soft.vertex]) += soft.weight;
@@ -240,45 +258,214 @@ private:
     return edges;
   }
 
-  // all cells that have an edge set with a free vertex, whole
+  // a linear combination of positions whose coefficients add up to zero
+  struct Form
+  {
+    double weight;
+    std::map<std::size_t, double> coefficients;
+
+    Eigen::Vector3d value(const std::vector<Eigen::Vector3d>& x) const
+    {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for(const auto& [v, coefficient] : coefficients)
+        sum += coefficient * x[v];
+      return sum;
+    }
+  };
+
+  struct Cell
+  {
+    std::vector<Form> forms;
+    std::vector<std::size_t> names; // its vertex or simplex, or all those of a group
+    bool is_moving = false;
+  };
+
+  // the Laplacian over the area or volume of a vertex, if it is not on the border
+  bool make_bending_form(std::size_t i, double factor, Form& form) const
+  {
+    double mass = 0;
+    std::map<std::set<std::size_t>, int> facets; // at i, with the number of their simplices
+    for(const Simplex& s : m_simplices)
+    {
+      if(!contains(s, i))
+        continue;
+      double content = 0;
+      if(m_dimension == 3)
+      {
+        content = std::abs((m_rest[s[1]] - m_rest[s[0]]).cross(m_rest[s[2]] - m_rest[s[0]])
+                             .dot(m_rest[s[3]] - m_rest[s[0]])) / 6;
+        for(std::size_t k : s)
+          if(k != i)
+          {
+            std::set<std::size_t> facet(s.begin(), s.end());
+            facet.erase(k);
+            ++facets[facet];
+          }
+      }
+      else
+      {
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+        for(std::size_t k = 0; k < s.size(); ++k)
+        {
+          const std::size_t next = s[(k + 1) % s.size()];
+          normal += (m_rest[s[k]] - m_rest[i]).cross(m_rest[next] - m_rest[i]) / 2;
+          if(s[k] == i || next == i)
+            ++facets[{s[k], next}];
+        }
+        content = normal.norm();
+      }
+      mass += content / double(s.size());
+      for(std::size_t j : s)
+        if(j != i)
+        {
+          form.coefficients[i] += cotangent_weight(s, i, j);
+          form.coefficients[j] -= cotangent_weight(s, i, j);
+        }
+    }
+    for(const auto& facet : facets)
+      if(facet.second == 1)
+        return false;
+    for(auto& entry : form.coefficients)
+      entry.second /= mass;
+    form.weight = factor * mass;
+    return true;
+  }
+
+  double stiffness(std::size_t name) const
+  {
+    return m_terms.stiffness.empty() ? 1 : m_terms.stiffness[name];
+  }
+
+  // All cells that have an edge set with a free vertex, whole; where rotations are smooth all.
   void make_cells(Cells scheme)
   {
-    const auto is_free = [this](std::size_t v) { return m_selection[v] == 1; };
-    const auto add = [&](const std::vector<Edge>& cell) {
-      for(const Edge& e : cell)
-        if(is_free(e.i) || is_free(e.j))
-        {
+    std::map<int, Cell> groups;
+    const auto add = [&](std::size_t name, const std::vector<Edge>& edges) {
+      Cell cell;
+      cell.names = {name};
+      cell.is_moving = m_terms.smoothing_length > 0;
+      for(const Edge& e : edges)
+      {
+        cell.forms.push_back({stiffness(name) * e.weight, {{e.i, 1.0}, {e.j, -1.0}}});
+        cell.is_moving |= m_selection[e.i] == 1 || m_selection[e.j] == 1;
+      }
+      Form form;
+      if(m_terms.bending_length > 0 &&
+         make_bending_form(name, std::pow(m_terms.bending_length, 2) * stiffness(name), form))
+        cell.forms.push_back(form);
+      if(m_terms.group.empty() || m_terms.group[name] < 0)
+      {
+        if(cell.is_moving)
           m_cells.push_back(cell);
-          return;
-        }
+        return;
+      }
+      Cell& group = groups[m_terms.group[name]];
+      group.names.push_back(name);
+      group.is_moving |= cell.is_moving;
+      group.forms.insert(group.forms.end(), cell.forms.begin(), cell.forms.end());
     };
     if(scheme == ELEMENTS)
+      for(std::size_t s = 0; s < m_simplices.size(); ++s)
+        add(s, simplex_edges(m_simplices[s]));
+    else
+      for(std::size_t i = 0; i < m_rest.size(); ++i)
+      {
+        std::vector<Edge> cell;
+        if(scheme == SPOKES)
+        {
+          std::set<std::size_t> stars = {i};
+          for(unsigned int ring = 0; ring < m_terms.rings; ++ring)
+            for(std::size_t star : std::set<std::size_t>(stars))
+              for(std::size_t j : neighbours(star))
+                stars.insert(j);
+          for(std::size_t star : stars)
+            for(std::size_t j : neighbours(star))
+              cell.push_back({star, j, star_weight(star, j)});
+        }
+        else
+          for(const Simplex& s : m_simplices)
+            if(contains(s, i))
+              for(const Edge& e : simplex_edges(s))
+                cell.push_back(e);
+        add(i, cell);
+      }
+    for(const auto& group : groups)
+      if(group.second.is_moving)
+        m_cells.push_back(group.second);
+    m_rotations.assign(m_cells.size(), Eigen::Matrix3d::Identity());
+    if(m_terms.smoothing_length > 0)
+      couple(scheme);
+  }
+
+  // the weights between neighbouring cells; there are no groups
+  void couple(Cells scheme)
+  {
+    const double factor = m_terms.smoothing_length * m_terms.smoothing_length;
+    for(std::size_t c = 0; c < m_cells.size(); ++c)
+      for(std::size_t d = 0; d < c; ++d)
+      {
+        const std::size_t i = m_cells[c].names[0], j = m_cells[d].names[0];
+        double weight = 0;
+        if(scheme == ELEMENTS)
+        {
+          const Simplex &s = m_simplices[i], &t = m_simplices[j];
+          std::vector<Eigen::Vector3d> common;
+          Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+          for(std::size_t v : s)
+          {
+            if(contains(t, v))
+              common.push_back(m_rest[v]);
+            apart += m_rest[v] / double(s.size());
+          }
+          for(std::size_t v : t)
+            apart -= m_rest[v] / double(t.size());
+          if(int(common.size()) == m_dimension)
+            weight = (m_dimension == 2 ? (common[1] - common[0]).norm()
+                                       : (common[1] - common[0]).cross(common[2] - common[0])
+                                             .norm() / 2) / apart.norm();
+        }
+        else
+          for(const Simplex& s : m_simplices)
+            if(contains(s, i) && contains(s, j))
+              weight += cotangent_weight(s, i, j);
+        if(weight > 0)
+          m_couplings[{c, d}] = factor * weight;
+      }
+  }
+
+  // fits the rotations to x, all at once
+  void fit(const std::vector<Eigen::Vector3d>& x)
+  {
+    std::vector<Eigen::Matrix3d> covariances; // Equation (5) of the paper
+    for(const Cell& cell : m_cells)
     {
-      for(const Simplex& s : m_simplices)
-        add(simplex_edges(s));
-      return;
+      covariances.push_back(Eigen::Matrix3d::Zero());
+      for(const Form& form : cell.forms)
+        covariances.back() += form.weight * form.value(m_rest) * form.value(x).transpose();
     }
-    for(std::size_t i = 0; i < m_rest.size(); ++i)
+    for(const auto& [pair, weight] : m_couplings)
     {
-      std::vector<Edge> cell;
-      if(scheme == SPOKES)
-        for(std::size_t j : neighbours(i))
-          cell.push_back({i, j, star_weight(i, j)});
-      else
-        for(const Simplex& s : m_simplices)
-          if(contains(s, i))
-            for(const Edge& e : simplex_edges(s))
-              cell.push_back(e);
-      add(cell);
+      const Eigen::Matrix3d both = m_rotations[pair.first] + m_rotations[pair.second];
+      covariances[pair.first] += weight * both.transpose();
+      covariances[pair.second] += weight * both.transpose();
+    }
+    for(std::size_t c = 0; c < m_cells.size(); ++c)
+    {
+      m_rotations[c] = closest_rotation(covariances[c]);
+      Eigen::Matrix3d given = Eigen::Matrix3d::Zero();
+      for(const auto& [v, rotation] : m_terms.frames)
+        for(std::size_t name : m_cells[c].names)
+          if(!m_is_element && name == v)
+            given = rotation;
+          else if(m_is_element && contains(m_simplices[name], v))
+            given += rotation;
+      if(!given.isZero())
+        m_rotations[c] = closest_rotation(given.transpose());
     }
   }
 
-  Eigen::Matrix3d rotation(const std::vector<Edge>& cell,
-                           const std::vector<Eigen::Vector3d>& x) const
+  static Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& s)
   {
-    Eigen::Matrix3d s = Eigen::Matrix3d::Zero(); // Equation (5) of the paper
-    for(const Edge& e : cell)
-      s += e.weight * (m_rest[e.i] - m_rest[e.j]) * (x[e.i] - x[e.j]).transpose();
 #if EIGEN_VERSION_AT_LEAST(3, 4, 90)
     const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::ComputeFullU | Eigen::ComputeFullV> svd(s);
 #else
@@ -304,7 +491,11 @@ private:
   Weights m_weights;
   std::vector<std::size_t> m_free;
   std::vector<int> m_row; // of the free vertices among the unknowns, or -1
-  std::vector<std::vector<Edge>> m_cells;
+  std::vector<Cell> m_cells;
+  std::vector<Eigen::Matrix3d> m_rotations; // of the cells
+  std::map<std::pair<std::size_t, std::size_t>, double> m_couplings; // of cells
+  Terms m_terms;
+  bool m_is_element = false;
   std::vector<Soft_position> m_soft_positions;
 };
 

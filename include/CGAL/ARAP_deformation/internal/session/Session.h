@@ -225,7 +225,7 @@ public:
 
   Outcome preprocess()
   {
-    Outcome prepared = m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
+    Outcome prepared = prepare();
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
@@ -403,6 +403,11 @@ protected:
     return true;
   }
 
+  Outcome prepare()
+  {
+    return m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
+  }
+
   template <typename Visitor>
   Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report)
   {
@@ -417,7 +422,7 @@ protected:
       return taken;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
-      const Outcome prepared = m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
+      const Outcome prepared = prepare();
       report.stages = std::exchange(m_stages, {});
       if(!prepared)
         return prepared;
@@ -438,7 +443,8 @@ protected:
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = core.run(options, observe, targets, frames(), positions, rotations, report);
+    const Diagnosis diagnosis =
+      core.run(options, observe, targets, frames(), positions, rotations, report);
     Outcome result = m_prepared.explain(diagnosis, domain());
     if(result)
     {
