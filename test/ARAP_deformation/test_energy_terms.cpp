@@ -27,7 +27,10 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iostream>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -246,8 +249,434 @@ void test_all()
 
 } // namespace iterates
 
+// What must be the same, or must not be, whatever the numbers are.
+namespace identities {
+
+// a deformation of a model with handles turned, all that is not a handle free
+template <int Dimension>
+struct Run
+{
+  std::vector<Point> points;
+  CGAL::ARAP_deformation<Soup<Dimension>> deformation;
+
+  Run(const Model& model, const Scenario& s, Cell_scheme cells, const Terms& terms,
+      Minimizer minimizer = Minimizer::automatic)
+    : points(points_of(model.points)), deformation(Soup<Dimension>(points, model.simplices))
+  {
+    prepare(deformation, s, numbers(points.size()));
+    apply(deformation, cells, terms, minimizer);
+  }
+};
+
+Scenario whole_scenario(const Model& model)
+{
+  Scenario s = scenario(Shape{"", model.points, {}}, 0.8);
+  for(int& status : s.selection)
+    if(status == 0)
+      status = 2;
+  return s;
+}
+
+// with cells at vertices, of all kinds of terms
+std::vector<std::pair<std::string, Terms>> all_terms(const Model& model, const Scenario& s)
+{
+  const double diameter = diameter_of(model.points);
+  std::vector<std::pair<std::string, Terms>> all;
+  for(const iterates::Case& c : iterates::cases(model, s, diameter))
+    if(!c.is_for_stars_only)
+      all.emplace_back(c.name, c.terms);
+  return all;
+}
+
+// The energy never rises, and the quasi-Newton method ends no higher than local/global.
+template <int Dimension>
+void test_minimizers(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(const auto& [name, terms] : all_terms(model, s))
+    for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::k_ring(1)})
+    {
+      test_case() = model.name + ", " + name;
+      Run<Dimension> slow(model, s, cells, terms, Minimizer::local_global);
+      Run<Dimension> fast(model, s, cells, terms, Minimizer::quasi_newton);
+      const Report r = slow.deformation.deform(300, 1e-4), q = fast.deformation.deform(300, 1e-4);
+      CHECK(r);
+      CHECK(q);
+      CHECK(CGAL::ARAP::first_rise_of_energy(r) == 0);
+      CHECK(CGAL::ARAP::first_rise_of_energy(q) == 0);
+      CHECK_AT_MOST(q.final_energy(), r.final_energy() * 1.01);
+      CHECK(q.iterations <= r.iterations + 20);
+    }
+}
+
+// Everything moved rigidly, or made ten times as large: the same, moved, or as much larger.
+template <int Dimension>
+void test_motions(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  const Eigen::Matrix3d q = turn(1.1, {1, 2, -1});
+  const Eigen::Vector3d shift(3, -2, 1);
+  for(const auto& [name, terms] : all_terms(model, s))
+    for(const double size : {1.0, 10.0})
+    {
+      test_case() = model.name + ", " + name;
+      const auto move = [&](const Eigen::Vector3d& p) {
+        return Eigen::Vector3d(size * (q * p + shift));
+      };
+      Model moved = model;
+      Scenario moved_s = s;
+      Terms moved_terms = terms;
+      std::transform(model.points.begin(), model.points.end(), moved.points.begin(), move);
+      std::transform(s.targets.begin(), s.targets.end(), moved_s.targets.begin(), move);
+      moved_terms.bending_length *= size;
+      moved_terms.smoothing_length *= size;
+      for(auto& frame : moved_terms.frames)
+        frame.second = q * frame.second * q.transpose();
+      Run<Dimension> run(model, s, Cell_scheme::spokes_and_rims(), terms),
+        moved_run(moved, moved_s, Cell_scheme::spokes_and_rims(), moved_terms);
+      const Report a = run.deformation.deform(5, 0), b = moved_run.deformation.deform(5, 0);
+      std::vector<Eigen::Vector3d> expected;
+      for(const Point& p : run.points)
+        expected.push_back(move(vector(p)));
+      CHECK_AT_MOST(largest_distance(moved_run.points, expected), 1e-9 * size *
+                                                                    diameter_of(model.points));
+      CHECK_AT_MOST(std::abs(b.final_energy() - a.final_energy() * std::pow(size, Dimension)),
+                    1e-9 * b.final_energy());
+    }
+}
+
+// a stiffness of all cells, a length of nothing, no rings: as without
+template <int Dimension>
+void test_limits(const Model& model)
+{
+  test_case() = model.name + ", limits";
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    Run<Dimension> plain(model, s, cells, {});
+    const Report a = plain.deformation.deform(5, 0);
+    Terms terms;
+    const std::size_t number_of_cells = (std::max)(model.points.size(), model.simplices.size());
+    terms.stiffness.assign(number_of_cells, 1);
+    Run<Dimension> one(model, s, cells, terms);
+    CHECK(one.deformation.deform(5, 0).energy == a.energy);
+    CHECK(one.points == plain.points);
+    terms.stiffness.assign(number_of_cells, 4);
+    Run<Dimension> four(model, s, cells, terms);
+    CHECK_AT_MOST(std::abs(four.deformation.deform(5, 0).final_energy() - 4 * a.final_energy()),
+                  1e-9 * a.final_energy());
+    CHECK_AT_MOST(largest_distance(four.points, plain.points), 1e-10 * diameter_of(model.points));
+    if(cells == Cell_scheme::elements())
+      continue;
+    Terms bending;
+    double last = std::numeric_limits<double>::infinity();
+    for(double b : {1e-2, 1e-4, 1e-6})
+    {
+      bending.bending_length = b * diameter_of(model.points);
+      Run<Dimension> bent(model, s, cells, bending);
+      CHECK(bent.deformation.deform(5, 0));
+      const double distance = largest_distance(bent.points, plain.points);
+      CHECK(distance < last);
+      last = distance;
+    }
+    CHECK_AT_MOST(last, 1e-8 * diameter_of(model.points));
+  }
+  CHECK(Cell_scheme::k_ring(0) == Cell_scheme::spokes());
+  CHECK(Cell_scheme::k_ring(1) != Cell_scheme::spokes());
+}
+
+// One vertex is fixed and turned: everything turns with it.
+template <int Dimension>
+void test_one_frame(const Model& model)
+{
+  const Eigen::Matrix3d rotation = turn(2, {1, -1, 3});
+  const double diameter = diameter_of(model.points);
+  for(Cell_scheme cells : all_cell_schemes)
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      test_case() = model.name + ", one frame";
+      Scenario s{std::vector<int>(model.points.size(), 1), model.points};
+      const std::size_t v = model.points.size() / 2;
+      s.selection[v] = 2;
+      Terms terms;
+      terms.frames[v] = rotation;
+      Run<Dimension> run(model, s, cells, terms, minimizer);
+      const Report report = run.deformation.deform(2000, 1e-6);
+      CHECK(report.status == CGAL::ARAP::Status::converged);
+      std::vector<Eigen::Vector3d> expected;
+      for(const Eigen::Vector3d& p : model.points)
+        expected.push_back(model.points[v] + rotation * (p - model.points[v]));
+      CHECK_AT_MOST(report.final_energy(), 1e-9 * report.energy_scale);
+      CHECK_AT_MOST(largest_distance(run.points, expected), 1e-3 * diameter);
+      CHECK(run.deformation.erase_target_rotation(v));
+    }
+}
+
+// A set of vertices tells its own frame, if it moves rigidly.
+void test_frames_of_motions(const Model& model)
+{
+  test_case() = "frames of motions";
+  Run<2> run(model, whole_scenario(model), Cell_scheme::spokes(), {});
+  auto& d = run.deformation;
+  const std::vector<std::size_t> all = d.control_vertices();
+  std::vector<std::size_t> turned;
+  for(std::size_t v : all)
+    if(d.target_position(v) != run.points[v])
+      turned.push_back(v);
+  CHECK(turned.size() > 3);
+  CHECK(d.set_target_rotations(turned));
+  CHECK(d.deform());
+  for(std::size_t v : turned)
+  {
+    const CGAL::ARAP::Matrix_3x3 r = d.rotation(v);
+    const Eigen::Vector3d edge = model.points[v] - model.points[turned[0]],
+                          now = vector(run.points[v]) - vector(run.points[turned[0]]);
+    for(std::size_t k = 0; k < 3; ++k)
+      CHECK_AT_MOST(std::abs(r[3 * k] * edge[0] + r[3 * k + 1] * edge[1] + r[3 * k + 2] * edge[2] -
+                             now[Eigen::Index(k)]), 1e-9);
+  }
+  CHECK(d.set_target_rotations(std::vector<std::size_t>{turned[0], turned[1]}).status ==
+        CGAL::ARAP::Status::invalid_rotation);
+  d.translate(turned[0], Kernel::Vector_3(1, 0, 0));
+  CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
+}
+
+// the cells of a group have one rotation
+void test_groups(const Model& model)
+{
+  test_case() = "groups";
+  Terms terms;
+  for(std::size_t c = 0; c < model.points.size(); ++c)
+    terms.group.push_back(int(c % 3));
+  Run<2> run(model, whole_scenario(model), Cell_scheme::spokes(), terms);
+  CHECK(run.deformation.deform());
+  for(std::size_t c = 3; c < model.points.size(); ++c)
+    CHECK(run.deformation.rotation(c) == run.deformation.rotation(c - 3));
+  CHECK(run.deformation.rotation(0) != run.deformation.rotation(1));
+}
+
+// what a change costs, and a session after changes equals a new one
+void test_changes(const Model& model)
+{
+  test_case() = "changes";
+  const Scenario s = whole_scenario(model);
+  Run<2> run(model, s, Cell_scheme::spokes_and_rims(), {});
+  auto& d = run.deformation;
+  CHECK(d.deform(3, 0));
+  Terms terms = all_terms(model, s).back().second;
+  terms.group.clear();
+  terms.bending_length = 0.1;
+  apply(d, Cell_scheme::spokes_and_rims(), terms);
+  Report report = d.deform(3, 0);
+  CHECK(!report.stages.region);
+  CHECK(report.stages.weights && report.stages.order && report.stages.factor);
+  terms.bending_length = 0.2;
+  apply(d, Cell_scheme::spokes_and_rims(), terms);
+  report = d.deform(3, 0);
+  CHECK(!report.stages.region && report.stages.weights);
+  CHECK(!report.stages.order && report.stages.factor);
+  for(auto& frame : terms.frames)
+    CHECK(d.set_target_rotation(frame.first, frame.second = turn(0.1, {0, 1, 0})));
+  report = d.deform(3, 0);
+  CHECK(!report.stages.weights && !report.stages.factor && !report.stages.border);
+  const auto state = d.state();
+  d.reset();
+  report = d.deform(4, 0);
+  Run<2> fresh(model, s, Cell_scheme::spokes_and_rims(), terms);
+  // reset() puts the targets back, too
+  for(std::size_t v = 0; v < model.points.size(); ++v)
+    if(s.selection[v] == 2)
+      fresh.deformation.set_target_position(v, point(model.points[v]));
+  CHECK(fresh.deformation.deform(4, 0));
+  CHECK_AT_MOST(largest_distance(run.points, fresh.points), 1e-8);
+  CHECK(d.restore(state));
+  d.clear_stiffness();
+  d.clear_groups();
+  for(const auto& frame : terms.frames)
+    CHECK(d.erase_target_rotation(frame.first));
+  d.reset();
+  apply(d, Cell_scheme::spokes_and_rims(), {});
+  CHECK(d.deform(4, 0));
+  Run<2> plain(model, s, Cell_scheme::spokes_and_rims(), {});
+  plain.deformation.reset();
+  CHECK(plain.deformation.deform(4, 0));
+  CHECK_AT_MOST(largest_distance(run.points, plain.points), 1e-8);
+}
+
+void test_wrong_values(const Model& model)
+{
+  test_case() = "wrong values";
+  const Scenario s = whole_scenario(model);
+  Run<2> run(model, s, Cell_scheme::spokes_and_rims(), {});
+  auto& d = run.deformation;
+  const std::vector<Point> before = run.points;
+  for(double wrong : {-1.0, std::nan(""), HUGE_VAL})
+  {
+    Options options = d.options();
+    options.bending_length = wrong;
+    CHECK(d.set_options(options).status == CGAL::ARAP::Status::invalid_option);
+    options = d.options();
+    options.smoothing_length = wrong;
+    CHECK(d.set_options(options).status == CGAL::ARAP::Status::invalid_option);
+    std::vector<double> stiffness(model.points.size(), 1);
+    stiffness[7] = wrong;
+    d.set_stiffness(stiffness);
+    const Report report = d.deform();
+    CHECK(report.status == CGAL::ARAP::Status::invalid_stiffness);
+    CHECK(report.message.find("vertex 7 ") == 0);
+    CHECK(run.points == before);
+  }
+  Options options = d.options();
+  options.cells = Cell_scheme::elements();
+  options.bending_length = 0.1;
+  CHECK(d.set_options(options).status == CGAL::ARAP::Status::invalid_option);
+  d.clear_stiffness();
+  const std::size_t v = d.control_vertices()[0];
+  CHECK(d.set_target_rotation(v, Eigen::Matrix3d(-Eigen::Matrix3d::Identity())).status ==
+        CGAL::ARAP::Status::invalid_rotation);
+  CHECK(d.set_target_rotation(v, Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity())).status ==
+        CGAL::ARAP::Status::invalid_rotation);
+  CHECK(d.deform());
+}
+
+// On a mesh, in one call, and with any number of threads.
+void test_mesh(const Shape& shape)
+{
+  test_case() = "a mesh";
+  const Scenario s = scenario(shape, 0.8);
+  const auto all_the_same = [&](Cell_scheme cells, unsigned int threads) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    std::map<Mesh::Vertex_index, Point> targets;
+    std::map<Mesh::Vertex_index, Eigen::Quaterniond> rotations;
+    for(Mesh::Vertex_index v : mesh.vertices())
+      if(s.selection[v] != 1)
+      {
+        targets.emplace(v, point(s.targets[v]));
+        if(v % 3 == 0)
+          rotations.emplace(v, turn(0.2, {1, 0, 0}));
+      }
+    Options options = options_for(cells);
+    options.threads = threads;
+    options.iterations = 20;
+    options.smoothing_length = 0.1;
+    options.bending_length = cells.has_vertex_cells() ? 0.1 : 0;
+    namespace np = CGAL::parameters;
+    const Report report = CGAL::arap_deform(
+      mesh, targets,
+      np::target_rotations(rotations,
+        np::cell_stiffness([](auto c) { return 1 + double(std::size_t(c) % 3); },
+          np::cell_groups([](auto c) { return std::size_t(c) < 3 ? 0 : -1; },
+            np::deformation_options(options)))));
+    CHECK(report);
+    return points_of(mesh);
+  };
+  for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements(),
+                           Cell_scheme::k_ring(2)})
+    CHECK(all_the_same(cells, 1) == all_the_same(cells, 4));
+}
+
+void test_all()
+{
+  const std::vector<Model> models = iterates::surfaces();
+  test_minimizers<2>(models.front());
+  test_minimizers<3>(iterates::solid());
+  test_motions<2>(models.back());
+  test_motions<3>(iterates::solid());
+  test_limits<2>(models.front());
+  test_limits<2>(models.back());
+  test_limits<3>(iterates::solid());
+  test_one_frame<2>(models.front());
+  test_one_frame<3>(iterates::solid());
+  test_frames_of_motions(models.front());
+  test_groups(models.front());
+  test_changes(models.front());
+  test_wrong_values(models.front());
+  test_mesh(shapes()[1]);
+}
+
+} // namespace identities
+
+// A pulled vertex is no spike: the shape around it is the same at every resolution.
+namespace spikes {
+
+// the heights at distances from the middle of a square whose border is fixed
+std::vector<double> heights(int quads, double bending_length, double size, Report& report)
+{
+  std::vector<Point> points;
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for(int i = 0; i <= quads; ++i)
+    for(int j = 0; j <= quads; ++j)
+      points.emplace_back(size * i / quads, size * j / quads, 0);
+  const auto vertex = [=](int i, int j) { return std::size_t(i * (quads + 1) + j); };
+  for(int i = 0; i < quads; ++i)
+    for(int j = 0; j < quads; ++j)
+      if((i + j) % 2 == 0)
+      {
+        triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+        triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+      else
+      {
+        triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+        triangles.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+  CGAL::ARAP_deformation d(CGAL::ARAP::make_polygon_soup_domain(points, triangles));
+  Options options;
+  options.bending_length = bending_length * size * std::sqrt(2.0);
+  options.tolerance = 1e-6;
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(numbers(points.size()));
+  for(int i = 0; i <= quads; ++i)
+    for(int j = 0; j <= quads; ++j)
+      if(i == 0 || j == 0 || i == quads || j == quads)
+        d.insert_control_vertex(vertex(i, j));
+  const std::size_t middle = vertex(quads / 2, quads / 2);
+  d.insert_control_vertex(middle, Point(size / 2, size / 2, 0.2 * size));
+  report = d.deform();
+  CHECK(report);
+  std::vector<double> result;
+  for(int k : {0, 1, 2, 3, 4, 6}) // distances of 0, .05, ... .3
+    result.push_back(points[vertex(quads / 2 + k * quads / 20, quads / 2)].z() / size);
+  return result;
+}
+
+void test_all()
+{
+  test_case() = "a pulled vertex";
+  std::vector<int> resolutions = {40, 80};
+  if(is_long_run())
+    resolutions.push_back(160);
+  std::vector<double> last, last_without;
+  for(int quads : resolutions)
+  {
+    Report report, report_without;
+    const std::vector<double> now = heights(quads, 0.1, 1, report),
+                              without = heights(quads, 0, 1, report_without);
+    std::cout << quads << " quads a side: " << report.iterations << " iterations with bending, "
+              << report_without.iterations << " without; heights";
+    for(double height : now)
+      std::cout << ' ' << height;
+    std::cout << '\n';
+    if(!last.empty())
+      for(std::size_t k = 0; k < now.size(); ++k)
+      {
+        CHECK_AT_MOST(std::abs(now[k] - last[k]), 2e-3);
+        CHECK(k == 0 || now[k] > without[k] + 0.01); // no spike
+      }
+    last = now;
+  }
+  Report report, larger;
+  const std::vector<double> one = heights(20, 0.1, 1, report), ten = heights(20, 0.1, 10, larger);
+  for(std::size_t k = 0; k < one.size(); ++k)
+    CHECK_AT_MOST(std::abs(one[k] - ten[k]), 1e-6);
+}
+
+} // namespace spikes
+
 int main()
 {
   iterates::test_all();
+  identities::test_all();
+  spikes::test_all();
   return checks_result();
 }
