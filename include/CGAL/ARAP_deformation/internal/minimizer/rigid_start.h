@@ -23,6 +23,8 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -118,24 +120,13 @@ public:
     const int n = region.number_of_movable_vertices;
     const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
     const auto is_constraint = [&](int v) { return v >= n || (!is_free(v) && !is_ignored[v]); };
-    // union-find; the smallest vertex of each part is its root
-    Array<int> parent(n);
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto find = [&parent](int v) {
-      while(parent[v] != v)
-        v = parent[v] = parent[parent[v]];
-      return v;
-    };
-    const auto unite = [&](int v, int w) {
-      const int a = find(v), b = find(w);
-      parent[(std::max)(a, b)] = (std::min)(a, b);
-    };
+    Sets sets(static_cast<std::size_t>(n)); // of vertices in one part
     // unites those of a range that are free, and returns one of them, or -1
     const auto unite_range = [&](auto begin, auto end) {
       const auto first = std::find_if(begin, end, is_free);
       for(auto v = first; v != end; ++v)
         if(is_free(*v))
-          unite(*first, *v);
+          sets.union_set(*first, *v);
       return first == end ? -1 : *first;
     };
     // All that is in simplices at a vertex, free or not, may share a cell.
@@ -148,7 +139,7 @@ public:
         for(const int* v = begin; v != end; ++v)
         {
           if(around[*v] >= 0)
-            unite(around[*v], free);
+            sets.union_set(around[*v], free);
           around[*v] = free;
         }
     }
@@ -173,9 +164,9 @@ public:
       const int* const end = begin + region.number_of_corners(s);
       if(std::any_of(begin, end, is_constraint))
         for(int last = -1, k = 0; k < region.number_of_corners(s); ++k)
-          if(const int v = around[begin[k]]; v >= 0 && find(v) != last)
+          if(const int v = around[begin[k]]; v >= 0 && static_cast<int>(sets.find_set(v)) != last)
           {
-            last = find(v);
+            last = static_cast<int>(sets.find_set(v));
             for(const int* w = begin; w != end; ++w)
               if(is_constraint(*w))
                 fixed.emplace_back(v, *w);
@@ -187,7 +178,9 @@ public:
     for(int v = 0; v < n; ++v)
       if(is_free(v))
       {
-        m_part[v] = find(v) == v ? count++ : m_part[find(v)];
+        int& part = m_part[sets.find_set(v)]; // of the one that stands for its set
+        part = part < 0 ? count++ : part;
+        m_part[v] = part;
         free.emplace_back(v, v);
       }
     m_free = lists(count, std::move(free));
@@ -200,9 +193,8 @@ public:
 
   // Moves the parts of x that can be rigid there, and returns for each movable vertex whether it is
   // in one of them. They are moved by as little as possible from the positions x, or if
-  // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. A part
-  // with a cell that is turned by a right angle or more against the whole is left as it is: it may
-  // be twisted by a full turn, which is a minimum of its own.
+  // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. Parts
+  // that are twisted by a full turn are at a minimum of their own, and are left as they are.
   Array<char> operator()(const Region& region, double size, const Weighted_rows& rows,
                          const std::vector<Coordinates>& targets, bool is_from_rest,
                          std::vector<Coordinates>& x) const
@@ -221,9 +213,9 @@ public:
         is_any_deformed = true;
       }
     if(is_any_deformed)
-      find_turned_parts(region, x, deformed, motions);
+      find_twisted_parts(region, rows, x, deformed, motions);
     for(const Motion& motion : motions)
-      if(!motion.is_turned)
+      if(!motion.is_twisted)
         for(int k = m_free.begin[motion.part]; k < m_free.begin[motion.part + 1]; ++k)
         {
           const auto v = static_cast<std::size_t>(m_free.items[k]);
@@ -238,6 +230,7 @@ public:
 
 private:
   using Pairs = std::vector<std::pair<int, int>>;
+  using Sets = boost::disjoint_sets_with_storage<>;
 
   static constexpr double tolerance = 1e-12; // of squares, also of points of type float
 
@@ -248,7 +241,7 @@ private:
     int part;
     Rigid_fit before, after;
     bool is_at_rest; // nothing is to be moved
-    bool is_turned = false;
+    bool is_twisted = false;
   };
 
   // for each part the second numbers of pairs that have one of its vertices
@@ -315,42 +308,85 @@ private:
       motions.push_back({part, before, after, is_at_rest});
   }
 
-  // Finds the cells, with all simplices at a vertex that have only free vertices, whose rotation
-  // differs too much from that of the motion before. What is fixed has moved since.
-  void find_turned_parts(const Region& region, const std::vector<Coordinates>& x,
-                         const Array<int>& deformed, std::vector<Motion>& motions) const
+  // Finds the parts that are twisted. The cells there, all simplices at a vertex that have free
+  // vertices only, are turned by any angle against the motion before, so that those that are turned
+  // by 120 degrees or more keep constraints apart. Where a part is only crumpled, others tie them
+  // to each other, or they keep single points apart, which hold no twist.
+  void find_twisted_parts(const Region& region, const Weighted_rows& rows,
+                          const std::vector<Coordinates>& x, const Array<int>& deformed,
+                          std::vector<Motion>& motions) const
   {
-    const auto is_deformed = [&](int v) {
-      return v < static_cast<int>(m_part.size()) && m_part[v] >= 0 && deformed[m_part[v]] >= 0;
-    };
-    Array<Matrix_3x3> covariances(m_part.size(), Matrix_3x3{});
+    const int n = static_cast<int>(m_part.size());
+    const auto is_free = [&](int v) { return v < n && m_part[v] >= 0; };
+    const auto is_deformed = [&](int v) { return is_free(v) && deformed[m_part[v]] >= 0; };
+    Array<Matrix_3x3> covariances(n, Matrix_3x3{});
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
       const int* const begin = region.corners_of(s);
       const int* const end = begin + region.number_of_corners(s);
-      if(!std::all_of(begin, end, is_deformed))
+      if(!std::all_of(begin, end, is_deformed)) // what is fixed has moved since
         continue;
       Matrix_3x3 covariance{};
       for(const int *v = begin, *last = end - 1; v != end; last = v++)
-        add_product(covariance, 1, difference(x[std::size_t(*v)], x[std::size_t(*last)]),
-                    difference(region.rest[std::size_t(*v)], region.rest[std::size_t(*last)]));
+        add_product(covariance, 1, edge(x, *v, *last), edge(region.rest, *v, *last));
       for(const int* v = begin; v != end; ++v)
         for(std::size_t k = 0; k < 9; ++k)
           covariances[*v][k] += covariance[k];
     }
-    Array<char> is_turned(m_part.size(), false);
-    for_each_block(m_part.size(), [&](std::size_t begin, std::size_t end) {
+    Array<char> is_turned(region.number_of_vertices(), false);
+    for_each_block(covariances.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
         if(covariances[v] != Matrix_3x3{})
         {
-          const Matrix_3x3& whole = motions[std::size_t(deformed[m_part[v]])].before.rotation();
+          const auto motion = static_cast<std::size_t>(deformed[m_part[v]]);
+          const Matrix_3x3& whole = motions[motion].before.rotation();
           const Matrix_3x3 cell = Svd_rotation::closest(covariances[v]);
-          is_turned[v] = std::inner_product(cell.begin(), cell.end(), whole.begin(), 0.0) <= 1;
+          is_turned[v] = std::inner_product(cell.begin(), cell.end(), whole.begin(), 0.0) <= 0;
         }
     });
-    for(std::size_t v = 0; v < m_part.size(); ++v)
-      if(is_turned[v])
-        motions[std::size_t(deformed[m_part[v]])].is_turned = true;
+    const auto for_each_constraint = [&](const auto& f) { // f(v, part)
+      for(const Motion& motion : motions)
+        if(deformed[motion.part] >= 0)
+          for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
+            f(m_fixed.items[k], motion.part);
+      rows.for_each_row([&](auto begin, auto end, double, double weight) {
+        for(auto v = begin; v != end; ++v)
+          if(weight != 0 && is_deformed(*v))
+            f(*v, m_part[*v]);
+      });
+    };
+    for_each_constraint([&](int v, int) { is_turned[v] = false; });
+    Sets sets(is_turned.size());
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(std::any_of(begin, end, [&](int v) { return is_free(v) && !is_deformed(v); }))
+        continue;
+      const int* const first = std::find_if(begin, end, [&](int v) { return !is_turned[v]; });
+      for(const int* v = first; v != end; ++v)
+        if(!is_turned[*v])
+          sets.union_set(*first, *v);
+    }
+    rows.for_each_row([&](auto begin, auto end, double, double weight) {
+      for(auto v = begin; v != end && weight != 0; ++v)
+        sets.union_set(*begin, *v);
+    });
+    Array<int> count(is_turned.size(), 0);  // for each set, of its constraints
+    Array<int> holder(m_free.size(), -1);   // for each part a set with several constraints
+    for_each_constraint([&](int v, int part) {
+      const auto set = static_cast<int>(sets.find_set(v));
+      if(++count[set] < 2)
+        return;
+      motions[static_cast<std::size_t>(deformed[part])].is_twisted |=
+        holder[part] >= 0 && holder[part] != set;
+      holder[part] = set;
+    });
+  }
+
+  static Coordinates edge(const std::vector<Coordinates>& points, int v, int w)
+  {
+    return difference(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(w)]);
   }
 
   Array<int> m_part;                   // for each movable vertex, -1 if it is fixed
