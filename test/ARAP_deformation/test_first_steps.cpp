@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/Edge_map_weight.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/arap_deform.h>
 
@@ -165,6 +166,264 @@ void test_returns()
     CHECK_AT_MOST(largest_distance(points_of(mesh), points_of(rest)), 1e-4);
     CHECK(CGAL::ARAP::first_rise_of_energy(away) == 0);
     CHECK(CGAL::ARAP::first_rise_of_energy(back) == 0);
+  }
+}
+
+// A session on a range of points and simplices.
+template <typename Domain, typename Simplices>
+struct Soup_session
+{
+  std::vector<Eigen::Vector3d> rest;
+  std::vector<Point> points;
+  Simplices simplices;
+  CGAL::ARAP_deformation<Domain> deformation;
+  Indices handles;
+
+  Soup_session(const std::vector<Eigen::Vector3d>& rest_shape, const Simplices& all,
+               const Indices& handles_, double weight, Minimizer minimizer,
+               Initial_guess guess = Initial_guess::previous)
+    : rest(rest_shape), points(points_of(rest)), simplices(all),
+      deformation(Domain(points, simplices)), handles(handles_)
+  {
+    Options options;
+    options.minimizer = minimizer;
+    options.initial_guess = guess;
+    CHECK(deformation.set_options(options));
+    deformation.insert_roi_vertices(numbers(points.size()));
+    for(std::size_t v : handles)
+    {
+      deformation.insert_control_vertex(v);
+      CHECK(deformation.set_target_weight(v, weight));
+    }
+  }
+
+  // motion(v) is that of the handle v
+  template <typename Motion>
+  Report run(const Motion& motion, unsigned int iterations = 1000)
+  {
+    for(std::size_t v : handles)
+      CHECK(deformation.set_target_position(v, point(motion(v) * rest[v])));
+    const Report report = deformation.deform(iterations, 1e-3);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    return report;
+  }
+
+  // a run whose minimum is zero, after which all points are those of motion(v)
+  template <typename Motion>
+  void check_run_to_rest(const Motion& motion)
+  {
+    const Report report = run(motion);
+    CHECK(report.status == Status::converged);
+    CHECK_AT_MOST(report.iterations, 30);
+    CHECK_AT_MOST(report.final_energy(), 1e-15 * report.energy_scale);
+    double error = 0;
+    for(std::size_t v = 0; v < points.size(); ++v)
+      error = larger(error, (vector(points[v]) - motion(v) * rest[v]).norm());
+    CHECK_AT_MOST(error, 1e-6);
+  }
+};
+
+using Triangles = std::vector<std::array<std::size_t, 3>>;
+using Tetrahedra = std::vector<std::array<std::size_t, 4>>;
+using Surface =
+  Soup_session<CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, Triangles>, Triangles>;
+using Volume =
+  Soup_session<CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>, Tetrahedra>;
+
+const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+
+// calls f(weight, minimizer) for hard and soft targets and both minimizers
+template <typename Function>
+void for_each_kind(const Function& f)
+{
+  for(double weight : {std::numeric_limits<double>::infinity(), 1.0})
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+      f(weight, minimizer);
+}
+
+// Two sheets in one mesh, each with a motion of its own; then one of them is deformed, and the
+// other one still moves at once.
+void test_parts()
+{
+  for_each_kind([](double weight, Minimizer minimizer) {
+    test_case() = "two sheets, weight " + std::to_string(weight);
+    const Shape both = two_components(sheet(20));
+    const std::size_t n = both.points.size() / 2;
+    Surface s(both.points, both.triangles, {0, 20, 70, n - 1, n, n + 20, n + 70, 2 * n - 1}, weight,
+              minimizer);
+    const Eigen::Isometry3d left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
+    const Eigen::Isometry3d right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
+    s.check_run_to_rest([&](std::size_t v) { return v < n ? left : right; });
+    s.check_run_to_rest([&](std::size_t v) { return v < n ? right : left; });
+    s.run([&](std::size_t v) {
+      return v >= n ? right : v == 0 ? rigid_motion(0, {0, 0, 1}, {0, 0, 0.2}) : identity;
+    }, 0);
+    double error = 0;
+    for(std::size_t v = n; v < 2 * n; ++v)
+      error = larger(error, (vector(s.points[v]) - right * s.rest[v]).norm());
+    CHECK_AT_MOST(error, 1e-9);
+    s.check_run_to_rest([&](std::size_t v) { return v < n ? identity : right; });
+  });
+}
+
+// From a deformed state back to rest, or to where a rigid motion takes it.
+void test_deformed()
+{
+  const auto go = [](auto& session, const std::string& name) {
+    const auto deform = [&] {
+      test_case() = name;
+      const Report report = session.run([&](std::size_t v) {
+        return v % 2 == 0 ? identity
+                          : rigid_motion(0.6, {0, 1, double(v % 3)}, {-0.2, 0.1, 0.3});
+      }, 60);
+      CHECK(report.final_energy() > 1e-6 * report.energy_scale);
+    };
+    for(const Eigen::Isometry3d& motion :
+        {identity, rigid_motion(3, {1, 2, 0}, {5, 0, -1}), rigid_motion(0, {1, 0, 0}, {0, 0, 1})})
+    {
+      deform();
+      session.check_run_to_rest([&](std::size_t) { return motion; });
+    }
+  };
+  for_each_kind([&](double weight, Minimizer minimizer) {
+    for(int n : is_long_run() ? std::vector<int>{20, 60, 200} : std::vector<int>{20, 60})
+    {
+      const Shape shape = sheet(n);
+      const std::size_t m = n + 1, last = m * m - 1;
+      Surface s(shape.points, shape.triangles, {0, m - 1, last - n + 1 - n % 2, last, m * m / 2 + 1},
+                weight, minimizer);
+      go(s, "deformed " + shape.name + ", weight " + std::to_string(weight));
+    }
+    const Block shape = block(8, 5, 4);
+    Volume s(shape.points, shape.tetrahedra, {0, 5, 101, shape.points.size() - 2}, weight,
+             minimizer);
+    go(s, "deformed block, weight " + std::to_string(weight));
+  });
+}
+
+// A bar whose ends are turned against each other by a full turn is at a minimum, and stays there;
+// one that was turned by less returns.
+void test_twist()
+{
+  const double pi = std::acos(-1.0);
+  const Block shape = block(20, 4, 4);
+  Eigen::AlignedBox3d box;
+  for(const auto& p : shape.points)
+    box.extend(p);
+  Indices ends;
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(shape.points[v].x() == box.min().x() || shape.points[v].x() == box.max().x())
+      ends.push_back(v);
+  for_each_kind([&](double weight, Minimizer minimizer) {
+    test_case() = "twist, weight " + std::to_string(weight);
+    Volume s(shape.points, shape.tetrahedra, ends, weight, minimizer);
+    const auto turned_by = [&](double angle) {
+      const Eigen::Isometry3d turn =
+        Eigen::Translation3d(box.center()) * rigid_motion(angle, {1, 0, 0}, {0, 0, 0}) *
+        Eigen::Translation3d(-box.center());
+      return [&, turn](std::size_t v) {
+        return s.rest[v].x() == box.min().x() ? identity : turn;
+      };
+    };
+    for(int frame = 1; frame <= 5; ++frame)
+      s.run(turned_by(frame * pi / 6), 60);
+    s.check_run_to_rest(turned_by(0));
+
+    double before = 0;
+    for(int frame = 1; frame <= 11; ++frame)
+      before = s.run(turned_by(frame * pi / 6), 60).final_energy();
+    const std::vector<Point> points = s.points;
+    const Report report = s.run(turned_by(2 * pi), 60);
+    CHECK(report.final_energy() > before);
+    // the middle of the bar stays where half a turn has put it
+    CHECK_AT_MOST(largest_distance(points, s.points), 0.2 * box.diagonal().norm());
+    std::size_t middle = 0;
+    for(std::size_t v = 0; v < s.rest.size(); ++v)
+      if((s.rest[v] - Eigen::Vector3d(box.center().x(), box.max().y(), box.max().z())).norm() < 1e-9)
+        middle = v;
+    CHECK((vector(s.points[middle]) - s.rest[middle]).norm() > 0.5 * box.sizes().y());
+  });
+}
+
+// The guess of naive Laplacian editing knows no rotations; where constraints move rigidly it is not
+// asked for.
+void test_laplacian()
+{
+  for_each_kind([](double weight, Minimizer minimizer) {
+    test_case() = "Laplacian guess, weight " + std::to_string(weight);
+    const Shape both = two_components(sheet(20));
+    const std::size_t n = both.points.size() / 2;
+    Surface s(both.points, both.triangles, {0, 20, 70, n - 1, n, n + 20, n + 70, 2 * n - 1}, weight,
+              minimizer, Initial_guess::laplacian);
+    const Eigen::Isometry3d left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
+    const Eigen::Isometry3d right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
+    s.check_run_to_rest([&](std::size_t v) { return v < n ? left : right; });
+    s.run([&](std::size_t v) { return v < n ? left : rigid_motion(double(v), {0, 1, 2}, {0, 0, 0}); }, 0);
+    double error = 0;
+    for(std::size_t v = 0; v < n; ++v)
+      error = larger(error, (vector(s.points[v]) - left * s.rest[v]).norm());
+    CHECK_AT_MOST(error, 1e-9);
+    s.check_run_to_rest([&](std::size_t) { return identity; });
+  });
+}
+
+// Handles on a straight line, up to rounding, leave a rotation about it free: there is none.
+void test_line()
+{
+  for_each_kind([](double weight, Minimizer minimizer) {
+    test_case() = "handles on a line, weight " + std::to_string(weight);
+    Shape shape = sheet(20);
+    for(auto& p : shape.points) // rounded to float somewhere else, and so no longer on a line
+      p = (rigid_motion(1, {3, 1, 2}, {70, -30, 11}) * p).cast<float>().cast<double>();
+    Indices line;
+    for(std::size_t j = 0; j <= 20; ++j)
+      line.push_back(j);
+    Surface s(shape.points, shape.triangles, line, weight, minimizer);
+    s.check_run_to_rest([&](std::size_t) { return rigid_motion(0, {1, 0, 0}, {0.3, 1, -7}); });
+  });
+}
+
+// Rows of several vertices are compared as the points that they are; others than points are not.
+void test_rows()
+{
+  using namespace CGAL::ARAP::internal;
+  test_case() = "rows of several vertices";
+  Region region;
+  region.number_of_movable_vertices = region.number_of_centres = 4;
+  region.number_of_movable_simplices = 2;
+  region.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}};
+  region.first_corner = {0, 3, 6};
+  region.corners = {0, 1, 2, 1, 3, 2};
+  const Eigen::Isometry3d motion = rigid_motion(1.2, {1, 2, 3}, {0, 4, 0});
+  for(double sum : {1.0, 0.0, 2.0})
+  {
+    Constraints constraints;
+    constraints.is_fixed = Array<char>(4, false);
+    std::vector<CGAL::ARAP::Coordinates> targets;
+    for(const auto& coefficients : {Array<double>{0.25, 0.25, sum - 0.5},
+                                    Array<double>{0.75, 0, sum - 0.75},
+                                    Array<double>{0, 0.5, sum - 0.5}})
+    {
+      constraints.rows.append({0, 1, 3}, coefficients, 1);
+      Eigen::Vector3d target(0, 0, 0);
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        const auto& p = region.rest[k == 2 ? 3 : k];
+        target += coefficients[k] * (motion * Eigen::Vector3d(p[0], p[1], p[2]));
+      }
+      targets.push_back({target.x(), target.y(), target.z()});
+    }
+    const Rigid_start start(region, constraints, Array<char>(4, false));
+    std::vector<CGAL::ARAP::Coordinates> x = region.rest;
+    const Array<char> is_placed = start(region, 2.25, constraints.rows, targets, false, x);
+    CHECK(is_placed == Array<char>(4, sum == 1));
+    for(std::size_t v = 0; v < 4 && sum == 1; ++v)
+    {
+      const auto& p = region.rest[v];
+      const Eigen::Vector3d expected = motion * Eigen::Vector3d(p[0], p[1], p[2]);
+      CHECK_AT_MOST((Eigen::Vector3d(x[v][0], x[v][1], x[v][2]) - expected).norm(), 1e-12);
+    }
+    CHECK(sum == 1 || x == region.rest);
   }
 }
 
@@ -653,6 +912,12 @@ int main()
 {
   rigid::test_motions();
   rigid::test_returns();
+  rigid::test_parts();
+  rigid::test_deformed();
+  rigid::test_twist();
+  rigid::test_laplacian();
+  rigid::test_line();
+  rigid::test_rows();
   undo::test_state();
   undo::test_points_of_others();
   user_weights::test_changes();

@@ -167,7 +167,8 @@ void test_minimum()
     sum += n;
     sum_of_local_global += m;
   }
-  CHECK_AT_MOST(4 * sum, sum_of_local_global);
+  // components that move rigidly are placed at once: there is no difference there
+  CHECK_AT_MOST(3 * sum, sum_of_local_global);
 }
 
 // From where local/global has slowed down to a crawl the quasi-Newton method is as fast as ever,

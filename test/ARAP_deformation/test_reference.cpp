@@ -154,7 +154,7 @@ void test_all()
 {
   for(const Shape& shape : shapes())
   {
-    if(shape.points.size() > 180)
+    if(shape.points.size() > 180 || shape.name == "two of strip") // one moves rigidly: it is placed
       continue;
     Simplices triangles;
     for(const auto& t : shape.triangles)

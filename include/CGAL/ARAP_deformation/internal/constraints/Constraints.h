@@ -106,6 +106,15 @@ public:
         ++i, ++j;
   }
 
+  // the row times x: the point that it pulls to its target
+  Coordinates product(int r, const std::vector<Coordinates>& x) const
+  {
+    Coordinates sum = {0, 0, 0};
+    for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+      add(sum, m_coefficients[k], x[static_cast<std::size_t>(m_vertices.items[k])]);
+    return sum;
+  }
+
   // Returns the energy at x for these targets, one for each row, and adds minus half its gradient
   // to the forces.
   double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,

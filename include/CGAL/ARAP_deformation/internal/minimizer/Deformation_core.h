@@ -148,7 +148,6 @@ private:
   std::unique_ptr<State> m_state;
   Array<char> m_is_isolated; // for each movable vertex
   double m_squared_size = 0;       // of the diagonal of the bounding box of the rest shape
-  Array<char> m_is_untied;   // whether it is isolated or in an unconstrained component
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
   Array<Matrix_3x3> m_rotations;

@@ -48,6 +48,7 @@ struct Deformation_core::State
   Deformation_energy energy;
   Constrained_system system;
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
+  Rigid_start rigid_start;
 };
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -97,7 +98,8 @@ Diagnosis Deformation_core::prepare()
     m_state->stars.reset();
   }
   else
-    m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {}});
+    m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {},
+                            {}});
   m_state->system.set_laplacian(std::move(laplacian));
   m_weights_version = version;
   return {};
@@ -154,11 +156,13 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   stages.border |= work.border;
   if(!is_ready)
     return {Status::singular_matrix};
+  Array<char> is_untied = m_is_isolated;
+  for(std::size_t v = 0; v < components.size(); ++v)
+    is_untied[v] |= components[v] >= 0;
+  if(m_order == Minimization_order::local_first)
+    m_state->rigid_start = Rigid_start(m_region, constraints, is_untied);
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
-  m_is_untied = m_is_isolated;
-  for(std::size_t v = 0; v < components.size(); ++v)
-    m_is_untied[v] |= components[v] >= 0;
   m_constraints = std::move(constraints);
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
@@ -229,15 +233,26 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                          std::vector<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
-  if(options.initial_guess == Initial_guess::laplacian &&
-     m_constraints.number_of_free_vertices() > 0)
+  const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
+  Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
+  if(m_order == Minimization_order::local_first && frames.empty())
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    is_placed = m_state->rigid_start(m_region, m_squared_size, m_constraints.rows, targets,
+                                     is_laplacian, x);
+  }
+  const bool are_all_placed =
+    std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
+               [](char placed, char fixed) { return placed || fixed; });
+  if(is_laplacian && !are_all_placed)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!m_state->stars)
       m_state->stars = star_edge_sets(*m_models.weight,
                                       weighted_simplices(*m_models.weight, m_region), m_region);
     const std::vector<Coordinates> before = x;
-    if(!Laplacian_guess(*m_state->stars, m_region, m_constraints, m_state->system)(targets, x))
+    Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
+    if(!guess(targets, x))
       return {Status::solver_failed};
     // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
     Bounding_box box;
@@ -249,10 +264,6 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(!(box.squared_length() <= 4 * size))
       x = before;
   }
-  if(options.initial_guess == Initial_guess::previous && frames.empty() &&
-     m_order == Minimization_order::local_first &&
-     m_constraints.number_of_free_vertices() > 0)
-    start_rigidly(m_region, m_squared_size, m_constraints, m_is_untied, targets, x);
   m_state->energy.set_given_rotations(rotations_of_cells(frames));
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);

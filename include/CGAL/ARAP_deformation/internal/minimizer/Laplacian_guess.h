@@ -35,6 +35,7 @@ namespace internal {
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
 // are constant. Vertices that are pulled to targets are put there; other rows are not considered.
+// Vertices that are placed already stay where they are.
 //
 // L^T L is not formed: it has far more entries than L, and its condition number is the square of
 // that of L. The normal equations are solved by conjugate gradients, preconditioned by A^-1 A^-1,
@@ -43,10 +44,12 @@ class Laplacian_guess
 {
 public:
   Laplacian_guess(const Stars& stars, const Region& region, const Constraints& constraints,
-                  Constrained_system& system)
+                  const Array<char>& is_placed, Constrained_system& system)
     : m_stars(stars), m_region(region), m_constraints(constraints), m_system(system),
       m_is_solved_for(region.rest.size(), false), m_bound(region.rest.size(), 0)
   {
+    for(std::size_t v = 0; v < is_placed.size(); ++v)
+      m_is_solved_for[v] = !constraints.is_fixed[v] && !is_placed[v];
     // Where an equation with large weights has a small one, its rounding error may be anything
     // compared to that: the vertex of the small weight must not move far away to make up for it.
     Array<double> sums(stars.size(), 0); // of the weights of each equation
@@ -66,11 +69,8 @@ public:
   {
     const std::size_t n = m_constraints.is_fixed.size();
     for(std::size_t v = 0; v < n; ++v)
-      if(!m_constraints.is_fixed[v])
-      {
-        m_is_solved_for[v] = true;
+      if(m_is_solved_for[v])
         x[v] = m_region.rest[v];
-      }
     for(int r = 0; r < m_constraints.rows.size(); ++r)
       if(const int v = m_constraints.rows.position(r); v >= 0 && m_is_solved_for[v])
       {

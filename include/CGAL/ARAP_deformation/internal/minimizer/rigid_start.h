@@ -15,41 +15,67 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The rigid motion that takes points nearest to others, in the sense of least squares.
+// covariance += factor * a b^T
+inline void add_product(Matrix_3x3& covariance, double factor, const Coordinates& a,
+                        const Coordinates& b)
+{
+  for(std::size_t r = 0; r < 3; ++r)
+    for(std::size_t c = 0; c < 3; ++c)
+      covariance[3 * r + c] += factor * a[r] * b[c];
+}
+
+// The rigid motion that takes n points from(k) nearest to points to(k), in the sense of least
+// squares. Where several motions are nearest up to rounding, as for points on a line, that with the
+// smallest rotation.
 class Rigid_fit
 {
 public:
-  // Where several motions are nearest, that with the smallest rotation.
-  Rigid_fit(const std::vector<Coordinates>& from, const std::vector<Coordinates>& to)
-    : m_from(centroid(from)), m_to(centroid(to))
+  template <typename From, typename To>
+  Rigid_fit(std::size_t n, const From& from, const To& to)
+    : m_from(centroid(n, from)), m_to(centroid(n, to))
   {
     Matrix_3x3 covariance{};
-    for(std::size_t k = 0; k < from.size(); ++k)
+    double size = 0;
+    for(std::size_t k = 0; k < n; ++k)
     {
-      const Coordinates p = difference(from[k], m_from), q = difference(to[k], m_to);
-      for(std::size_t r = 0; r < 3; ++r)
-        for(std::size_t c = 0; c < 3; ++c)
-          covariance[3 * r + c] += q[r] * p[c];
+      const Coordinates p = difference(from(k), m_from), q = difference(to(k), m_to);
+      add_product(covariance, 1, q, p);
+      size += dot(p, p);
     }
-    m_rotation = Svd_rotation::closest(covariance);
-    for(std::size_t k = 0; k < from.size(); ++k)
+    // A little is added of the last rotation, the identity at first: it decides where nothing else
+    // does, and what it does elsewhere is gone after some steps.
+    for(int step = 0; step < 3; ++step)
     {
-      const Coordinates error = difference(to[k], (*this)(from[k]));
+      Matrix_3x3 sum = covariance;
+      for(std::size_t k = 0; k < 9; ++k)
+        sum[k] += 1e-11 * size * m_rotation[k];
+      m_rotation = Svd_rotation::closest(sum);
+    }
+    for(std::size_t k = 0; k < n; ++k)
+    {
+      const Coordinates error = difference(to(k), (*this)(from(k)));
       m_squared_error = (std::max)(m_squared_error, dot(error, error));
     }
   }
@@ -67,16 +93,17 @@ public:
   double squared_error() const { return m_squared_error; }
 
 private:
-  static Coordinates centroid(const std::vector<Coordinates>& points)
+  template <typename Points>
+  static Coordinates centroid(std::size_t n, const Points& points)
   {
     Coordinates sum = {0, 0, 0};
-    for(const Coordinates& p : points)
-      add(sum, 1 / static_cast<double>(points.size()), p);
+    for(std::size_t k = 0; k < n; ++k)
+      add(sum, 1 / static_cast<double>(n), points(k));
     return sum;
   }
 
   Coordinates m_from, m_to;
-  Matrix_3x3 m_rotation;
+  Matrix_3x3 m_rotation = identity_matrix();
   double m_squared_error = 0;
 };
 
@@ -100,66 +127,300 @@ inline std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinate
   constexpr double tolerance = 1e-12; // of squares
   if(!(area > tolerance * length * length))
     return std::nullopt;
-  const Rigid_fit fit(from, to);
+  const Rigid_fit fit(from.size(), [&](std::size_t k) { return from[k]; },
+                      [&](std::size_t k) { return to[k]; });
   if(!(fit.squared_error() <= tolerance * length))
     return std::nullopt;
   return fit.rotation();
 }
 
-// Where the free vertices are a rigid copy of the rest shape, and all that constrains them is
-// another one, moves them there: the minimum is zero, and many iterations of any minimizer away.
-// `is_ignored` tells which fixed vertices nothing ties to the free ones, and `size` is the squared
-// diagonal of the bounding box of the rest shape.
-inline void start_rigidly(const Region& region, double size, const Constraints& constraints,
-                          const std::vector<char>& is_ignored,
-                          const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
+// Starts a run at its minimum where that is known to be zero: where all that constrains a part of
+// the free vertices is a rigid copy of the rest shape, the whole part can be one. Any minimizer
+// would need many iterations. Vertices that share cells or rows are in one part.
+class Rigid_start
 {
-  const std::size_t n = constraints.is_fixed.size();
-  std::vector<Coordinates> rest, place;
-  for(std::size_t v = 0; v < x.size(); ++v)
-    if(v >= n || (constraints.is_fixed[v] && !is_ignored[v]))
+public:
+  Rigid_start() = default;
+
+  // `is_ignored` tells which fixed vertices nothing ties to the free ones.
+  Rigid_start(const Region& region, const Constraints& constraints, const Array<char>& is_ignored)
+  {
+    const int n = region.number_of_movable_vertices;
+    const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
+    const auto is_constraint = [&](int v) { return v >= n || (!is_free(v) && !is_ignored[v]); };
+    Sets sets(static_cast<std::size_t>(n)); // of vertices in one part
+    // unites those of a range that are free, and returns one of them, or -1
+    const auto unite_range = [&](auto begin, auto end) {
+      const auto first = std::find_if(begin, end, is_free);
+      for(auto v = first; v != end; ++v)
+        if(is_free(*v))
+          sets.union_set(*first, *v);
+      return first == end ? -1 : *first;
+    };
+    // All that is in simplices at a vertex, free or not, may share a cell.
+    Array<int> around(region.number_of_vertices(), -1); // a free vertex in a simplex there
+    for(int s = 0; s < region.number_of_simplices(); ++s)
     {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(const int free = unite_range(begin, end); free >= 0)
+        for(const int* v = begin; v != end; ++v)
+        {
+          if(around[*v] >= 0)
+            sets.union_set(around[*v], free);
+          around[*v] = free;
+        }
+    }
+    Pairs free, fixed, rows; // each with a free vertex of its part
+    std::vector<int> other_rows;
+    int r = 0;
+    constraints.rows.for_each_row([&](auto begin, auto end, double sum, double weight) {
+      if(const int v = weight == 0 ? -1 : unite_range(begin, end); v >= 0)
+      {
+        rows.emplace_back(v, r);
+        for(auto w = begin; w != end; ++w)
+          if(is_constraint(*w))
+            fixed.emplace_back(v, *w);
+        if(!(std::abs(sum - 1) <= 1e-12))
+          other_rows.push_back(v);
+      }
+      ++r;
+    });
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(std::any_of(begin, end, is_constraint))
+        for(int last = -1, k = 0; k < region.number_of_corners(s); ++k)
+          if(const int v = around[begin[k]]; v >= 0 && static_cast<int>(sets.find_set(v)) != last)
+          {
+            last = static_cast<int>(sets.find_set(v));
+            for(const int* w = begin; w != end; ++w)
+              if(is_constraint(*w))
+                fixed.emplace_back(v, *w);
+          }
+    }
+
+    m_part = Array<int>(n, -1);
+    int count = 0;
+    for(int v = 0; v < n; ++v)
+      if(is_free(v))
+      {
+        int& part = m_part[sets.find_set(v)]; // of the one that stands for its set
+        part = part < 0 ? count++ : part;
+        m_part[v] = part;
+        free.emplace_back(v, v);
+      }
+    m_free = lists(count, std::move(free));
+    m_fixed = lists(count, std::move(fixed));
+    m_rows = lists(count, std::move(rows));
+    m_can_be_rigid = Array<char>(count, true);
+    for(int v : other_rows)
+      m_can_be_rigid[m_part[v]] = false; // it is not invariant under translations
+  }
+
+  // Moves the parts of x that can be rigid there, and returns for each movable vertex whether it is
+  // in one of them. They are moved by as little as possible from the positions x, or if
+  // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. Parts
+  // that are twisted by a full turn are at a minimum of their own, and are left as they are.
+  Array<char> operator()(const Region& region, double size, const Weighted_rows& rows,
+                         const std::vector<Coordinates>& targets, bool is_from_rest,
+                         std::vector<Coordinates>& x) const
+  {
+    Array<char> is_placed(m_part.size(), false);
+    std::vector<Motion> motions;
+    Array<int> deformed(m_free.size(), -1); // for each part its motion, if it is not rigid before
+    bool is_any_deformed = false;
+    for(int part = 0; part < m_free.size(); ++part)
+      if(m_can_be_rigid[part])
+        find_motion(part, region, size, rows, targets, is_from_rest, x, motions);
+    for(std::size_t k = 0; k < motions.size(); ++k)
+      if(motions[k].before.squared_error() > tolerance * size)
+      {
+        deformed[motions[k].part] = static_cast<int>(k);
+        is_any_deformed = true;
+      }
+    if(is_any_deformed)
+      find_twisted_parts(region, rows, x, deformed, motions);
+    for(const Motion& motion : motions)
+      if(!motion.is_twisted)
+        for(int k = m_free.begin[motion.part]; k < m_free.begin[motion.part + 1]; ++k)
+        {
+          const auto v = static_cast<std::size_t>(m_free.items[k]);
+          if(!motion.is_at_rest)
+            x[v] = motion.after(motion.before(region.rest[v]));
+          else if(is_from_rest)
+            x[v] = region.rest[v];
+          is_placed[v] = true;
+        }
+    return is_placed;
+  }
+
+private:
+  using Pairs = std::vector<std::pair<int, int>>;
+  using Sets = boost::disjoint_sets_with_storage<>;
+
+  static constexpr double tolerance = 1e-12; // of squares, also of points of type float
+
+  // What takes the rest shape of a part to where it is, as good as a rigid motion can, and from
+  // there to where the constraints are.
+  struct Motion
+  {
+    int part;
+    Rigid_fit before, after;
+    bool is_at_rest; // nothing is to be moved
+    bool is_twisted = false;
+  };
+
+  // for each part the second numbers of pairs that have one of its vertices
+  Index_lists lists(int count, Pairs pairs) const
+  {
+    for(auto& pair : pairs)
+      pair.first = m_part[pair.first];
+    if(!std::is_sorted(pairs.begin(), pairs.end()))
+      std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    Index_lists result;
+    result.begin = Array<int>(count + 1, 0);
+    for(const auto& pair : pairs)
+    {
+      ++result.begin[pair.first + 1];
+      result.items.push_back(pair.second);
+    }
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    return result;
+  }
+
+  // Adds the motion of a part if its constraints are those of a rigid copy.
+  void find_motion(int part, const Region& region, double size, const Weighted_rows& rows,
+                   const std::vector<Coordinates>& targets, bool is_from_rest,
+                   const std::vector<Coordinates>& x, std::vector<Motion>& motions) const
+  {
+    std::vector<Coordinates> rest, place; // of what constrains it
+    for(int k = m_fixed.begin[part]; k < m_fixed.begin[part + 1]; ++k)
+    {
+      const auto v = static_cast<std::size_t>(m_fixed.items[k]);
       rest.push_back(region.rest[v]);
       place.push_back(x[v]);
     }
-  for(int r = 0; r < constraints.rows.size(); ++r)
-  {
-    const int v = constraints.rows.position(r);
-    if(v < 0)
-      return;
-    rest.push_back(region.rest[v]);
-    place.push_back(targets[static_cast<std::size_t>(r)]);
-  }
-  constexpr double tolerance = 1e-12; // of squares, also of points of type float
-  if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
-    return;
-
-  std::vector<Coordinates> free_rest, free_place;
-  for(std::size_t v = 0; v < n; ++v)
-    if(!constraints.is_fixed[v])
+    for(int k = m_rows.begin[part]; k < m_rows.begin[part + 1]; ++k)
     {
-      free_rest.push_back(region.rest[v]);
-      free_place.push_back(x[v]);
+      rest.push_back(rows.product(m_rows.items[k], region.rest));
+      place.push_back(targets[static_cast<std::size_t>(m_rows.items[k])]);
     }
-  const Rigid_fit before(free_rest, free_place);
-  if(!(before.squared_error() <= tolerance * size))
-    return;
-  // The second fit is relative to the first: a single target, or targets on a line, leave the
-  // rotation undetermined.
-  std::transform(rest.begin(), rest.end(), rest.begin(), before);
-  double motion = 0;
-  for(std::size_t k = 0; k < rest.size(); ++k)
-  {
-    const Coordinates step = difference(place[k], rest[k]);
-    motion = (std::max)(motion, dot(step, step));
+    const auto rest_of = [&](std::size_t k) { return rest[k]; };
+    const auto place_of = [&](std::size_t k) { return place[k]; };
+    if(rest.empty() ||
+       !(Rigid_fit(rest.size(), rest_of, place_of).squared_error() <= tolerance * size))
+      return;
+
+    const int* const free = m_free.items.data() + m_free.begin[part];
+    const auto vertex = [&](std::size_t k) { return static_cast<std::size_t>(free[k]); };
+    const Rigid_fit before(static_cast<std::size_t>(m_free.begin[part + 1] - m_free.begin[part]),
+                           [&](std::size_t k) { return region.rest[vertex(k)]; },
+                           [&](std::size_t k) {
+                             return is_from_rest ? region.rest[vertex(k)] : x[vertex(k)];
+                           });
+    // The second fit is relative to the first: a single target, or targets on a line, leave the
+    // rotation undetermined.
+    std::transform(rest.begin(), rest.end(), rest.begin(), before);
+    double motion = before.squared_error();
+    for(std::size_t k = 0; k < rest.size(); ++k)
+    {
+      const Coordinates step = difference(place[k], rest[k]);
+      motion = (std::max)(motion, dot(step, step));
+    }
+    const Rigid_fit after(rest.size(), rest_of, place_of);
+    const bool is_at_rest = motion < 1e-18 * size;
+    if(is_at_rest || after.squared_error() <= tolerance * motion)
+      motions.push_back({part, before, after, is_at_rest});
   }
-  const Rigid_fit after(rest, place);
-  if(motion < 1e-18 * size || !(after.squared_error() <= tolerance * motion))
-    return;
-  for(std::size_t v = 0; v < n; ++v)
-    if(!constraints.is_fixed[v])
-      x[v] = after(before(region.rest[v]));
-}
+
+  // Finds the parts that are twisted. The cells there, all simplices at a vertex that have free
+  // vertices only, are turned by any angle against the motion before, so that those that are turned
+  // by 120 degrees or more keep constraints apart. Where a part is only crumpled, others tie them
+  // to each other, or they keep single points apart, which hold no twist.
+  void find_twisted_parts(const Region& region, const Weighted_rows& rows,
+                          const std::vector<Coordinates>& x, const Array<int>& deformed,
+                          std::vector<Motion>& motions) const
+  {
+    const int n = static_cast<int>(m_part.size());
+    const auto is_free = [&](int v) { return v < n && m_part[v] >= 0; };
+    const auto is_deformed = [&](int v) { return is_free(v) && deformed[m_part[v]] >= 0; };
+    Array<Matrix_3x3> covariances(n, Matrix_3x3{});
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(!std::all_of(begin, end, is_deformed)) // what is fixed has moved since
+        continue;
+      Matrix_3x3 covariance{};
+      for(const int *v = begin, *last = end - 1; v != end; last = v++)
+        add_product(covariance, 1, edge(x, *v, *last), edge(region.rest, *v, *last));
+      for(const int* v = begin; v != end; ++v)
+        for(std::size_t k = 0; k < 9; ++k)
+          covariances[*v][k] += covariance[k];
+    }
+    Array<char> is_turned(region.number_of_vertices(), false);
+    for_each_block(covariances.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        if(covariances[v] != Matrix_3x3{})
+        {
+          const auto motion = static_cast<std::size_t>(deformed[m_part[v]]);
+          const Matrix_3x3& whole = motions[motion].before.rotation();
+          const Matrix_3x3 cell = Svd_rotation::closest(covariances[v]);
+          is_turned[v] = std::inner_product(cell.begin(), cell.end(), whole.begin(), 0.0) <= 0;
+        }
+    });
+    const auto for_each_constraint = [&](const auto& f) { // f(v, part)
+      for(const Motion& motion : motions)
+        if(deformed[motion.part] >= 0)
+          for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
+            f(m_fixed.items[k], motion.part);
+      rows.for_each_row([&](auto begin, auto end, double, double weight) {
+        for(auto v = begin; v != end; ++v)
+          if(weight != 0 && is_deformed(*v))
+            f(*v, m_part[*v]);
+      });
+    };
+    for_each_constraint([&](int v, int) { is_turned[v] = false; });
+    Sets sets(is_turned.size());
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(std::any_of(begin, end, [&](int v) { return is_free(v) && !is_deformed(v); }))
+        continue;
+      const int* const first = std::find_if(begin, end, [&](int v) { return !is_turned[v]; });
+      for(const int* v = first; v != end; ++v)
+        if(!is_turned[*v])
+          sets.union_set(*first, *v);
+    }
+    rows.for_each_row([&](auto begin, auto end, double, double weight) {
+      for(auto v = begin; v != end && weight != 0; ++v)
+        sets.union_set(*begin, *v);
+    });
+    Array<int> count(is_turned.size(), 0);  // for each set, of its constraints
+    Array<int> holder(m_free.size(), -1);   // for each part a set with several constraints
+    for_each_constraint([&](int v, int part) {
+      const auto set = static_cast<int>(sets.find_set(v));
+      if(++count[set] < 2)
+        return;
+      motions[static_cast<std::size_t>(deformed[part])].is_twisted |=
+        holder[part] >= 0 && holder[part] != set;
+      holder[part] = set;
+    });
+  }
+
+  static Coordinates edge(const std::vector<Coordinates>& points, int v, int w)
+  {
+    return difference(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(w)]);
+  }
+
+  Array<int> m_part;                   // for each movable vertex, -1 if it is fixed
+  Index_lists m_free, m_fixed, m_rows; // of each part, with the fixed vertices that share its cells
+  Array<char> m_can_be_rigid;          // for each part
+};
 
 } // namespace internal
 } // namespace ARAP
