@@ -212,7 +212,8 @@ std::vector<Model> surfaces()
 {
   std::vector<Model> models;
   for(const Shape& shape : shapes())
-    if(shape.points.size() <= 130 && shape.points.size() > 20)
+    // not those with a component whose handles move rigidly: it would start at its minimum
+    if(shape.points.size() <= 130 && shape.points.size() > 20 && shape.name.find("two of") != 0)
     {
       models.push_back({shape.name, shape.points, {}});
       for(const auto& t : shape.triangles)
@@ -401,13 +402,14 @@ void test_one_frame(const Model& model)
       Terms terms;
       terms.frames[v] = rotation;
       Run<Dimension> run(model, s, cells, terms, minimizer);
-      const Report report = run.deformation.deform(2000, 1e-6);
+      const Report report = run.deformation.deform(100, 1e-6);
       CHECK(report.status == CGAL::ARAP::Status::converged);
       std::vector<Eigen::Vector3d> expected;
       for(const Eigen::Vector3d& p : model.points)
         expected.push_back(model.points[v] + rotation * (p - model.points[v]));
-      CHECK_AT_MOST(report.final_energy(), 1e-9 * report.energy_scale);
-      CHECK_AT_MOST(largest_distance(run.points, expected), 1e-3 * diameter);
+      CHECK(report.iterations <= 30);
+      CHECK_AT_MOST(report.final_energy(), report.rounding_level);
+      CHECK_AT_MOST(largest_distance(run.points, expected), 1e-9 * diameter);
       CHECK(run.deformation.erase_target_rotation(v));
     }
 }
@@ -426,15 +428,20 @@ void test_frames_of_motions(const Model& model)
   CHECK(turned.size() > 3);
   CHECK(d.set_target_rotations(turned));
   CHECK(d.deform());
+  int number = 0;
   for(std::size_t v : turned)
   {
     const CGAL::ARAP::Matrix_3x3 r = d.rotation(v);
+    if(r == CGAL::ARAP::Matrix_3x3{1, 0, 0, 0, 1, 0, 0, 0, 1}) // nothing moves in its cell
+      continue;
+    ++number;
     const Eigen::Vector3d edge = model.points[v] - model.points[turned[0]],
                           now = vector(run.points[v]) - vector(run.points[turned[0]]);
     for(std::size_t k = 0; k < 3; ++k)
       CHECK_AT_MOST(std::abs(r[3 * k] * edge[0] + r[3 * k + 1] * edge[1] + r[3 * k + 2] * edge[2] -
                              now[Eigen::Index(k)]), 1e-9);
   }
+  CHECK(number > 0);
   CHECK(d.set_target_rotations(std::vector<std::size_t>{turned[0], turned[1]}).status ==
         CGAL::ARAP::Status::invalid_rotation);
   d.translate(turned[0], Kernel::Vector_3(1, 0, 0));

@@ -175,6 +175,13 @@ private:
   bool m_is_diagonal = true;
 };
 
+// the rotation that a handle gives the cells at a vertex
+struct Frame
+{
+  int vertex;
+  Matrix_3x3 rotation;
+};
+
 // What is prescribed for the movable vertices of a region: some are fixed, and rows pull others.
 // Targets are no part of it: they may change with each run.
 struct Constraints

@@ -52,13 +52,6 @@ struct Core_models
   bool is_parallel;
 };
 
-// the rotation that a handle gives the cells at a vertex
-struct Frame
-{
-  int vertex;
-  Matrix_3x3 rotation;
-};
-
 // What becomes of components of free vertices that nothing constrains: they are refused, become
 // fixed, or become fixed if there are other free vertices.
 enum class Unconstrained_components { refused, fixed, fixed_beside_others };

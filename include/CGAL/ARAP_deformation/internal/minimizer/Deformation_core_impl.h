@@ -235,11 +235,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
 {
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
-  if(m_order == Minimization_order::local_first && frames.empty())
+  if(m_order == Minimization_order::local_first)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     is_placed = m_state->rigid_start(m_region, m_squared_size, m_constraints.rows, targets,
-                                     is_laplacian, x);
+                                     frames, is_laplacian, x);
   }
   const bool are_all_placed =
     std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),

@@ -224,16 +224,20 @@ public:
   // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. Parts
   // that are twisted by a full turn are at a minimum of their own, and are left as they are.
   Array<char> operator()(const Region& region, double size, const Weighted_rows& rows,
-                         const std::vector<Coordinates>& targets, bool is_from_rest,
+                         const std::vector<Coordinates>& targets,
+                         const std::vector<Frame>& frames, bool is_from_rest,
                          std::vector<Coordinates>& x) const
   {
+    Array<const Matrix_3x3*> frame_of(frames.empty() ? 0 : region.number_of_vertices(), nullptr);
+    for(const Frame& frame : frames)
+      frame_of[frame.vertex] = &frame.rotation;
     Array<char> is_placed(m_part.size(), false);
     std::vector<Motion> motions;
     Array<int> deformed(m_free.size(), -1); // for each part its motion, if it is not rigid before
     bool is_any_deformed = false;
     for(int part = 0; part < m_free.size(); ++part)
       if(m_can_be_rigid[part])
-        find_motion(part, region, size, rows, targets, is_from_rest, x, motions);
+        find_motion(part, region, size, rows, targets, frame_of, is_from_rest, x, motions);
     for(std::size_t k = 0; k < motions.size(); ++k)
       if(motions[k].before.squared_error() > tolerance * size)
       {
@@ -293,20 +297,37 @@ private:
 
   // Adds the motion of a part if its constraints are those of a rigid copy.
   void find_motion(int part, const Region& region, double size, const Weighted_rows& rows,
-                   const std::vector<Coordinates>& targets, bool is_from_rest,
+                   const std::vector<Coordinates>& targets,
+                   const Array<const Matrix_3x3*>& frame_of, bool is_from_rest,
                    const std::vector<Coordinates>& x, std::vector<Motion>& motions) const
   {
     std::vector<Coordinates> rest, place; // of what constrains it
+    const auto add_frame = [&](int v) { // as three more points, at the last one
+      if(v < 0 || frame_of.empty() || !frame_of[v])
+        return;
+      const Coordinates p = rest.back(), q = place.back();
+      for(std::size_t axis = 0; axis < 3; ++axis)
+      {
+        Coordinates side = {0, 0, 0};
+        side[axis] = std::sqrt(size);
+        rest.push_back(p);
+        place.push_back(q);
+        add(rest.back(), 1, side);
+        add(place.back(), 1, product(*frame_of[v], side));
+      }
+    };
     for(int k = m_fixed.begin[part]; k < m_fixed.begin[part + 1]; ++k)
     {
       const auto v = static_cast<std::size_t>(m_fixed.items[k]);
       rest.push_back(region.rest[v]);
       place.push_back(x[v]);
+      add_frame(m_fixed.items[k]);
     }
     for(int k = m_rows.begin[part]; k < m_rows.begin[part + 1]; ++k)
     {
       rest.push_back(rows.product(m_rows.items[k], region.rest));
       place.push_back(targets[static_cast<std::size_t>(m_rows.items[k])]);
+      add_frame(rows.position(m_rows.items[k]));
     }
     const auto rest_of = [&](std::size_t k) { return rest[k]; };
     const auto place_of = [&](std::size_t k) { return place[k]; };
