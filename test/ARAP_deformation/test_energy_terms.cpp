@@ -200,10 +200,10 @@ void compare_all(const Model& model)
            (needs_all && &s != &whole && s.selection != whole.selection))
           continue;
         test_case() = model.name + ", " + c.name + ", cells " + std::to_string(cells);
-        const Cell_scheme scheme = cells == Dense_reference::SPOKES ? Cell_scheme::k_ring(c.terms.rings)
-                                   : cells == Dense_reference::ELEMENTS
-                                     ? Cell_scheme::elements()
-                                     : Cell_scheme::spokes_and_rims();
+        const Cell_scheme scheme =
+          cells == Dense_reference::SPOKES     ? Cell_scheme::k_ring(c.terms.rings)
+          : cells == Dense_reference::ELEMENTS ? Cell_scheme::elements()
+                                               : Cell_scheme::spokes_and_rims();
         compare<Dimension>(model, s, scheme, cells, c.terms);
       }
 }
@@ -219,10 +219,22 @@ std::vector<Model> surfaces()
       for(const auto& t : shape.triangles)
         models.back().simplices.emplace_back(t.begin(), t.end());
     }
-  Simplices polygons;
-  const Shape quads = tube(polygons);
-  if(quads.points.size() <= 200)
-    models.push_back({"polygons", quads.points, polygons});
+  Model polygons = {"polygons", {}, {}}; // quads and hexagons, not flat
+  const int n = 6, m = 5;
+  for(int i = 0; i <= n; ++i)
+    for(int j = 0; j <= m; ++j)
+      polygons.points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j,
+                                   0.1 * std::sin(i) * std::cos(0.7 * j));
+  const auto vertex = [=](int i, int j) { return std::size_t(i * (m + 1) + j); };
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < m; ++j)
+      if(j % 3 == 2)
+        polygons.simplices.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                                      vertex(i, j + 1)});
+      else if(j % 3 == 0 && j + 2 <= m)
+        polygons.simplices.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                                      vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});
+  models.push_back(polygons);
   return models;
 }
 
@@ -237,14 +249,11 @@ Model solid()
 
 void test_all()
 {
-  static Every_nth is_run(2);
-  bool is_first = true;
-  for(const Model& model : surfaces())
-    if(is_first || is_run())
-    {
+  const std::vector<Model> models = surfaces();
+  static Every_nth is_run(3);
+  for(const Model& model : models)
+    if(is_run() || &model == &models.back())
       compare_all<2>(model);
-      is_first = false;
-    }
   compare_all<3>(solid());
 }
 

@@ -409,20 +409,25 @@ private:
         if(scheme == ELEMENTS)
         {
           const Simplex &s = m_simplices[i], &t = m_simplices[j];
-          std::vector<Eigen::Vector3d> common;
           Eigen::Vector3d apart = Eigen::Vector3d::Zero();
           for(std::size_t v : s)
-          {
-            if(contains(t, v))
-              common.push_back(m_rest[v]);
             apart += m_rest[v] / double(s.size());
-          }
           for(std::size_t v : t)
             apart -= m_rest[v] / double(t.size());
-          if(int(common.size()) == m_dimension)
-            weight = (m_dimension == 2 ? (common[1] - common[0]).norm()
-                                       : (common[1] - common[0]).cross(common[2] - common[0])
-                                             .norm() / 2) / apart.norm();
+          std::vector<Eigen::Vector3d> common;
+          for(std::size_t v : s)
+            if(contains(t, v))
+              common.push_back(m_rest[v]);
+          if(m_dimension == 3 && common.size() == 3)
+            weight = (common[1] - common[0]).cross(common[2] - common[0]).norm() / 2;
+          for(std::size_t k = 0; m_dimension == 2 && k < s.size(); ++k)
+            for(std::size_t l = 0; l < t.size(); ++l)
+            {
+              const std::size_t a = s[k], b = s[(k + 1) % s.size()];
+              if(std::minmax(a, b) == std::minmax(t[l], t[(l + 1) % t.size()]))
+                weight += (m_rest[a] - m_rest[b]).norm();
+            }
+          weight /= apart.norm();
         }
         else
           for(const Simplex& s : m_simplices)
