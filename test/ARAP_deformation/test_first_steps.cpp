@@ -284,6 +284,32 @@ void test_points_of_others()
   CHECK(pulled.final_energy() > 2 * nothing.final_energy());
   CHECK(s.mesh.point(Vertex(3)) == Point(0, 0.25, -1));
 
+  test_case() = "the rest shape of what others move around the region of interest";
+  const Point old_rest = make_mesh<Mesh>(sheet(12)).point(Vertex(3));
+  const auto collect_again = [&s] {
+    s.d.erase_roi_vertex(Vertex(90));
+    CHECK(s.d.insert_roi_vertex(Vertex(90)));
+    const Report again = s.d.deform(0, 0);
+    CHECK(again.stages.region);
+    return again.final_energy();
+  };
+  const auto state = s.d.state();
+  CHECK_AT_MOST(std::abs(collect_again() - pulled.final_energy()), 1e-12 * pulled.energy_scale);
+  s.d.insert_roi_vertex(Vertex(3));
+  CHECK(s.d.deform(2, 0));
+  CHECK(s.d.restore(state));
+  CHECK(s.mesh.point(Vertex(3)) == Point(0, 0.25, -1));
+  s.d.overwrite_initial_geometry();
+  s.mesh.point(Vertex(3)) = Point(0, 0.25, -3);
+  CHECK(s.d.deform(0, 0).final_energy() > 0.1);
+  s.mesh.point(Vertex(3)) = Point(0, 0.25, -1);
+  CHECK_AT_MOST(collect_again(), 1e-20);
+  CHECK(s.d.restore(state));
+  CHECK_AT_MOST(std::abs(collect_again() - pulled.final_energy()), 1e-12 * pulled.energy_scale);
+  s.d.insert_roi_vertex(Vertex(3));
+  s.d.reset();
+  CHECK(s.mesh.point(Vertex(3)) == old_rest);
+
   test_case() = "points of others that are no numbers";
   const Point sound = s.mesh.point(Vertex(50));
   s.mesh.point(Vertex(50)) = Point(0, std::nan(""), 0);

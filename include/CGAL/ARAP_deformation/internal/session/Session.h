@@ -225,6 +225,7 @@ public:
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
     std::vector<Point> rest = points;
+    m_vertices.read_surroundings_again();
     m_prepared.reset_rotations();
     region_changed();
     move_to(&Entry::present, points);
