@@ -397,6 +397,56 @@ void test_singular()
   }
 }
 
+// Weights that differ from one triangle to the other.
+struct Weight_of_triangles
+{
+  std::array<double, 3> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& p) const
+  {
+    const bool is_first = p[1][0] + p[2][0] > 1.5; // (0, 1, 2) and (0, 2, 3)
+    return is_first ? std::array<double, 3>{1, -1, 1} : std::array<double, 3>{0, 0, 0.5};
+  }
+  std::array<double, 6> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>&) const
+  {
+    return {};
+  }
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double sum) const
+  {
+    return sum;
+  }
+};
+
+// The same matrix of the free vertices 1 and 2, from faces one of which has a negative energy.
+template <typename Weight>
+void test_negative_energy(const std::string& name, const std::vector<std::vector<int>>& faces,
+                          const Weight& weight)
+{
+  test_case() = "a singular matrix of a negative energy: " + name;
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 0.5, 0}};
+  auto domain = CGAL::ARAP::make_polygon_soup_domain(points, faces);
+  using Other_traits = CGAL::ARAP_deformation_traits<CGAL::Default, Weight>;
+  CGAL::ARAP_deformation<decltype(domain), Other_traits> d(domain, Other_traits({}, weight));
+  Options options;
+  options.cells = Cell_scheme::elements();
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(domain.vertices());
+  d.insert_control_vertex(0, Point(0, 0, 1));
+  d.insert_control_vertex(3);
+  d.insert_control_vertex(4);
+  CHECK(d.deform(5, 0).status == Status::singular_matrix);
+  CHECK(points[2] == Point(1, 1, 0));
+}
+
+void test_negative_energies()
+{
+  CGAL::ARAP::Edge_map_weight weights;
+  weights.set_weight(0, 1, 1);
+  weights.set_weight(1, 2, 1);
+  weights.set_weight(0, 2, -1);
+  weights.set_weight(2, 3, 0.5);
+  test_negative_energy("a polygon", {{0, 1, 2, 3, 4}}, weights);
+  test_negative_energy("weights of triangles", {{0, 1, 2}, {0, 2, 3}}, Weight_of_triangles());
+}
+
 } // namespace user_weights
 
 // What did not move is said.
@@ -683,6 +733,7 @@ int main()
   undo::test_points_of_others();
   user_weights::test_changes();
   user_weights::test_singular();
+  user_weights::test_negative_energies();
   messages::test_messages();
   messages::test_seconds();
   short_ways::test_one_call();
