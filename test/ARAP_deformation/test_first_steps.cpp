@@ -611,6 +611,11 @@ void test_one_call()
   CHECK(CGAL::arap_deform(mesh, targets, parameters::target_weight(
     0.1, parameters::vertex_is_constrained_map(is_fixed))));
   CHECK(mesh.point(Vertex(80)) != Point(1, 1, 0.5));
+  Mesh same = rest;
+  CHECK(CGAL::arap_deform(
+    same, [&](Vertex v) { return targets.count(v) > 0; }, targets, parameters::target_weight(
+    0.1, parameters::vertex_is_constrained_map(is_fixed))));
+  CHECK(points_of(mesh) == points_of(same));
 
   test_case() = "a const mesh and an output map";
   auto output = mesh.add_property_map<Vertex, Point>("v:output").first;
@@ -651,6 +656,27 @@ void test_class()
   CHECK(points_of(mesh) == points_of(rest));
   CGAL::ARAP_deformation plain(mesh);
   static_assert(std::is_same_v<decltype(plain), Deformation>);
+
+  test_case() = "constrained vertices of the constructor";
+  const auto is_fixed = [](Vertex v) { return v < Vertex(9); };
+  CGAL::ARAP_deformation held(mesh, CGAL::parameters::vertex_is_constrained_map(is_fixed));
+  CHECK(held.control_vertices().size() == 9 && held.roi_vertices().size() == 9);
+  CHECK(std::isinf(held.target_weight(Vertex(8))));
+
+#ifdef CGAL_NDEBUG // else a precondition says so
+  test_case() = "invalid options of the constructor";
+  Options options;
+  options.tolerance = -1;
+  CGAL::ARAP_deformation invalid(mesh, CGAL::parameters::deformation_options(options));
+  invalid.insert_roi_vertices(vertices(mesh));
+  invalid.insert_control_vertex(Vertex(0), Point(0, 0, 1));
+  CHECK(invalid.preprocess().status == Status::invalid_option);
+  const Report refused = invalid.deform();
+  CHECK(refused.status == Status::invalid_option && says(refused, "tolerance"));
+  CHECK(points_of(mesh) == points_of(rest));
+  CHECK(invalid.set_options(Options()));
+  CHECK(invalid.preprocess() && invalid.deform());
+#endif
 }
 
 } // namespace short_ways

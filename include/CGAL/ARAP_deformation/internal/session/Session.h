@@ -55,8 +55,11 @@ public:
   using Entry = typename Vertices::Entry;
   using Iterate = internal::Iterate<Session>;
 
-  Session(Domain domain, const Traits& traits, const Session_rules& rules = {})
-    : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_prepared(rules)
+  // Options that are out of range are refused by what uses them.
+  Session(Domain domain, const Traits& traits, const Session_rules& rules = {},
+          const Options& options = {})
+    : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_options(options),
+      m_prepared(rules)
   {}
 
   const Options& options() const { return m_options; }
@@ -168,7 +171,10 @@ public:
 
   Outcome preprocess()
   {
-    Outcome prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
+    Outcome prepared = m_options.check();
+    if(!prepared)
+      return prepared;
+    prepared = m_prepared.prepare(m_vertices, m_traits, m_options, m_stages);
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
