@@ -469,12 +469,12 @@ public:
 
   /// returns the region of interest, the control vertices, their targets and weights, the rest
   /// shape and the positions, for undo and redo. Linear time and memory. The options are no part of
-  /// it.
+  /// it, nor is the factor: where that, or the region, was computed again since, runs from a restored
+  /// state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
-  /// returns the object and the mesh to a state of this object, exactly: a run from it has the same
-  /// iterates again, up to rounding. What is prepared for the same region serves as it is. Linear
-  /// time. Vertices that have entered the region of interest since return to where they were
+  /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
+  /// from it. What is prepared for the same region serves as it is. Linear time. Vertices that have entered the region of interest since return to where they were
   /// before. Returns `ARAP::Status::foreign_state`, and changes nothing, if the state is of another
   /// object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
