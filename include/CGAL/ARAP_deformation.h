@@ -136,8 +136,8 @@ public:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
   /// The named parameters are those of `arap_deform()`, but for the visitor and the weight of
-  /// targets, which do not compile: see `deform()` and `set_target_weight()`. The region of interest
-  /// is empty by default; vertices that are constrained become control vertices.
+  /// targets, which do not compile: see `deform()` and `set_target_weight()`. The region of
+  /// interest is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
   /// `deform()` refuse them.
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
@@ -150,8 +150,8 @@ public:
     static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::visitor_t>,
                   "ARAP_deformation: pass the visitor to deform()");
     static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>,
-                  "ARAP_deformation: no target is known yet; use set_target_weight() instead of the "
-                  "named parameter target_weight");
+                  "ARAP_deformation: no target is known yet; use set_target_weight() instead of "
+                  "the named parameter target_weight");
     CGAL_precondition_msg(bool(options().check()), options().check().message.c_str());
     if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
       insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
@@ -469,14 +469,14 @@ public:
 
   /// returns the region of interest, the control vertices, their targets and weights, the rest
   /// shape and the positions, for undo and redo. Linear time and memory. The options are no part of
-  /// it, nor is the factor: where that, or the region, was computed again since, runs from a restored
-  /// state have the same iterates only up to rounding.
+  /// it, nor is the factor: where that, or the region, was computed again since, runs from a
+  /// restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
-  /// from it. What is prepared for the same region serves as it is. Linear time. Vertices that have entered the region of interest since return to where they were
-  /// before. Returns `ARAP::Status::foreign_state`, and changes nothing, if the state is of another
-  /// object.
+  /// from it. What is prepared for the same region serves as it is. Linear time. Vertices that have
+  /// entered the region of interest since return to where they were before. Returns
+  /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
 
