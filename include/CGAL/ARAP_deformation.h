@@ -137,20 +137,27 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
-  /// The named parameters are `vertex_point_map`, `vertex_index_map`, `weight_calculator` and
-  /// `sparse_linear_solver`, as in `arap_deform()`, and those of \ref PkgARAPDeformationParameters
-  /// but the weight of targets.
-  /// \pre The options are valid, see `ARAP::Options::check()`.
+  /// The named parameters are those of `arap_deform()`, but for the visitor and the weight of
+  /// targets, which do not compile: see `deform()` and `set_target_weight()`. The region of
+  /// interest is empty by default; vertices that are constrained become control vertices.
+  /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
+  /// `deform()` refuse them.
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
   ARAP_deformation(Mesh_& mesh, const CGAL_NP_CLASS& np)
     : m_session(ARAP::internal::domain_from_parameters(mesh, np),
-                ARAP::internal::traits_from_parameters(np))
+                ARAP::internal::traits_from_parameters(np), {},
+                ARAP::internal::options_from_parameters(np))
   {
-    [[maybe_unused]] const ARAP::Outcome outcome =
-      set_options(ARAP::internal::options_from_parameters(np));
-    CGAL_precondition_msg(bool(outcome), outcome.message.c_str());
-    if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
+    using ARAP::internal::has_parameter;
+    static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::visitor_t>,
+                  "ARAP_deformation: pass the visitor to deform()");
+    static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>,
+                  "ARAP_deformation: no target is known yet; use set_target_weight() instead of "
+                  "the named parameter target_weight");
+    CGAL_precondition_msg(bool(options().check()), options().check().message.c_str());
+    if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
       insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
+    ARAP::internal::insert_constrained_vertices(*this, np);
   }
 
   /// moves. A moved-from object can only be assigned to or destroyed.
@@ -539,14 +546,14 @@ public:
 
   /// returns the region of interest, the control vertices, their targets and weights, the rest
   /// shape and the positions, for undo and redo. Linear time and memory. The options are no part of
-  /// it.
+  /// it, nor is the factor: where that, or the region, was computed again since, runs from a
+  /// restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
-  /// returns the object and the mesh to a state of this object, exactly: a run from it has the same
-  /// iterates again, up to rounding. What is prepared for the same region serves as it is. Linear
-  /// time. Vertices that have entered the region of interest since return to where they were
-  /// before. Returns `ARAP::Status::foreign_state`, and changes nothing, if the state is of another
-  /// object.
+  /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
+  /// from it. What is prepared for the same region serves as it is. Linear time. Vertices that have
+  /// entered the region of interest since return to where they were before. Returns
+  /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
 

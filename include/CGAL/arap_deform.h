@@ -42,7 +42,8 @@ constexpr bool is_named_parameters = false;
 template <typename T, typename Tag, typename Base>
 constexpr bool is_named_parameters<Named_function_parameters<T, Tag, Base>> = true;
 
-// `insert(deformation)` makes the control vertices
+// `insert(deformation, set_weight)` makes the control vertices, and calls `set_weight(v)` for those
+// with a target
 template <typename Shape, typename NamedParameters, typename Function>
 Report deform_in_one_call(Shape& shape, const Options& options, const NamedParameters& np,
                           const Function& insert)
@@ -63,13 +64,13 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
     deformation.insert_roi_vertices(get_parameter(np, internal_np::region_of_interest));
   else
     deformation.insert_roi_vertices(domain.vertices());
-  if constexpr(has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>)
-    for(auto v : domain.vertices())
-      with_value(get_parameter(np, internal_np::vertex_is_constrained), v, domain.index(v),
-                 [&](bool is_constrained) {
-                   if(is_constrained) deformation.insert_control_vertex(v);
-                 });
-  static_cast<Outcome&>(report) = insert(deformation);
+  insert_constrained_vertices(deformation, np);
+  static_cast<Outcome&>(report) = insert(deformation, [&]([[maybe_unused]] auto v) {
+    if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
+      return deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
+    else
+      return Outcome(Status::success, "");
+  });
   if constexpr(has_parameter<NamedParameters, internal_np::target_rotations_t>)
     for(const auto& [v, rotation] : get_parameter(np, internal_np::target_rotations))
       if(report)
@@ -156,9 +157,8 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
   static_assert(ARAP::internal::is_valid<ARAP::internal::Pair_of, TargetRange>,
                 "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
                 "as a std::map");
-  using parameters::get_parameter;
   const ARAP::Options options = ARAP::internal::options_from_parameters(np);
-  return ARAP::internal::deform_in_one_call(shape, options, np, [&](auto& deformation) {
+  const auto insert = [&](auto& deformation, const auto& set_weight) {
     ARAP::Outcome outcome(ARAP::Status::success, "");
     for(const auto& [v, target] : targets)
     {
@@ -166,13 +166,13 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
       if(!deformation.is_control_vertex(v))
         return ARAP::Outcome(ARAP::Status::not_a_control_vertex,
                              "a target is given for a vertex that the mesh does not have");
-      if constexpr(ARAP::internal::has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>)
-        outcome = deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
+      outcome = set_weight(v);
       if(!outcome)
         break;
     }
     return outcome;
-  });
+  };
+  return ARAP::internal::deform_in_one_call(shape, options, np, insert);
 }
 
 /// \ingroup PkgARAPDeformationRef
@@ -198,8 +198,9 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
   ARAP::Options all_options = options;
   all_options.iterations = parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
-  return ARAP::internal::deform_in_one_call(shape, all_options, np, [&](auto& deformation) {
+  const auto insert = [&](auto& deformation, const auto& set_weight) {
     const auto& domain = deformation.domain();
+    ARAP::Outcome outcome(ARAP::Status::success, "");
     for(auto v : domain.vertices())
       with_value(constrained, v, domain.index(v), [&](bool is_constrained) {
         if(!is_constrained)
@@ -211,10 +212,13 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
           static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
           if constexpr(is_point)
             deformation.set_target_position(v, target);
+          if(ARAP::Outcome weighted = set_weight(v); !weighted)
+            outcome = std::move(weighted);
         });
       });
-    return ARAP::Outcome(ARAP::Status::success, "");
-  });
+    return outcome;
+  };
+  return ARAP::internal::deform_in_one_call(shape, all_options, np, insert);
 }
 
 /// \ingroup PkgARAPDeformationRef

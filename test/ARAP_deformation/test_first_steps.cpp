@@ -543,6 +543,32 @@ void test_points_of_others()
   CHECK(pulled.final_energy() > 2 * nothing.final_energy());
   CHECK(s.mesh.point(Vertex(3)) == Point(0, 0.25, -1));
 
+  test_case() = "the rest shape of what others move around the region of interest";
+  const Point old_rest = make_mesh<Mesh>(sheet(12)).point(Vertex(3));
+  const auto collect_again = [&s] {
+    s.d.erase_roi_vertex(Vertex(90));
+    CHECK(s.d.insert_roi_vertex(Vertex(90)));
+    const Report again = s.d.deform(0, 0);
+    CHECK(again.stages.region);
+    return again.final_energy();
+  };
+  const auto state = s.d.state();
+  CHECK_AT_MOST(std::abs(collect_again() - pulled.final_energy()), 1e-12 * pulled.energy_scale);
+  s.d.insert_roi_vertex(Vertex(3));
+  CHECK(s.d.deform(2, 0));
+  CHECK(s.d.restore(state));
+  CHECK(s.mesh.point(Vertex(3)) == Point(0, 0.25, -1));
+  s.d.overwrite_initial_geometry();
+  s.mesh.point(Vertex(3)) = Point(0, 0.25, -3);
+  CHECK(s.d.deform(0, 0).final_energy() > 0.1);
+  s.mesh.point(Vertex(3)) = Point(0, 0.25, -1);
+  CHECK_AT_MOST(collect_again(), 1e-20);
+  CHECK(s.d.restore(state));
+  CHECK_AT_MOST(std::abs(collect_again() - pulled.final_energy()), 1e-12 * pulled.energy_scale);
+  s.d.insert_roi_vertex(Vertex(3));
+  s.d.reset();
+  CHECK(s.mesh.point(Vertex(3)) == old_rest);
+
   test_case() = "points of others that are no numbers";
   const Point sound = s.mesh.point(Vertex(50));
   s.mesh.point(Vertex(50)) = Point(0, std::nan(""), 0);
@@ -630,6 +656,56 @@ void test_singular()
   }
 }
 
+// Weights that differ from one triangle to the other.
+struct Weight_of_triangles
+{
+  std::array<double, 3> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& p) const
+  {
+    const bool is_first = p[1][0] + p[2][0] > 1.5; // (0, 1, 2) and (0, 2, 3)
+    return is_first ? std::array<double, 3>{1, -1, 1} : std::array<double, 3>{0, 0, 0.5};
+  }
+  std::array<double, 6> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>&) const
+  {
+    return {};
+  }
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double sum) const
+  {
+    return sum;
+  }
+};
+
+// The same matrix of the free vertices 1 and 2, from faces one of which has a negative energy.
+template <typename Weight>
+void test_negative_energy(const std::string& name, const std::vector<std::vector<int>>& faces,
+                          const Weight& weight)
+{
+  test_case() = "a singular matrix of a negative energy: " + name;
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 0.5, 0}};
+  auto domain = CGAL::ARAP::make_polygon_soup_domain(points, faces);
+  using Other_traits = CGAL::ARAP_deformation_traits<CGAL::Default, Weight>;
+  CGAL::ARAP_deformation<decltype(domain), Other_traits> d(domain, Other_traits({}, weight));
+  Options options;
+  options.cells = Cell_scheme::elements();
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(domain.vertices());
+  d.insert_control_vertex(0, Point(0, 0, 1));
+  d.insert_control_vertex(3);
+  d.insert_control_vertex(4);
+  CHECK(d.deform(5, 0).status == Status::singular_matrix);
+  CHECK(points[2] == Point(1, 1, 0));
+}
+
+void test_negative_energies()
+{
+  CGAL::ARAP::Edge_map_weight weights;
+  weights.set_weight(0, 1, 1);
+  weights.set_weight(1, 2, 1);
+  weights.set_weight(0, 2, -1);
+  weights.set_weight(2, 3, 0.5);
+  test_negative_energy("a polygon", {{0, 1, 2, 3, 4}}, weights);
+  test_negative_energy("weights of triangles", {{0, 1, 2}, {0, 2, 3}}, Weight_of_triangles());
+}
+
 } // namespace user_weights
 
 // What did not move is said.
@@ -705,7 +781,7 @@ void test_seconds()
       return CGAL::ARAP::Visitor_action::proceed;
     }).seconds;
     CHECK(s.visitor > 0 && s.transfer > 0 && s.local_steps > 0 && s.global_steps > 0);
-    sum += s.preprocess + s.transfer + s.initial_guess + s.local_steps + s.global_steps + s.visitor;
+    sum += sum_of_phases(s);
     total += s.total;
   }
   CHECK_AT_MOST(sum, total);
@@ -794,6 +870,11 @@ void test_one_call()
   CHECK(CGAL::arap_deform(mesh, targets, parameters::target_weight(
     0.1, parameters::vertex_is_constrained_map(is_fixed))));
   CHECK(mesh.point(Vertex(80)) != Point(1, 1, 0.5));
+  Mesh same = rest;
+  CHECK(CGAL::arap_deform(
+    same, [&](Vertex v) { return targets.count(v) > 0; }, targets, parameters::target_weight(
+    0.1, parameters::vertex_is_constrained_map(is_fixed))));
+  CHECK(points_of(mesh) == points_of(same));
 
   test_case() = "a const mesh and an output map";
   auto output = mesh.add_property_map<Vertex, Point>("v:output").first;
@@ -834,6 +915,27 @@ void test_class()
   CHECK(points_of(mesh) == points_of(rest));
   CGAL::ARAP_deformation plain(mesh);
   static_assert(std::is_same_v<decltype(plain), Deformation>);
+
+  test_case() = "constrained vertices of the constructor";
+  const auto is_fixed = [](Vertex v) { return v < Vertex(9); };
+  CGAL::ARAP_deformation held(mesh, CGAL::parameters::vertex_is_constrained_map(is_fixed));
+  CHECK(held.control_vertices().size() == 9 && held.roi_vertices().size() == 9);
+  CHECK(std::isinf(held.target_weight(Vertex(8))));
+
+#ifdef CGAL_NDEBUG // else a precondition says so
+  test_case() = "invalid options of the constructor";
+  Options options;
+  options.tolerance = -1;
+  CGAL::ARAP_deformation invalid(mesh, CGAL::parameters::deformation_options(options));
+  invalid.insert_roi_vertices(vertices(mesh));
+  invalid.insert_control_vertex(Vertex(0), Point(0, 0, 1));
+  CHECK(invalid.preprocess().status == Status::invalid_option);
+  const Report refused = invalid.deform();
+  CHECK(refused.status == Status::invalid_option && says(refused, "tolerance"));
+  CHECK(points_of(mesh) == points_of(rest));
+  CHECK(invalid.set_options(Options()));
+  CHECK(invalid.preprocess() && invalid.deform());
+#endif
 }
 
 } // namespace short_ways
@@ -922,6 +1024,7 @@ int main()
   undo::test_points_of_others();
   user_weights::test_changes();
   user_weights::test_singular();
+  user_weights::test_negative_energies();
   messages::test_messages();
   messages::test_seconds();
   short_ways::test_one_call();

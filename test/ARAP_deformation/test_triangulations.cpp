@@ -24,6 +24,7 @@
 #include <CGAL/Tetrahedral_remeshing/Remeshing_triangulation_3.h>
 #include <CGAL/Triangulation_3.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -159,6 +160,40 @@ void test_circumcenters()
   }
 }
 
+// The phases of a frame add up to its total, and writing the points back is one of them.
+void test_seconds()
+{
+  test_case() = "seconds";
+  using Vertex_base = CGAL::Triangulation_vertex_base_3<Epick>;
+  using Cell_base = CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Epick>;
+  using Structure = CGAL::Triangulation_data_structure_3<Vertex_base, Cell_base>;
+  using Triangulation = CGAL::Delaunay_triangulation_3<Epick, Structure>;
+  Triangulation t;
+  for(const auto& p : random_points(3000))
+    t.insert(Epick::Point_3(p.x(), p.y(), p.z()));
+  CGAL::ARAP_deformation<Triangulation> deformation(t);
+  const auto& domain = deformation.domain();
+  const std::vector<Triangulation::Vertex_handle> vertices(t.finite_vertex_handles().begin(),
+                                                           t.finite_vertex_handles().end());
+  prepare(deformation, scenario(block_of(domain)), vertices);
+  double outside = infinity, transfer = infinity, writing = infinity; // the least: others interrupt
+  for(int frame = 0; frame < 5; ++frame)
+  {
+    const CGAL::ARAP::Phase_seconds s = deformation.deform(2, 0).seconds;
+    outside = (std::min)(outside, s.total - 1.05 * sum_of_phases(s));
+    transfer = (std::min)(transfer, s.transfer);
+    CGAL::ARAP::Phase_seconds written;
+    {
+      CGAL::ARAP::internal::Scoped_seconds seconds(written.transfer);
+      for(auto v : vertices)
+        domain.set_point(v, domain.point(v));
+    }
+    writing = (std::min)(writing, written.transfer);
+  }
+  CHECK_AT_MOST(outside, 1e-3);
+  CHECK_AT_MOST(0.5 * writing, transfer);
+}
+
 void test_weights()
 {
   test_case() = "Regular_triangulation_3";
@@ -226,6 +261,7 @@ int main()
   test_plain();
   test_some_cells();
   test_circumcenters();
+  test_seconds();
   test_weights();
   test_remeshing();
   test_shelf();

@@ -170,8 +170,8 @@ namespace polygons {
 using CGAL::ARAP::Cotangent_weight;
 using CGAL::ARAP::internal::Region;
 
-// the weights of all pairs of corners of one polygon
-std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
+// one polygon, with the weights of all pairs of its corners
+CGAL::ARAP::internal::Simplices weighted_polygon(const std::vector<Eigen::Vector3d>& points)
 {
   Region region;
   for(const auto& p : points)
@@ -182,7 +182,12 @@ std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
   }
   region.first_corner.push_back(region.number_of_vertices());
   const CGAL::ARAP::internal::Edge_weight_model_of<Cotangent_weight> model{Cotangent_weight()};
-  return CGAL::ARAP::internal::weighted_simplices(model, region).weights;
+  return CGAL::ARAP::internal::weighted_simplices(model, region);
+}
+
+std::vector<double> weights_of(const std::vector<Eigen::Vector3d>& points)
+{
+  return weighted_polygon(points).weights;
 }
 
 std::size_t pair_number(std::size_t n, std::size_t a, std::size_t b)
@@ -230,7 +235,8 @@ void test_one_polygon()
     // flat and convex: sum w ||D e||^2 = area ||D||_F^2, as for each of its triangulations
     for(auto& p : points)
       p = {2 * p.x(), p.y() + 0.3 * p.x(), 0};
-    const std::vector<double> flat = weights_of(points);
+    auto polygon = weighted_polygon(points);
+    const std::vector<double> flat = polygon.weights;
     const Eigen::Matrix2d map = Eigen::Matrix2d::NullaryExpr([&] { return unit(random); });
     double sum = 0, area = 0;
     for(std::size_t a = 0; a < n; ++a)
@@ -243,6 +249,11 @@ void test_one_polygon()
                (map * (points[a] - points[b]).head<2>()).squaredNorm();
     }
     CHECK_AT_MOST(std::abs(sum - area * map.squaredNorm()), 1e-11 * sum);
+
+    // a sum of squares, up to rounding, until something is taken from a diagonal
+    CHECK(polygon.are_sums_of_squares());
+    polygon.weights[pair_number(n, 0, 2)] -= 1000;
+    CHECK(!polygon.are_sums_of_squares());
   }
 
   // a rectangle has no weight on its diagonals
@@ -297,9 +308,28 @@ void test_corners_next_to_a_line()
   }
 }
 
+// Weights that a class inherits from the cotangents are known to be those of shapes.
+void test_inheritance()
+{
+  struct Other : Cotangent_weight
+  {
+    std::array<double, 3> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>&) const
+    {
+      return {1, -1, 1};
+    }
+  };
+  using CGAL::ARAP::internal::Edge_weight_model_of;
+  CHECK(Edge_weight_model_of<Cotangent_weight>({}).are_of_shapes());
+  CHECK(Edge_weight_model_of<CGAL::ARAP::Safe_cotangent_weight>({}).are_of_shapes());
+  CHECK(Edge_weight_model_of<CGAL::ARAP::Clamped_cotangent_weight>({}).are_of_shapes());
+  CHECK(!Edge_weight_model_of<CGAL::ARAP::Uniform_weight>({}).are_of_shapes());
+  CHECK(!Edge_weight_model_of<Other>({}).are_of_shapes());
+}
+
 void test_all()
 {
   test_one_polygon();
+  test_inheritance();
   test_corners_next_to_a_line();
 }
 

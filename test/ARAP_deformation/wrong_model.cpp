@@ -198,6 +198,12 @@ int main()
 #elif WRONG_MODEL == 24
   Mesh mesh;
   return bool(CGAL::arap_deform(mesh, std::vector<std::array<double, 3>>()));
+#elif WRONG_MODEL == 25
+  Mesh mesh;
+  CGAL::ARAP_deformation deformation(mesh, CGAL::parameters::visitor(Default_visitor()));
+#elif WRONG_MODEL == 26
+  Mesh mesh;
+  CGAL::ARAP_deformation deformation(mesh, CGAL::parameters::target_weight(1));
 #else
 #error "there is no wrong model of that number"
 #endif

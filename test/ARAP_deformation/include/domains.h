@@ -62,6 +62,11 @@ void for_all_options(const Function& f)
         f(options_for(cells, minimizer, guess));
 }
 
+inline double sum_of_phases(const CGAL::ARAP::Phase_seconds& s)
+{
+  return s.preprocess + s.transfer + s.initial_guess + s.local_steps + s.global_steps + s.visitor;
+}
+
 // what a domain asks of a point, and nothing else
 class Bare_point
 {

@@ -21,6 +21,8 @@
 
 #include <CGAL/assertions.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,8 +32,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The edge sets that are stars: the neighbours of each centre, and the weights of the edges to
-// them.
+// The edge sets that are stars: the neighbours of each centre, in the order of their numbers, and
+// the weights of the edges to them.
 struct Stars
 {
   Index_lists neighbours;
@@ -44,8 +46,8 @@ struct Stars
   {
     const auto begin = neighbours.items.begin() + neighbours.begin[i];
     const auto end = neighbours.items.begin() + neighbours.begin[i + 1];
-    const auto found = std::find(begin, end, j);
-    CGAL_assertion(found != end);
+    const auto found = std::lower_bound(begin, end, j);
+    CGAL_assertion(found != end && *found == j);
     return static_cast<int>(found - neighbours.items.begin());
   }
 
@@ -85,16 +87,18 @@ struct Simplices
     return weights[first_weight[s] + a * (2 * n - a - 1) / 2 + b - a - 1];
   }
 
-  // Whether no triangle or tetrahedron has a negative energy, up to rounding, whatever its edges.
-  // Larger polygons are not looked at.
+  // Whether no simplex has a negative energy, up to rounding, whatever its edges. Cubic time in the
+  // number of its corners where a weight is negative.
   bool are_sums_of_squares() const
   {
+    using Small_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
     for(int s = 0; s < size(); ++s)
     {
       const double* const w = weights.data() + first_weight[s];
       const int n = number_of_corners(s);
-      if(n <= 4 && std::any_of(w, w + n * (n - 1) / 2, [](double weight) { return weight < 0; }) &&
-         !has_no_negative_energy(n, w))
+      if(std::any_of(w, w + n * (n - 1) / 2, [](double weight) { return weight < 0; }) &&
+         !(n <= 4 ? has_no_negative_energy<Small_matrix>(n, w)
+                  : has_no_negative_energy<Eigen::MatrixXd>(n, w)))
         return false;
     }
     return true;
@@ -108,34 +112,23 @@ struct Simplices
   void for_each_edge(const Function& f) { visit_edges(*this, f); }
 
 private:
-  // Eliminates one corner after the other from the matrix of a simplex: no pivot may be negative.
+  // whether the matrix of a simplex has no negative eigenvalue up to rounding: raised by that much
+  // it has a Cholesky factorization
+  template <typename Matrix>
   static bool has_no_negative_energy(int n, const double* w)
   {
-    double matrix[4][4] = {};
+    Matrix matrix = Matrix::Zero(n, n);
     double largest = 0;
     for(int a = 0; a < n; ++a)
       for(int b = a + 1; b < n; ++b, ++w)
       {
-        matrix[a][b] = matrix[b][a] = -*w;
-        matrix[a][a] += *w;
-        matrix[b][b] += *w;
+        matrix(b, a) = -*w;
+        matrix(a, a) += *w;
+        matrix(b, b) += *w;
         largest = (std::max)(largest, std::abs(*w));
       }
-    const double rounding = 1e-9 * largest;
-    for(int k = 0; k + 1 < n; ++k)
-    {
-      const double pivot = matrix[k][k];
-      if(pivot < -rounding)
-        return false;
-      for(int a = k + 1; a < n; ++a)
-      {
-        if(pivot <= rounding && std::abs(matrix[a][k]) > std::sqrt(1e-9) * largest)
-          return false;
-        for(int b = k + 1; b < n && pivot > rounding; ++b)
-          matrix[a][b] -= matrix[a][k] * matrix[k][b] / pivot;
-      }
-    }
-    return true;
+    matrix.diagonal().array() += 1e-9 * largest;
+    return Eigen::LLT<Eigen::Ref<Matrix>>(matrix).info() == Eigen::Success;
   }
 
   template <typename Self, typename Function>

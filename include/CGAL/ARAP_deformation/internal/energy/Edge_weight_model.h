@@ -15,11 +15,13 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
@@ -40,12 +42,26 @@ public:
   virtual std::array<double, 6> tetrahedron(const Tetrahedron& points) const = 0;
   virtual double edge(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const = 0;
 
+  // whether those of triangles and tetrahedra come from their shapes, with no negative energy
+  virtual bool are_of_shapes() const = 0;
+
   // changes when the weights do
   virtual std::size_t version() const = 0;
 };
 
 template <typename Weight>
 using Call_version = decltype(std::declval<const Weight&>().version());
+
+// what `Weight` inherits from Cotangent_weight, and does not define itself
+template <typename Weight, std::size_t N>
+using Inherited_weights_of = std::integral_constant<
+  std::array<double, N * (N - 1) / 2> (Cotangent_weight::*)(const std::array<Coordinates, N>&)
+    const,
+  &Weight::simplex_weights>;
+
+template <typename Weight>
+using Inherited_weights =
+  std::pair<Inherited_weights_of<Weight, 3>, Inherited_weights_of<Weight, 4>>;
 
 template <typename Weight>
 using Call_triangle_weights_of_vertices =
@@ -83,6 +99,8 @@ public:
   {
     return m_weight.edge_weight(edge_set, i, j, sum);
   }
+
+  bool are_of_shapes() const override { return is_valid<Inherited_weights, Weight>; }
 
   std::size_t version() const override
   {

@@ -61,9 +61,14 @@ inline double relative_area(const std::array<Coordinates, 3>& triangle)
 {
   const Coordinates a = difference(triangle[1], triangle[0]),
                     b = difference(triangle[2], triangle[0]),
-                    c = difference(triangle[2], triangle[1]), normal = cross(a, b);
+                    c = difference(triangle[2], triangle[1]);
   const double squared_sides = dot(a, a) + dot(b, b) + dot(c, c);
-  return squared_sides > 0 ? std::hypot(normal[0], normal[1], normal[2]) / squared_sides : 0;
+  if(!(squared_sides > 0))
+    return 0;
+  Coordinates normal = cross(a, b);
+  for(double& x : normal)
+    x /= squared_sides; // before it is squared, which could underflow
+  return std::sqrt(dot(normal, normal));
 }
 
 // The weights of a polygon are the average over all its triangulations, in which no corner is
@@ -110,7 +115,8 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
   constexpr double negligible = 1e-6;
   double largest_area = 0;
   for_each_triangle([&](int a, int b, int c, double) {
-    largest_area = (std::max)(largest_area, area(a, b, c));
+    if(largest_area < negligible) // more is not asked for
+      largest_area = (std::max)(largest_area, area(a, b, c));
   });
   const double smallest_share = (std::max)(0.0, 1 - largest_area / negligible);
   for_each_triangle([&](int a, int b, int c, double fraction) {
@@ -175,7 +181,7 @@ inline int find_non_finite_simplex(const Simplices& simplices)
 inline Simplices simplex_edge_sets(const Edge_weight_model& model, Simplices simplices,
                                    const Region& region)
 {
-  bool are_of_shapes = true;
+  bool are_of_shapes = model.are_of_shapes();
   simplices.for_each_edge([&](int, int i, int j, double& w) {
     const double sum = w;
     w = model.edge(Edge_set::simplex, region.indices[i], region.indices[j], sum);

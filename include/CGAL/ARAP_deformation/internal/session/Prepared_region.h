@@ -126,7 +126,7 @@ public:
   }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
-  Outcome prepare(const Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+  Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
                   const Options& options, Stages& stages)
   {
     if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
@@ -220,7 +220,7 @@ private:
     }
   };
 
-  Outcome update(const Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+  Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
                  const Options& options, Stages& stages)
   {
     m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
@@ -264,6 +264,9 @@ private:
       return result;
     if(next)
     {
+      if(!m_rules.are_erased_put_back) // CGAL's class reads them again
+        for(vertex_descriptor v : next->region.vertices)
+          vertices.keep_rest(v);
       if(m_prepared && options.cells.has_vertex_cells() &&
          (m_rules.are_targets_and_rotations_kept || has_region()))
         take_over_rotations(vertices.domain(), *next);
@@ -330,8 +333,7 @@ private:
         continue;
       }
       prepared.positions.push_back(Domain::coordinates(vertices.present(v)));
-      region.flat.rest.push_back(entry ? Domain::coordinates(entry->rest)
-                                       : prepared.positions.back());
+      region.flat.rest.push_back(Domain::coordinates(vertices.rest(v)));
     }
     if(const int v = find_non_finite(prepared.positions); v >= 0)
       return outcome(Status::non_finite_point, name(region.vertices[v]));

@@ -57,8 +57,11 @@ public:
   using Entry = typename Vertices::Entry;
   using Iterate = internal::Iterate<Session>;
 
-  Session(Domain domain, const Traits& traits, const Session_rules& rules = {})
-    : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_prepared(rules)
+  // Options that are out of range are refused by what uses them.
+  Session(Domain domain, const Traits& traits, const Session_rules& rules = {},
+          const Options& options = {})
+    : m_vertices(std::move(domain)), m_traits(traits), m_rules(rules), m_options(options),
+      m_prepared(rules)
   {}
 
   const Options& options() const { return m_options; }
@@ -225,7 +228,10 @@ public:
 
   Outcome preprocess()
   {
-    Outcome prepared = prepare();
+    Outcome prepared = m_options.check();
+    if(!prepared)
+      return prepared;
+    prepared = prepare();
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
@@ -282,6 +288,7 @@ public:
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
     std::vector<Point> rest = points;
+    m_vertices.read_surroundings_again();
     m_prepared.reset_rotations();
     region_changed();
     move_to(&Entry::present, points);

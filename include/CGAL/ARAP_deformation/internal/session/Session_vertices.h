@@ -115,6 +115,40 @@ public:
     return entry == nullptr ? m_domain.point(v) : entry->present;
   }
 
+  // the point of v in the rest shape: of vertices that are not known, the one that the mesh has
+  Point rest(vertex_descriptor v) const
+  {
+    if(const Entry* entry = find(v))
+      return entry->rest;
+    const int slot = m_surrounding_slots[m_domain.index(v)];
+    const bool is_kept = slot != Paged_index_map::none &&
+                         is_finite(Domain::coordinates(m_surroundings[slot].rest));
+    return is_kept ? m_surroundings[slot].rest : m_domain.point(v);
+  }
+
+  // A vertex around the region of interest that has no entry.
+  struct Surrounding
+  {
+    vertex_descriptor vertex;
+    Point rest;
+  };
+
+  // keeps the rest shape of a vertex around the region of interest, whoever moves it
+  void keep_rest(vertex_descriptor v)
+  {
+    if(find(v) == nullptr)
+      keep_rest({v, rest(v)});
+  }
+
+  // to be called when the rest shape is overwritten
+  void read_surroundings_again()
+  {
+    std::vector<Surrounding> surroundings = m_surroundings;
+    for(Surrounding& v : surroundings)
+      v.rest = m_domain.point(v.vertex);
+    m_surroundings.swap(surroundings);
+  }
+
   // the entry of v if it is a control vertex, else nullptr
   Entry* find_control(vertex_descriptor v)
   {
@@ -246,13 +280,16 @@ public:
     std::vector<Entry> entries;
     std::vector<Target> targets;
     std::vector<Point> first_points;
+    std::vector<Surrounding> surroundings;
   };
 
-  State state() const { return {m_entries, m_targets, m_first_points}; }
+  State state() const { return {m_entries, m_targets, m_first_points, m_surroundings}; }
 
   // Returns to an earlier state. Vertices that have entered since leave.
   void restore(State state)
   {
+    for(Surrounding& v : state.surroundings) // what others have is what was found since
+      keep_rest(std::move(v));
     for(std::size_t k = m_entries.size(); k < state.entries.size(); ++k)
       m_slots.set(m_domain.index(state.entries[k].vertex), static_cast<int>(k));
     for(std::size_t k = state.entries.size(); k < m_entries.size(); ++k)
@@ -291,6 +328,19 @@ private:
       return true;
   }
 
+  void keep_rest(Surrounding v)
+  {
+    const std::size_t index = m_domain.index(v.vertex);
+    if(const int slot = m_surrounding_slots[index]; slot != Paged_index_map::none)
+      m_surroundings[slot] = std::move(v);
+    else
+    {
+      m_surrounding_slots.reserve(index);
+      m_surroundings.push_back(std::move(v));
+      m_surrounding_slots.set(index, static_cast<int>(m_surroundings.size()) - 1);
+    }
+  }
+
   bool enter_roi(Entry& entry)
   {
     if(entry.is_roi)
@@ -307,9 +357,16 @@ private:
     if(slot == Paged_index_map::none)
     {
       slot = static_cast<int>(m_entries.size());
-      const Point point = m_domain.point(v);
+      const Point point = m_domain.point(v), rest = this->rest(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
-      m_entries.push_back({v, no_target, point, point});
+      if(m_entries.size() == m_entries.capacity())
+        m_entries.reserve(2 * m_entries.size() + 1);
+      if(Domain::coordinates(rest) != Domain::coordinates(point))
+      {
+        keep_first_points();
+        m_first_points.push_back(point);
+      }
+      m_entries.push_back({v, no_target, rest, point});
       m_slots.set(index, slot);
     }
     return m_entries[slot];
@@ -319,6 +376,8 @@ private:
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   Array<Entry> m_entries;
   Array<Target> m_targets;
+  Paged_index_map m_surrounding_slots; // the same for m_surroundings
+  std::vector<Surrounding> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::size_t m_number_of_insertions = 0;
 };

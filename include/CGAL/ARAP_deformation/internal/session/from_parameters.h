@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 #include <CGAL/ARAP_deformation/parameters.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
@@ -82,6 +83,18 @@ Options options_from_parameters(const NamedParameters& np)
   options.iterations = parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
   return options;
+}
+
+// inserts the vertices that stay where they are
+template <typename Deformation, typename NamedParameters>
+void insert_constrained_vertices(Deformation& deformation, const NamedParameters& np)
+{
+  if constexpr(has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>)
+    for(auto v : deformation.domain().vertices())
+      with_value(parameters::get_parameter(np, internal_np::vertex_is_constrained), v,
+                 deformation.domain().index(v), [&](bool is_constrained) {
+                   if(is_constrained) deformation.insert_control_vertex(v);
+                 });
 }
 
 } // namespace internal

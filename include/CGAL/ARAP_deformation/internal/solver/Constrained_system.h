@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
@@ -45,11 +46,7 @@ namespace internal {
 class Constrained_system
 {
 public:
-  // what the last call of prepare() did
-  struct Work
-  {
-    bool order = false, factor = false, border = false;
-  };
+  using Work = Stages; // of which prepare() does the order, the factor and the border
 
   explicit Constrained_system(std::unique_ptr<Linear_solver> prototype)
     : m_prototype(std::move(prototype))
