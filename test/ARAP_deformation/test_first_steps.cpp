@@ -291,8 +291,8 @@ void test_deformed()
     {
       const Shape shape = sheet(n);
       const std::size_t m = n + 1, last = m * m - 1;
-      Surface s(shape.points, shape.triangles, {0, m - 1, last - n + 1 - n % 2, last, m * m / 2 + 1},
-                weight, minimizer);
+      Surface s(shape.points, shape.triangles, {0, m - 1, last - n + 1, last, m * m / 2 + 1}, weight,
+                minimizer);
       go(s, "deformed " + shape.name + ", weight " + std::to_string(weight));
     }
     const Block shape = block(8, 5, 4);
@@ -358,7 +358,9 @@ void test_laplacian()
     const Eigen::Isometry3d left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
     const Eigen::Isometry3d right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
     s.check_run_to_rest([&](std::size_t v) { return v < n ? left : right; });
-    s.run([&](std::size_t v) { return v < n ? left : rigid_motion(double(v), {0, 1, 2}, {0, 0, 0}); }, 0);
+    s.run([&](std::size_t v) {
+      return v < n ? left : rigid_motion(double(v), {0, 1, 2}, {0, 0, 0});
+    }, 0);
     double error = 0;
     for(std::size_t v = 0; v < n; ++v)
       error = larger(error, (vector(s.points[v]) - left * s.rest[v]).norm());
