@@ -184,7 +184,7 @@ void test()
   for(const Shape& shape : shapes())
     for(Cell_scheme cells : all_cell_schemes)
     {
-      if(!is_run())
+      if(!is_run() || shape.name == "two of strip") // one moves rigidly: it is placed
         continue;
       test_case() = shape.name;
       const Scenario s = scenario(shape, 0.5);

@@ -105,8 +105,9 @@ public:
   }
 
 private:
-  // The solution for a right-hand side, for each coordinate a system of its own. Returns false if
-  // the solver failed.
+  // The solution for a right-hand side, for each coordinate a system of its own. What is reached
+  // after the last iteration will do, as each of them comes nearer. Returns false if the solver
+  // failed.
   bool solve(std::vector<Coordinates> residual, std::vector<Coordinates>& x)
   {
     const std::size_t n = residual.size();
