@@ -417,7 +417,7 @@ void test_rows()
     }
     const Rigid_start start(region, constraints, Array<char>(4, false));
     std::vector<CGAL::ARAP::Coordinates> x = region.rest;
-    const Array<char> is_placed = start(region, 2.25, constraints.rows, targets, false, x);
+    const Array<char> is_placed = start(region, 2.25, constraints.rows, targets, {}, false, x);
     CHECK(is_placed == Array<char>(4, sum == 1));
     for(std::size_t v = 0; v < 4 && sum == 1; ++v)
     {

@@ -281,7 +281,7 @@ void test_options()
 
   const CGAL::ARAP::Options defaults;
   CHECK(defaults.cells == CGAL::ARAP::Cell_scheme::spokes_and_rims());
-  CHECK(defaults.initial_guess == CGAL::ARAP::Initial_guess::previous);
+  CHECK(defaults.initial_guess == CGAL::ARAP::Initial_guess::automatic);
   CHECK(defaults.minimizer == CGAL::ARAP::Minimizer::automatic);
   CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-3);
 }

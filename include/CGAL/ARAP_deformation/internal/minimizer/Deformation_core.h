@@ -129,6 +129,7 @@ private:
                          const std::vector<Coordinates>& targets,
                          const std::vector<Frame>& frames, std::vector<Coordinates>& x,
                          std::vector<Matrix_3x3>& rotations, Report& report);
+  Array<Matrix_3x3> rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
@@ -226,6 +227,28 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   return given;
 }
 
+// the rotations of cells, from those of their vertices
+CGAL_ARAP_INLINE_FUNCTION
+Array<Matrix_3x3>
+Deformation_core::rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const
+{
+  if(m_energy_model.cells.has_vertex_cells())
+  {
+    const auto end = of_vertices.begin() + static_cast<std::ptrdiff_t>(m_rotations.size());
+    return Array<Matrix_3x3>(of_vertices.begin(), end);
+  }
+  Array<Matrix_3x3> rotations;
+  for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
+  {
+    Matrix_3x3 sum{};
+    for(int k = 0; k < m_region.number_of_corners(s); ++k)
+      for(std::size_t entry = 0; entry < 9; ++entry)
+        sum[entry] += of_vertices[m_region.corners_of(s)[k]][entry];
+    rotations.push_back(Svd_rotation::closest(sum));
+  }
+  return rotations;
+}
+
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
                                          const std::vector<Coordinates>& targets,
@@ -267,6 +290,18 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   m_state->energy.set_given_rotations(rotations_of_cells(frames));
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
+  const bool is_tried = options.initial_guess == Initial_guess::automatic &&
+                        m_order == Minimization_order::local_first &&
+                        is_torn(m_region, m_constraints, m_squared_size, targets, x);
+  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed)
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    const Array<Matrix_3x3> of_vertices = Harmonic_rotations(
+      m_region, m_constraints, targets, frames, x)(m_state->energy, m_state->system);
+    if(!of_vertices.empty() &&
+       !minimization.start_with(rotations_of_cells(of_vertices), is_placed, is_tried))
+      return {Status::solver_failed};
+  }
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
   const bool is_quasi_newton =

@@ -24,6 +24,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <cmath>
@@ -80,6 +81,31 @@ public:
   {
     Scoped_seconds local(report.seconds.local_steps);
     return complete(m_energy.evaluate(x, m_rotations, m_force));
+  }
+
+  // Replaces x by the solution of the global step with these rotations, but for vertices that are
+  // placed; if `is_tried` only where that lowers the energy. False if the solver fails.
+  bool start_with(std::vector<Matrix_3x3> rotations, const std::vector<char>& is_placed,
+                  bool is_tried)
+  {
+    std::vector<Coordinates> before = x, step;
+    const double energy = is_tried ? evaluate() : 0;
+    std::vector<Matrix_3x3> fitted = m_rotations;
+    m_rotations.swap(rotations);
+    evaluate_without_fit();
+    if(!solve(step))
+      return false;
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+      if(!is_placed[v])
+        add(x[v], 1, step[v]);
+    m_last_rotations = m_rotations;
+    if(is_tried && !(evaluate() < energy))
+    {
+      x.swap(before);
+      m_rotations.swap(fitted);
+      m_last_rotations = m_rotations;
+    }
+    return true;
   }
 
   bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }
