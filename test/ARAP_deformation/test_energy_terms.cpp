@@ -612,6 +612,91 @@ void test_all()
 
 } // namespace identities
 
+// The rotations of the handles, interpolated: against a dense computation, and where they are taken.
+namespace initial_guess {
+
+using CGAL::ARAP::Initial_guess;
+
+Report run(const Shape& shape, const Scenario& s, Initial_guess guess, Cell_scheme cells,
+           unsigned int iterations, std::vector<Point>& points)
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  CHECK(d.set_options(options_for(cells, Minimizer::quasi_newton, guess)));
+  prepare(d, s, all_vertices(mesh));
+  const Report report = d.deform(iterations, iterations == 0 ? 0 : 1e-4);
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  points = points_of(mesh);
+  return report;
+}
+
+void test_all()
+{
+  int number_of_lower = 0;
+  for(const Shape& shape : shapes())
+  {
+    if(shape.points.size() > 180 || shape.points.size() < 20 || shape.name.find("two of") == 0)
+      continue;
+    test_case() = shape.name + ", initial guess";
+    Simplices triangles;
+    for(const auto& t : shape.triangles)
+      triangles.emplace_back(t.begin(), t.end());
+    for(const bool is_far : {false, true})
+    {
+      Scenario s = scenario(shape, 1.2);
+      for(std::size_t v = 0; v < s.targets.size() && !is_far; ++v)
+        s.targets[v] = shape.points[v] + Eigen::Vector3d(s.selection[v] == 2 ? 0.02 : 0, 0, 0) *
+                                           shape.diameter();
+      std::vector<Point> points, rotated, before;
+      const Report rotations =
+        run(shape, s, Initial_guess::rotations, Cell_scheme::spokes(), 0, rotated);
+      Dense_reference reference(shape.points, triangles, 2, s.selection, Dense_reference::SPOKES,
+                                Dense_reference::SAFE);
+      std::vector<Eigen::Vector3d> x = s.targets, vectors(x.size(), Eigen::Vector3d::Zero());
+      std::vector<Eigen::Vector3d> handle, place; // its rotation, from two directions of its motion
+      for(std::size_t v = 0; v < x.size(); ++v)
+        if(s.selection[v] == 2)
+        {
+          handle.push_back(shape.points[v]);
+          place.push_back(x[v]);
+        }
+      Eigen::Matrix3Xd from(3, handle.size()), to(3, handle.size());
+      for(std::size_t k = 0; k < handle.size(); ++k)
+      {
+        from.col(Eigen::Index(k)) = handle[k];
+        to.col(Eigen::Index(k)) = place[k];
+      }
+      const Eigen::AngleAxisd motion(
+        Eigen::Matrix3d(Eigen::umeyama(from, to, false).topLeftCorner<3, 3>()));
+      for(std::size_t v = 0; v < x.size(); ++v)
+        if(s.selection[v] == 2)
+          vectors[v] = motion.angle() * motion.axis();
+      reference.rotation_guess(vectors, x);
+      CHECK_AT_MOST(largest_distance(rotated, x), 1e-6 * shape.diameter());
+
+      // by itself, where handles are torn away and the energy is lower
+      const Report previous =
+        run(shape, s, Initial_guess::previous, Cell_scheme::spokes(), 0, before);
+      const Report automatic =
+        run(shape, s, Initial_guess::automatic, Cell_scheme::spokes(), 0, points);
+      if(!is_far)
+        CHECK(points == before);
+      else if(rotations.energy[0] < previous.energy[0])
+      {
+        ++number_of_lower;
+        CHECK(points == rotated);
+      }
+      else
+        CHECK(points == before);
+      for(Cell_scheme cells : {Cell_scheme::elements(), Cell_scheme::k_ring(1)})
+        CHECK(run(shape, s, Initial_guess::rotations, cells, 300, points));
+    }
+  }
+  CHECK(number_of_lower > 3);
+}
+
+} // namespace initial_guess
+
 // A pulled vertex is no spike: the shape around it is the same at every resolution.
 namespace spikes {
 
@@ -693,6 +778,7 @@ int main()
 {
   iterates::test_all();
   identities::test_all();
+  initial_guess::test_all();
   spikes::test_all();
   return checks_result();
 }

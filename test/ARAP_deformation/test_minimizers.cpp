@@ -184,6 +184,7 @@ void test_crawl()
   Mesh mesh = make_mesh<Mesh>(shape);
   Deformation d(mesh);
   prepare(d, s, all_vertices(mesh));
+  CHECK(d.set_options(options_for(Minimizer::local_global)));
   const Report slow = d.deform(100, 0);
   CHECK(d.set_options(options_for(Minimizer::quasi_newton)));
   const Report fast = d.deform(400, 0);

@@ -350,6 +350,9 @@ void test_warm_start()
   const Shape shape = sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
   CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  CGAL::ARAP::Options options;
+  options.initial_guess = CGAL::ARAP::Initial_guess::previous;
+  CHECK(d.set_options(options));
   prepare(d, scenario(shape), all_vertices(mesh));
   std::vector<CGAL::ARAP::Matrix_3x3> last;
   for(int run = 0; run < 3; ++run)

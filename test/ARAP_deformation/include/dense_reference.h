@@ -104,12 +104,33 @@ public:
   {
     if(m_terms.smoothing_length == 0)
       fit(x);
+    solve(x, [this](std::size_t c, const Form& form) {
+      return Eigen::Vector3d(m_rotations[c] * form.value(m_rest));
+    });
+  }
+
+  // The step with rotations that are interpolated: `vectors` has the rotation vectors of the fixed
+  // vertices, and is solved for those of the others. Cells are at vertices.
+  void rotation_guess(std::vector<Eigen::Vector3d> vectors, std::vector<Eigen::Vector3d>& x)
+  {
+    solve(vectors, [](std::size_t, const Form&) { return Eigen::Vector3d(0, 0, 0); });
+    solve(x, [&](std::size_t c, const Form& form) {
+      const Eigen::Vector3d v = vectors[m_cells[c].names[0]];
+      return Eigen::Vector3d(Eigen::AngleAxisd(v.norm(), v.stableNormalized()) *
+                             form.value(m_rest));
+    });
+  }
+
+  // the positions of the free vertices with which forms are nearest to what is expected of them
+  template <typename Expected>
+  void solve(std::vector<Eigen::Vector3d>& x, const Expected& expected) const
+  {
     const auto n = Eigen::Index(m_free.size());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
     for(std::size_t c = 0; c < m_cells.size(); ++c)
       for(const Form& form : m_cells[c].forms) // weight || sum of coefficients x - target ||^2
       {
-        Eigen::Vector3d target = m_rotations[c] * form.value(m_rest);
+        Eigen::Vector3d target = expected(c, form);
         for(const auto& [v, coefficient] : form.coefficients)
           if(m_row[v] < 0)
             target -= coefficient * x[v];

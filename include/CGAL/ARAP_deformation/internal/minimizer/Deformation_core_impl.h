@@ -295,9 +295,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                         is_torn(m_region, m_constraints, m_squared_size, targets, x);
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed)
   {
-    Scoped_seconds seconds(report.seconds.initial_guess);
-    const Array<Matrix_3x3> of_vertices = Harmonic_rotations(
-      m_region, m_constraints, targets, frames, x)(m_state->energy, m_state->system);
+    const Array<Matrix_3x3> of_vertices = [&] {
+      Scoped_seconds seconds(report.seconds.initial_guess);
+      return Harmonic_rotations(m_region, m_constraints, targets, frames, x)(m_state->energy,
+                                                                             m_state->system);
+    }();
     if(!of_vertices.empty() &&
        !minimization.start_with(rotations_of_cells(of_vertices), is_placed, is_tried))
       return {Status::solver_failed};

@@ -93,8 +93,11 @@ public:
     std::vector<Matrix_3x3> fitted = m_rotations;
     m_rotations.swap(rotations);
     evaluate_without_fit();
-    if(!solve(step))
-      return false;
+    {
+      Scoped_seconds seconds(report.seconds.initial_guess);
+      if(!solve(step))
+        return false;
+    }
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(!is_placed[v])
         add(x[v], 1, step[v]);
