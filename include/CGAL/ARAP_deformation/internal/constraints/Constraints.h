@@ -22,8 +22,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <tuple>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -67,6 +69,22 @@ public:
           if(m_vertices.items[k] >= m_vertices.items[l])
             f(m_vertices.items[k], m_vertices.items[l],
               m_weights[r] * m_coefficients[k] * m_coefficients[l]);
+  }
+
+  // Calls f(v, b) for each vertex of a row and its coefficient.
+  template <typename Function>
+  void for_each_coefficient(int r, const Function& f) const
+  {
+    for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+      f(m_vertices.items[k], m_coefficients[k]);
+  }
+
+  // B_r x
+  Coordinates value(int r, const Coordinates* x) const
+  {
+    Coordinates sum = {0, 0, 0};
+    for_each_coefficient(r, [&](int v, double b) { add(sum, b, x[v]); });
+    return sum;
   }
 
   // whether each row has one vertex, so that B^T M B is diagonal
@@ -118,17 +136,15 @@ public:
       double sum = 0;
       for(std::size_t r = begin; r < end; ++r)
       {
-        Coordinates residual = targets[r];
-        for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-          add(residual, -m_coefficients[k], positions[m_vertices.items[k]]);
+        const Coordinates residual =
+          difference(targets[r], value(static_cast<int>(r), positions));
         pulls[r] = scaled(residual, m_weights[r]);
         sum += dot(pulls[r], residual);
       }
       return sum;
     });
     for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
-      for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-        add(forces[m_vertices.items[k]], m_coefficients[k], pulls[r]);
+      for_each_coefficient(r, [&](int v, double b) { add(forces[v], b, pulls[r]); });
     return energy;
   }
 
@@ -166,16 +182,39 @@ private:
   bool m_is_diagonal = true;
 };
 
-// What is prescribed for the movable vertices of a region: some are fixed, and rows pull others.
+// What is prescribed for the movable vertices of a region: some are fixed, rows pull others, and
+// hard rows B x = t are met, whatever their weights.
 // Targets are no part of it: they may change with each run.
 struct Constraints
 {
-  Array<char> is_fixed; // for each movable vertex
-  Weighted_rows rows;   // of vertices that may be fixed or not
+  Array<char> is_fixed;    // for each movable vertex
+  Weighted_rows rows;      // of vertices that may be fixed or not
+  Weighted_rows hard_rows; // the same
 
   std::size_t number_of_free_vertices() const
   {
     return static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), 0));
+  }
+};
+
+// The targets of the rows of constraints.
+struct Targets
+{
+  // The target of a row that is a set: what a row has for its target is the projection of its
+  // present value.
+  struct Set
+  {
+    int row;
+    std::function<Coordinates(const Coordinates&)> projection;
+  };
+
+  std::vector<Coordinates> soft, hard; // one for each row
+  std::vector<Set> sets;               // of soft rows, in their order
+
+  void project(const Weighted_rows& rows, const std::vector<Coordinates>& x)
+  {
+    for(const Set& set : sets)
+      soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));
   }
 };
 

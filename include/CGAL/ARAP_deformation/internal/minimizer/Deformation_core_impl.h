@@ -141,6 +141,10 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   for(std::size_t v = 0; v < components.size(); ++v)
     constraints.is_fixed[v] |= components[v] >= 0;
 
+  if(constraints.hard_rows.size() > Hard_rows::most_rows)
+    return {Status::too_many_control_points};
+  if(const int r = Hard_rows(constraints).find_dependent(); r >= 0)
+    return {Status::dependent_target, -1, -1, r};
   if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
     return {Status::singular_matrix, v};
   Constrained_system::Work work;
@@ -171,9 +175,8 @@ void Deformation_core::reset_rotations()
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
-                                const std::vector<Coordinates>& targets,
-                                std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
-                                Report& report)
+                                Targets& targets, std::vector<Coordinates>& x,
+                                std::vector<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
   run_with_threads(threads(options.threads), [&] {
@@ -184,10 +187,10 @@ Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
-                                         const std::vector<Coordinates>& targets,
-                                         std::vector<Coordinates>& x,
+                                         Targets& targets, std::vector<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
+  targets.project(m_constraints.rows, x);
   if(options.initial_guess == Initial_guess::laplacian &&
      m_constraints.number_of_free_vertices() > 0)
   {
@@ -202,7 +205,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     Bounding_box box;
     box.include(m_region.rest);
     box.include(before);
-    box.include(targets);
+    box.include(targets.soft);
+    box.include(targets.hard);
     const double size = box.squared_length();
     box.include(x);
     if(!(box.squared_length() <= 4 * size))
@@ -212,6 +216,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
      m_order == Minimization_order::local_first &&
      m_constraints.number_of_free_vertices() > 0)
     start_rigidly(m_region, m_squared_size, m_constraints, m_is_untied, targets, x);
+  if(m_constraints.number_of_free_vertices() > 0 && !m_state->system.meet(targets.hard, x))
+    return {Status::solver_failed};
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   if(m_order == Minimization_order::global_first)

@@ -82,8 +82,8 @@ private:
 // `is_ignored` tells which fixed vertices nothing ties to the free ones, and `size` is the squared
 // diagonal of the bounding box of the rest shape.
 inline void start_rigidly(const Region& region, double size, const Constraints& constraints,
-                          const std::vector<char>& is_ignored,
-                          const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
+                          const std::vector<char>& is_ignored, const Targets& targets,
+                          std::vector<Coordinates>& x)
 {
   const std::size_t n = constraints.is_fixed.size();
   std::vector<Coordinates> rest, place;
@@ -93,14 +93,21 @@ inline void start_rigidly(const Region& region, double size, const Constraints& 
       rest.push_back(region.rest[v]);
       place.push_back(x[v]);
     }
-  for(int r = 0; r < constraints.rows.size(); ++r)
+  if(!targets.sets.empty())
+    return;
+  bool are_points = true; // rows whose coefficients add up to one move as points do
+  for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
   {
-    const int v = constraints.rows.position(r);
-    if(v < 0)
-      return;
-    rest.push_back(region.rest[v]);
-    place.push_back(targets[static_cast<std::size_t>(r)]);
+    rows->for_each_row([&](auto, auto, double sum, double) {
+      are_points &= std::abs(sum - 1) <= 1e-12;
+    });
+    for(int r = 0; r < rows->size(); ++r)
+      rest.push_back(rows->value(r, region.rest.data()));
   }
+  if(!are_points)
+    return;
+  place.insert(place.end(), targets.soft.begin(), targets.soft.end());
+  place.insert(place.end(), targets.hard.begin(), targets.hard.end());
   constexpr double tolerance = 1e-12; // of squares, also of points of type float
   if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
     return;
