@@ -183,8 +183,8 @@ public:
       return true;
   }
 
-  /// returns whether `s` is a face of the mesh, and was not removed. Only a `CGAL::Surface_mesh` can
-  /// tell; for other meshes `true`.
+  /// returns whether `s` is a face of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
+  /// can tell; for other meshes `true`.
   bool is_simplex([[maybe_unused]] simplex_descriptor s) const
   {
     if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)

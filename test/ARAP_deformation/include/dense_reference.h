@@ -21,8 +21,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 class Dense_reference
@@ -59,15 +61,25 @@ public:
   // pulls a free vertex to a target: one more term of the energy
   void add_soft_position(std::size_t v, double weight, const Eigen::Vector3d& target)
   {
-    m_soft_positions.push_back({v, weight, target});
+    add_row({{v, 1}}, weight, [target](const Eigen::Vector3d&) { return target; });
+  }
+
+  // A linear combination of positions, and its target, which may depend on its value: it is pulled
+  // there, or put there if the weight is infinite.
+  using Terms = std::vector<std::pair<std::size_t, double>>;
+  using Target = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+  void add_row(const Terms& terms, double weight, const Target& target)
+  {
+    (std::isinf(weight) ? m_hard_rows : m_soft_rows).push_back({terms, weight, target});
   }
 
   // the energy with the best rotations
   double energy(const std::vector<Eigen::Vector3d>& x) const
   {
     double sum = 0;
-    for(const Soft_position& soft : m_soft_positions)
-      sum += soft.weight * (x[soft.vertex] - soft.target).squaredNorm();
+    for(const Row& row : m_soft_rows)
+      sum += row.weight * (row.value(x) - row.target(row.value(x))).squaredNorm();
     for(const auto& cell : m_cells)
     {
       const Eigen::Matrix3d r = rotation(cell, x);
@@ -78,41 +90,10 @@ public:
   }
 
   // one step of local/global: the minimizer of the energy for the rotations at x
-  void iterate(std::vector<Eigen::Vector3d>& x) const
-  {
-    const auto n = Eigen::Index(m_free.size());
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
-    const auto add = [&](std::size_t i, std::size_t j, double w, const Eigen::Vector3d& d) {
-      // the derivative of w || x_i - x_j - d ||^2 by x_i
-      const int row = m_row[i];
-      if(row < 0)
-        return;
-      a(row, row) += w;
-      b.row(row) += w * d.transpose();
-      if(m_row[j] >= 0)
-        a(row, m_row[j]) -= w;
-      else
-        b.row(row) += w * x[j].transpose();
-    };
-    for(const auto& cell : m_cells)
-    {
-      const Eigen::Matrix3d r = rotation(cell, x);
-      for(const Edge& e : cell)
-      {
-        const Eigen::Vector3d d = r * (m_rest[e.i] - m_rest[e.j]);
-        add(e.i, e.j, e.weight, d);
-        add(e.j, e.i, e.weight, -d);
-      }
-    }
-    for(const Soft_position& soft : m_soft_positions)
-    {
-      a(m_row[soft.vertex], m_row[soft.vertex]) += soft.weight;
-      b.row(m_row[soft.vertex]) += soft.weight * soft.target.transpose();
-    }
-    const Eigen::MatrixXd solution = a.fullPivLu().solve(b);
-    for(Eigen::Index k = 0; k < n; ++k)
-      x[m_free[k]] = solution.row(k).transpose();
-  }
+  void iterate(std::vector<Eigen::Vector3d>& x) const { solve(x, false); }
+
+  // moves x to where hard rows are met, the shortest way in the metric of the matrix
+  void start(std::vector<Eigen::Vector3d>& x) const { solve(x, true); }
 
   // naive Laplacian editing: the least-squares solution of L x = L p, L with a row for each vertex
   void laplacian_guess(std::vector<Eigen::Vector3d>& x) const
@@ -140,6 +121,72 @@ public:
   }
 
 private:
+  void solve(std::vector<Eigen::Vector3d>& x, bool is_start) const
+  {
+    const auto n = Eigen::Index(m_free.size());
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
+    const auto add = [&](std::size_t i, std::size_t j, double w, const Eigen::Vector3d& d) {
+      // the derivative of w || x_i - x_j - d ||^2 by x_i
+      const int row = m_row[i];
+      if(row < 0)
+        return;
+      a(row, row) += w;
+      b.row(row) += w * d.transpose();
+      if(m_row[j] >= 0)
+        a(row, m_row[j]) -= w;
+      else
+        b.row(row) += w * x[j].transpose();
+    };
+    for(const auto& cell : m_cells)
+    {
+      const Eigen::Matrix3d r = rotation(cell, x);
+      for(const Edge& e : cell)
+      {
+        const Eigen::Vector3d d = r * (m_rest[e.i] - m_rest[e.j]);
+        add(e.i, e.j, e.weight, d);
+        add(e.j, e.i, e.weight, -d);
+      }
+    }
+    for(const Row& row : m_soft_rows)
+    {
+      Eigen::Vector3d rest = row.target(row.value(x));
+      for(const auto& [v, c] : row.terms)
+        if(m_row[v] < 0)
+          rest -= c * x[v];
+      for(const auto& [v, c] : row.terms)
+        for(const auto& [w, d] : row.terms)
+          if(m_row[v] >= 0 && m_row[w] >= 0)
+            a(m_row[v], m_row[w]) += row.weight * c * d;
+      for(const auto& [v, c] : row.terms)
+        if(m_row[v] >= 0)
+          b.row(m_row[v]) += row.weight * c * rest.transpose();
+    }
+    if(is_start) // only the way to where hard rows are met, from x
+      for(Eigen::Index k = 0; k < n; ++k)
+        b.row(k).setZero();
+    // the saddle point system
+    const auto m = Eigen::Index(m_hard_rows.size());
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m), right(n + m, 3);
+    whole.topLeftCorner(n, n) = a;
+    right.topRows(n) = b;
+    for(Eigen::Index r = 0; r < m; ++r)
+    {
+      const Row& row = m_hard_rows[std::size_t(r)];
+      right.row(n + r) = row.target({0, 0, 0}).transpose();
+      for(const auto& [v, c] : row.terms)
+      {
+        if(m_row[v] >= 0)
+          whole(m_row[v], n + r) = whole(n + r, m_row[v]) = c;
+        if(is_start || m_row[v] < 0)
+          right.row(n + r) -= c * x[v].transpose();
+      }
+    }
+    const Eigen::MatrixXd solution = whole.fullPivLu().solve(right);
+    for(Eigen::Index k = 0; k < n; ++k)
+      x[m_free[k]] = (is_start ? x[m_free[k]] : Eigen::Vector3d(0, 0, 0)) +
+                     solution.row(k).transpose();
+  }
+
   static double cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& p,
                           const Eigen::Vector3d& q)
   {
@@ -290,11 +337,19 @@ private:
     return svd.matrixV() * u.transpose(); // Equation (6)
   }
 
-  struct Soft_position
+  struct Row
   {
-    std::size_t vertex;
+    Terms terms;
     double weight;
-    Eigen::Vector3d target;
+    Target target;
+
+    Eigen::Vector3d value(const std::vector<Eigen::Vector3d>& x) const
+    {
+      Eigen::Vector3d sum(0, 0, 0);
+      for(const auto& [v, c] : terms)
+        sum += c * x[v];
+      return sum;
+    }
   };
 
   std::vector<Eigen::Vector3d> m_rest;
@@ -305,7 +360,7 @@ private:
   std::vector<std::size_t> m_free;
   std::vector<int> m_row; // of the free vertices among the unknowns, or -1
   std::vector<std::vector<Edge>> m_cells;
-  std::vector<Soft_position> m_soft_positions;
+  std::vector<Row> m_soft_rows, m_hard_rows;
 };
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H

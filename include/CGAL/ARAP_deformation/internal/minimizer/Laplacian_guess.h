@@ -34,8 +34,8 @@ namespace internal {
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
-// are constant. Vertices that are pulled to targets are put there; hard rows are met; other rows are
-// not considered.
+// are constant. Vertices that are pulled to targets are put there; hard rows are met; other rows
+// are not considered.
 //
 // L^T L is not formed: it has far more entries than L, and its condition number is the square of
 // that of L. The normal equations are solved by conjugate gradients, preconditioned by A^-1 A^-1,

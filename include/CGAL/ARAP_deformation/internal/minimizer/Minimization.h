@@ -67,6 +67,7 @@ public:
   double evaluate()
   {
     Scoped_seconds local(report.seconds.local_steps);
+    m_system.hard_rows().correct(m_targets.hard, x); // steps have rounding errors
     return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
 
@@ -159,6 +160,7 @@ private:
     m_value = rigidity + m_rows.pull(m_targets.soft, x, m_force);
     for(std::size_t v : m_fixed_vertices)
       m_force[v] = {0, 0, 0};
+    m_system.hard_rows().leave_out_multipliers(m_force);
     return m_value;
   }
 

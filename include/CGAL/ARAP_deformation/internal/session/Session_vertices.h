@@ -38,9 +38,9 @@ template <typename Domain>
 using Call_is_vertex = decltype(std::declval<const Domain&>().is_vertex(
   std::declval<typename Domain::vertex_descriptor>()));
 
-// The region of interest, the control vertices and control points with their targets, the rest shape
-// and the present one. Vertices keep their entry when they leave the region of interest: they may
-// have been moved, and the entry knows the rest shape.
+// The region of interest, the control vertices and control points with their targets, the rest
+// shape and the present one. Vertices keep their entry when they leave the region of interest: they
+// may have been moved, and the entry knows the rest shape.
 template <typename Domain>
 class Session_vertices
 {

@@ -93,6 +93,8 @@ public:
   // metric of the matrix.
   bool meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x);
 
+  const Hard_rows& hard_rows() const { return m_hard_rows; }
+
 private:
   Constraints without_hard_rows(const Constraints& constraints) const;
   bool border_or_eliminate(const Constraints& constraints);

@@ -111,6 +111,21 @@ public:
     add(m_gram->solve(z - values(x)), x);
   }
 
+  // Moves x, the positions of all vertices, to the nearest ones where the rows as they are given
+  // have these values.
+  void correct(const std::vector<Coordinates>& values, std::vector<Coordinates>& x) const
+  {
+    if(!is_empty())
+      add(m_gram->solve(scaled(residuals(values, x))), x);
+  }
+
+  // leaves out of forces what no step that keeps the rows feels
+  void leave_out_multipliers(std::vector<Coordinates>& force) const
+  {
+    if(!is_empty())
+      project(Values::Zero(size(), 3), force);
+  }
+
   // The values of rows as they are given, scaled as the rows are here; zero if there are none.
   Values scaled(const std::vector<Coordinates>& values) const
   {
