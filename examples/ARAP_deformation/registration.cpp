@@ -58,13 +58,13 @@ std::vector<Sample> scan(std::size_t n)
   return samples;
 }
 
-// Fits a sphere to the scan. In each round some points of the scan pull the points of the mesh that
-// are nearest to them: towards the point of the scan, or only towards its plane.
+// Fits a sphere to the scan. In each round the points of the scan pull the points of the mesh that
+// are nearest to them then: towards the point of the scan, or only towards its plane.
 bool fit(const std::vector<Sample>& samples, bool is_to_planes)
 {
   std::cout << (is_to_planes ? "point to plane" : "point to point") << '\n';
   Mesh mesh;
-  CGAL::make_icosahedron(mesh);
+  CGAL::make_icosahedron(mesh, Point(0, 0, 0), 1.0);
   CGAL::Subdivision_method_3::Loop_subdivision(
     mesh, CGAL::parameters::number_of_iterations(4));
   for(Mesh::Vertex_index v : mesh.vertices())
@@ -75,29 +75,23 @@ bool fit(const std::vector<Sample>& samples, bool is_to_planes)
 
   Deformation deformation(mesh);
   deformation.insert_roi_vertices(mesh.vertices());
-  constexpr std::size_t correspondences = 500;
-  for(std::size_t round = 0; round <= 8; ++round)
+  CGAL::ARAP::Options options;
+  options.minimizer = CGAL::ARAP::Minimizer::quasi_newton;
+  if(!deformation.set_options(options))
+    return false;
+  for(int round = 0;; ++round)
   {
     const CGAL::ARAP::Locator<Deformation::Deformation_domain> locator(deformation.domain());
+    deformation.clear_control_points();
     double sum = 0;
     for(const Sample& sample : samples)
     {
-      const double distance = locator.locate(sample.point)->distance;
-      sum += distance * distance;
-    }
-    std::cout << "  round " << round << ": RMS distance "
-              << std::sqrt(sum / static_cast<double>(samples.size()));
-    if(round == 8)
-      break;
-
-    deformation.clear_control_points();
-    for(std::size_t k = 0; k < correspondences; ++k)
-    {
-      const Sample& sample = samples[(round * correspondences + k) % samples.size()];
-      const auto inserted = deformation.insert_control_point(*locator.locate(sample.point));
+      const auto nearest = *locator.locate(sample.point);
+      sum += nearest.distance * nearest.distance;
+      const auto inserted = deformation.insert_control_point(nearest);
       CGAL::ARAP::Outcome outcome = inserted;
       if(outcome)
-        outcome = deformation.set_target_weight(inserted.point, 1);
+        outcome = deformation.set_target_weight(inserted.point, 20);
       if(outcome)
         outcome = is_to_planes
                     ? deformation.set_target_set(inserted.point,
@@ -109,7 +103,11 @@ bool fit(const std::vector<Sample>& samples, bool is_to_planes)
         return false;
       }
     }
-    const CGAL::ARAP::Report report = deformation.deform(10, 0);
+    std::cout << "  round " << round << ": RMS distance "
+              << std::sqrt(sum / static_cast<double>(samples.size()));
+    if(round == 6)
+      break;
+    const CGAL::ARAP::Report report = deformation.deform(20, 0);
     if(!report)
     {
       std::cerr << report.message << std::endl;
@@ -124,6 +122,6 @@ bool fit(const std::vector<Sample>& samples, bool is_to_planes)
 
 int main()
 {
-  const std::vector<Sample> samples = scan(2000);
+  const std::vector<Sample> samples = scan(500);
   return fit(samples, false) && fit(samples, true) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

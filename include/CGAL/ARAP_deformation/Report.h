@@ -49,7 +49,8 @@ struct Stages
   bool weights = false;       ///< the weights of its edges
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
-  bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed
+  bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed,
+                              ///< or what stands for it for hard control points
 };
 
 /// \ingroup PkgARAPDeformationRun
@@ -68,8 +69,8 @@ struct Report : Outcome
 
   /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
-  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex
-  /// \f$m \|p' - t\|^2\f$.
+  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex or control
+  /// point \f$m \|p' - t\|^2\f$.
   std::vector<double> energy;
 
   /// \f$s\f$, the natural unit of the energy: the sum of \f$|w| \|e\|^2\f$ over the edges of all
