@@ -49,8 +49,8 @@ struct Stages
   bool weights = false;       ///< the weights of its edges
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
-  bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed,
-                              ///< or what stands for it for hard control points
+  bool border = false;        ///< a border of the factor, for few vertices that were fixed or
+                              ///< freed, or what keeps hard control points
 };
 
 /// \ingroup PkgARAPDeformationRun
@@ -100,8 +100,8 @@ struct Report : Outcome
 
   /// the unconstrained components of the region, each given by its smallest vertex index: no path
   /// of edges of non-zero weight connects them to a vertex that is fixed or has a soft target of
-  /// positive weight. They stay where they are, and are not counted above. Always empty for
-  /// `Surface_mesh_deformation`, where they are an error.
+  /// positive weight, or to such a control point. They stay where they are, and are not counted
+  /// above. Always empty for `Surface_mesh_deformation`, where they are an error.
   std::vector<std::size_t> unconstrained_components;
 
   Stages stages; ///< what was done before the iterations, because of what had changed

@@ -40,7 +40,7 @@ namespace ARAP {
 ///
 /// It is built for the points that the domain has at construction. Takes \f$O(n \log n)\f$ time for
 /// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Triangles, and triangles
-/// of the fan of a polygon, that have no area are ignored, and so are tetrahedra without volume, and
+/// of the fan of a polygon, that have no area are ignored, and so are tetrahedra without volume and
 /// simplices with a point that is not finite.
 ///
 /// \tparam Domain a model of `ARAPDomain`

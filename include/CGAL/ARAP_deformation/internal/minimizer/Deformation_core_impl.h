@@ -190,7 +190,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                          Targets& targets, std::vector<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
-  targets.project(m_constraints.rows, x);
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    targets.project(m_constraints.rows, x);
+  }
   if(options.initial_guess == Initial_guess::laplacian &&
      m_constraints.number_of_free_vertices() > 0)
   {
@@ -216,8 +219,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
      m_order == Minimization_order::local_first &&
      m_constraints.number_of_free_vertices() > 0)
     start_rigidly(m_region, m_squared_size, m_constraints, m_is_untied, targets, x);
-  if(m_constraints.number_of_free_vertices() > 0 && !m_state->system.meet(targets.hard, x))
-    return {Status::solver_failed};
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    if(!m_state->system.meet(targets.hard, x))
+      return {Status::solver_failed};
+  }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   if(m_order == Minimization_order::global_first)

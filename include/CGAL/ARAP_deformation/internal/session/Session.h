@@ -401,7 +401,18 @@ protected:
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     auto* target = m_vertices.find_target(handle);
-    return target == nullptr ? outcome(Status::not_a_control_vertex, name(handle)) : f(*target);
+    return target == nullptr ? refuse_without_target(handle) : f(*target);
+  }
+
+  Outcome refuse_without_target(vertex_descriptor v) const
+  {
+    return outcome(Status::not_a_control_vertex, name(v));
+  }
+
+  Outcome refuse_without_target(Control_point point) const
+  {
+    return Outcome(Status::not_a_control_vertex,
+                   name(point) + " has no target: it was erased, or is of another object");
   }
 
   template <typename Handle>
