@@ -15,6 +15,7 @@
 #include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
@@ -32,6 +33,7 @@
 #include <CGAL/Default.h>
 #include <CGAL/assertions.h>
 
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -206,13 +208,15 @@ public:
   }
 
   /// erases `v` from the region of interest and the control vertices. Returns `true` if it was in
-  /// the region. The vertex stays where it is; `reset()` moves it back to the rest shape.
+  /// the region. The vertex stays where it is; `reset()` moves it back to the rest shape. Control
+  /// points in simplices at `v` remain.
   bool erase_roi_vertex(vertex_descriptor v)
   {
     return m_session.erase_roi(v);
   }
 
-  /// erases all vertices from the region of interest and the control vertices. Linear time.
+  /// erases all vertices from the region of interest and the control vertices, and all control
+  /// points. Linear time.
   void clear_roi_vertices()
   {
     m_session.clear_roi();
@@ -254,7 +258,7 @@ public:
     return m_session.erase_control(v);
   }
 
-  /// makes all control vertices free. Linear time.
+  /// makes all control vertices free, and erases all control points. Linear time.
   void clear_control_vertices()
   {
     m_session.clear_control();
@@ -279,10 +283,74 @@ public:
   }
   /// @}
 
+  /// \name Control Points
+  /// A control point is a handle inside a face or a tetrahedron: \f$\sum_k \lambda_k p'_k\f$, where
+  /// \f$p'_k\f$ are the corners and \f$\lambda_k\f$ its barycentric coordinates. Its target, hard
+  /// or soft, has all the functions below that the target of a control vertex has. `ARAP::locate()`
+  /// finds the simplex and the coordinates of a point.
+  ///
+  /// Control points keep the region of interest, if it has their corners. Hard ones must not
+  /// determine each other: else a run fails with `ARAP::Status::dependent_target`, as one in a
+  /// triangle does that has a hard target at each corner. There may be up to 3000 of them.
+  /// @{
+
+  /// \brief inserts a control point in the simplex `s`, and the corners of `s` with non-zero
+  /// coordinates in the region of interest, as free vertices if they are not in it.
+  ///
+  /// Its target is its current position, with infinite weight. Refuses a simplex that is not there
+  /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one, or
+  /// are too few or too many (`ARAP::Status::invalid_coordinates`).
+  /// \param s a simplex
+  /// \param coordinates a range of numbers, or a list in braces: the barycentric coordinates, in
+  ///        the order of `domain().simplex_vertices(s)`
+  template <typename CoordinateRange = std::initializer_list<double>>
+  ARAP::Control_point_insertion insert_control_point(simplex_descriptor s,
+                                                     const CoordinateRange& coordinates)
+  {
+    return m_session.insert_point(s, coordinates);
+  }
+
+  /// inserts a control point at a location, as `ARAP::locate()` returns it.
+  ARAP::Control_point_insertion
+  insert_control_point(const ARAP::Location<simplex_descriptor>& location)
+  {
+    return insert_control_point(location.simplex, location.coordinates);
+  }
+
+  /// erases a control point. Returns `true` if it was there.
+  bool erase_control_point(ARAP::Control_point point) { return m_session.erase_point(point); }
+
+  /// erases all control points.
+  void clear_control_points() { m_session.clear_points(); }
+
+  /// returns whether `point` is a control point of this object.
+  bool is_control_point(ARAP::Control_point point) const
+  {
+    return m_session.vertices().find_target(point) != nullptr;
+  }
+
+  /// returns the control points, in the order in which they were inserted. Linear time.
+  std::vector<ARAP::Control_point> control_points() const
+  {
+    std::vector<ARAP::Control_point> points;
+    for(const auto& point : m_session.vertices().points())
+      points.push_back(point.first);
+    return points;
+  }
+
+  /// returns where a control point is now. \pre `is_control_point(point)`
+  Point control_point_position(ARAP::Control_point point) const
+  {
+    CGAL_precondition(is_control_point(point));
+    return m_session.present(point);
+  }
+  /// @}
+
   /// \name Targets
   /// Targets are absolute positions; `translate()` and `rotate()` move the current target. Passing
-  /// a vertex that is not a control vertex violates a precondition; in Release the call returns
-  /// `ARAP::Status::not_a_control_vertex`. The functions on ranges stop at the first error.
+  /// what is not a control vertex or a control point violates a precondition; in Release the call
+  /// returns `ARAP::Status::not_a_control_vertex`. The functions on ranges, of vertices or of
+  /// control points, stop at the first error.
   /// @{
 
   /// sets the target of the control vertex `v`. A hard target becomes the point of `v` without any
@@ -292,13 +360,51 @@ public:
     return change_target(v, [&target](const Point&) { return target; });
   }
 
+  /// sets the target of a control point.
+  ARAP::Outcome set_target_position(ARAP::Control_point point, const Point& target)
+  {
+    return change_target(point, [&target](const Point&) { return target; });
+  }
+
+  /// \brief makes the target of the control vertex `v` a set, such as a plane or a surface: it is
+  /// pulled towards the nearest point of the set, along which it can glide.
+  ///
+  /// `projection(p)` returns the point of the set that is nearest to `p`, such as
+  /// `ARAP::projection_onto(plane)`. Each evaluation of the energy calls it for the present
+  /// position, one after the other for all targets; it must not change this object. The system
+  /// remains as it is, and the energy, with the term \f$m \|p'_v - \pi(p'_v)\|^2\f$, still never
+  /// rises. An exception from it ends the run and changes nothing.
+  ///
+  /// The weight must be finite, see `set_target_weight()`; if not, the call returns
+  /// `ARAP::Status::invalid_weight` and changes nothing. Functions that set or move a target, and
+  /// `reset()`, make it a point again.
+  template <typename Projection>
+  [[nodiscard]] ARAP::Outcome set_target_set(vertex_descriptor v, Projection projection)
+  {
+    CGAL_precondition(is_control_vertex(v));
+    return m_session.set_target_set(v, std::move(projection));
+  }
+
+  /// makes the target of a control point a set.
+  template <typename Projection>
+  [[nodiscard]] ARAP::Outcome set_target_set(ARAP::Control_point point, Projection projection)
+  {
+    CGAL_precondition(is_control_point(point));
+    return m_session.set_target_set(point, std::move(projection));
+  }
+
   /// translates the target of the control vertex `v` by `t`, whose type has `operator[]`.
   template <typename Vector>
   ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
   {
-    return change_target(v, [&t](const Point& p) {
-      return ARAP::internal::translated(p, t);
-    });
+    return translate_target(v, t);
+  }
+
+  /// translates the target of a control point.
+  template <typename Vector>
+  ARAP::Outcome translate(ARAP::Control_point point, const Vector& t)
+  {
+    return translate_target(point, t);
   }
 
   /// translates the targets of the control vertices of a range.
@@ -321,21 +427,14 @@ public:
   template <typename Vector, typename Quaternion>
   ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
   {
-    constexpr bool can_turn =
-      ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>;
-    static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
-                            "vector of the type of center, as with Eigen; for a transformation of "
-                            "CGAL use transform()");
-    return change_target(v, [&](const Point& point) {
-      if constexpr(!can_turn)
-        return point;
-      else
-      {
-        const ARAP::Coordinates p = Domain_::coordinates(point);
-        const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
-        return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
-      }
-    });
+    return rotate_target(v, center, q);
+  }
+
+  /// rotates the target of a control point about `center`.
+  template <typename Vector, typename Quaternion>
+  ARAP::Outcome rotate(ARAP::Control_point point, const Vector& center, const Quaternion& q)
+  {
+    return rotate_target(point, center, q);
   }
 
   /// rotates the targets of the control vertices of a range.
@@ -372,7 +471,7 @@ public:
   ///
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
-  /// gains the term \f$m \|p'_v - t\|^2\f$.
+  /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
   /// \f$m\f$ has the unit of the edge weights. Cotangent weights are dimensionless on a surface,
   /// where 1 is about as strong as one edge, and lengths in a solid. Weights below about
   /// \f$10^{-15}\f$ times the edge weights are lost to rounding.
@@ -383,6 +482,13 @@ public:
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.set_weight(v, weight);
+  }
+
+  /// sets the weight of the target of a control point.
+  [[nodiscard]] ARAP::Outcome set_target_weight(ARAP::Control_point point, double weight)
+  {
+    CGAL_precondition(is_control_point(point));
+    return m_session.set_weight(point, weight);
   }
 
   /// sets the weights of the targets of the control vertices of a range.
@@ -406,6 +512,13 @@ public:
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.weight(v);
+  }
+
+  /// returns the weight of the target of a control point. \pre `is_control_point(point)`
+  double target_weight(ARAP::Control_point point) const
+  {
+    CGAL_precondition(is_control_point(point));
+    return m_session.weight(point);
   }
 
   /// \brief makes the control vertex `v` a *frame*: it prescribes the rotation of its cell, or of
@@ -442,12 +555,20 @@ public:
     return m_session.set_rotation(v, std::nullopt);
   }
 
-  /// returns the target of the control vertex `v`; in Release, the point of any other vertex.
-  /// \pre `is_control_vertex(v)`
+  /// returns the target of the control vertex `v`, or if it is a set, the projection of the current
+  /// position; in Release, the point of any other vertex. \pre `is_control_vertex(v)`
   Point target_position(vertex_descriptor v) const
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.target(v);
+  }
+
+  /// returns the target of a control point, or if it is a set, the projection of its current
+  /// position. \pre `is_control_point(point)`
+  Point target_position(ARAP::Control_point point) const
+  {
+    CGAL_precondition(is_control_point(point));
+    return m_session.target(point);
   }
   /// @}
 
@@ -532,7 +653,7 @@ public:
   }
 
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
-  /// the weights of the targets.
+  /// the weights of the targets. Targets that are sets become points.
   void reset() { m_session.reset(); }
 
   /// makes the current shape the rest shape. Keeps the targets and their weights.
@@ -544,10 +665,10 @@ public:
   using State = typename ARAP::internal::Session<Domain_, Traits_>::State;
 #endif
 
-  /// returns the region of interest, the control vertices, their targets and weights, the rest
-  /// shape and the positions, for undo and redo. Linear time and memory. The options are no part of
-  /// it, nor is the factor: where that, or the region, was computed again since, runs from a
-  /// restored state have the same iterates only up to rounding.
+  /// returns the region of interest, the control vertices and control points, their targets and
+  /// weights, the rest shape and the positions, for undo and redo. Linear time and memory. The
+  /// options are no part of it, nor is the factor: where that, or the region, was computed again
+  /// since, runs from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
@@ -582,11 +703,39 @@ public:
   /// @}
 
 private:
-  template <typename Function>
-  ARAP::Outcome change_target(vertex_descriptor v, const Function& f)
+  template <typename Handle, typename Function>
+  ARAP::Outcome change_target(Handle handle, const Function& f)
   {
-    CGAL_precondition(is_control_vertex(v));
-    return m_session.change_target(v, f);
+    CGAL_precondition(m_session.vertices().find_target(handle) != nullptr);
+    return m_session.change_target(handle, f);
+  }
+
+  template <typename Handle, typename Vector>
+  ARAP::Outcome translate_target(Handle handle, const Vector& t)
+  {
+    return change_target(handle, [&t](const Point& p) {
+      return ARAP::internal::translated(p, t);
+    });
+  }
+
+  template <typename Handle, typename Vector, typename Quaternion>
+  ARAP::Outcome rotate_target(Handle handle, const Vector& center, const Quaternion& q)
+  {
+    constexpr bool can_turn =
+      ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>;
+    static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
+                            "vector of the type of center, as with Eigen; for a transformation of "
+                            "CGAL use transform()");
+    return change_target(handle, [&](const Point& point) {
+      if constexpr(!can_turn)
+        return point;
+      else
+      {
+        const ARAP::Coordinates p = Domain_::coordinates(point);
+        const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
+        return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
+      }
+    });
   }
 
   template <typename InputIterator, typename Function>

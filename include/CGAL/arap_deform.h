@@ -77,6 +77,22 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
         static_cast<Outcome&>(report) = deformation.set_target_rotation(v, rotation);
   if(!report)
     return report;
+  if constexpr(has_parameter<NamedParameters, internal_np::control_points_t>)
+    for(const auto& [simplex, coordinates, target] :
+        get_parameter(np, internal_np::control_points))
+    {
+      const Control_point_insertion inserted =
+        deformation.insert_control_point(simplex, coordinates);
+      static_cast<Outcome&>(report) = inserted;
+      if(report)
+        deformation.set_target_position(inserted.point, target);
+      if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
+        if(report)
+          static_cast<Outcome&>(report) = deformation.set_target_weight(
+            inserted.point, get_parameter(np, internal_np::target_weight));
+      if(!report)
+        return report;
+    }
   if constexpr(has_parameter<NamedParameters, internal_np::cell_stiffness_t>)
     deformation.set_stiffness(get_parameter(np, internal_np::cell_stiffness));
   if constexpr(has_parameter<NamedParameters, internal_np::cell_groups_t>)

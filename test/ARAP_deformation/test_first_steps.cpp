@@ -401,7 +401,7 @@ void test_rows()
   {
     Constraints constraints;
     constraints.is_fixed = Array<char>(4, false);
-    std::vector<CGAL::ARAP::Coordinates> targets;
+    CGAL::ARAP::internal::Targets targets;
     for(const auto& coefficients : {Array<double>{0.25, 0.25, sum - 0.5},
                                     Array<double>{0.75, 0, sum - 0.75},
                                     Array<double>{0, 0.5, sum - 0.5}})
@@ -413,11 +413,11 @@ void test_rows()
         const auto& p = region.rest[k == 2 ? 3 : k];
         target += coefficients[k] * (motion * Eigen::Vector3d(p[0], p[1], p[2]));
       }
-      targets.push_back({target.x(), target.y(), target.z()});
+      targets.soft.push_back({target.x(), target.y(), target.z()});
     }
     const Rigid_start start(region, constraints, Array<char>(4, false));
     std::vector<CGAL::ARAP::Coordinates> x = region.rest;
-    const Array<char> is_placed = start(region, 2.25, constraints.rows, targets, {}, false, x);
+    const Array<char> is_placed = start(region, 2.25, constraints, targets, false, x);
     CHECK(is_placed == Array<char>(4, sum == 1));
     for(std::size_t v = 0; v < 4 && sum == 1; ++v)
     {

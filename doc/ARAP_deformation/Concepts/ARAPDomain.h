@@ -118,6 +118,11 @@ public:
   /// in either direction; those of a tetrahedron are in any order.
   unspecified_type simplex_vertices(simplex_descriptor s) const;
 
+  /// returns whether `s` is a simplex of the mesh; a control point in one that is not is refused.
+  ///
+  /// Optional: without it `simplex_vertices(s)` and the simplices at the first corner tell.
+  bool is_simplex(simplex_descriptor s) const;
+
   /// calls `f(s, corners)` once for each simplex `s` incident to `v`, with the range `corners` that
   /// `simplex_vertices(s)` returns.
   ///

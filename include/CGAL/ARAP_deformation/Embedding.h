@@ -235,7 +235,7 @@ private:
         return Outcome(Status::non_finite_point,
                        name + " is too far from the tetrahedra: the computation overflows");
       m_bindings.push_back(
-        {tetrahedra[location->tetrahedron], location->coordinates, location->distance});
+        {tetrahedra[location->simplex], location->coordinates, location->distance});
     }
     return Outcome(Status::success, "all points are bound to tetrahedra");
   }

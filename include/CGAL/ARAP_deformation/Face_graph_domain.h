@@ -183,6 +183,16 @@ public:
       return true;
   }
 
+  /// returns whether `s` is a face of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
+  /// can tell; for other meshes `true`.
+  bool is_simplex([[maybe_unused]] simplex_descriptor s) const
+  {
+    if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
+      return m_mesh->has_valid_index(s) && !m_mesh->is_removed(s);
+    else
+      return true;
+  }
+
   /// returns whether no face is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
   {

@@ -49,7 +49,8 @@ struct Stages
   bool weights = false;       ///< the weights of its edges
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
-  bool border = false;        ///< a border of the factor, for few vertices that were fixed or freed
+  bool border = false;        ///< a border of the factor, for few vertices that were fixed or
+                              ///< freed, or what keeps hard control points
 };
 
 /// \ingroup PkgARAPDeformationRun
@@ -68,8 +69,8 @@ struct Report : Outcome
 
   /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
-  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex
-  /// \f$m \|p' - t\|^2\f$.
+  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex or control
+  /// point \f$m \|p' - t\|^2\f$.
   std::vector<double> energy;
 
   /// \f$s\f$, the natural unit of the energy: the sum of \f$|w| \|e\|^2\f$ over the edges of all
@@ -99,8 +100,8 @@ struct Report : Outcome
 
   /// the unconstrained components of the region, each given by its smallest vertex index: no path
   /// of edges of non-zero weight connects them to a vertex that is fixed or has a soft target of
-  /// positive weight. They stay where they are, and are not counted above. Always empty for
-  /// `Surface_mesh_deformation`, where they are an error.
+  /// positive weight, or to such a control point. They stay where they are, and are not counted
+  /// above. Always empty for `Surface_mesh_deformation`, where they are an error.
   std::vector<std::size_t> unconstrained_components;
 
   Stages stages; ///< what was done before the iterations, because of what had changed

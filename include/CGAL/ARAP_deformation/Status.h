@@ -34,10 +34,15 @@ enum class Status
   invalid_option,       ///< an option is out of range
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
   foreign_state,        ///< the state to restore is of another object
-  not_a_control_vertex, ///< a target or its weight was set for a vertex that has none
-  invalid_weight,       ///< the weight of a target is negative or not a number
   invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
   invalid_rotation,     ///< the rotation of a control vertex is not a rotation
+  not_a_control_vertex, ///< a target or its weight was set for what has none
+  invalid_weight,       ///< the weight of a target is negative or not a number, or infinite where
+                        ///< the target is a set
+  invalid_coordinates,  ///< barycentric coordinates are not finite, or do not add up to one, or are
+                        ///< not as many as the simplex has corners
+  dependent_target,     ///< other hard targets determine where a hard control point is
+  too_many_control_points, ///< there are more than 3000 hard control points
   not_a_simplex,        ///< a face of the region is not a polygon, or a cell not a tetrahedron
   too_many_corners,     ///< a face of the region has more than 2048 corners
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
@@ -79,6 +84,9 @@ inline const char* to_string(Status status)
   case Status::invalid_weight: return "invalid_weight";
   case Status::invalid_stiffness: return "invalid_stiffness";
   case Status::invalid_rotation: return "invalid_rotation";
+  case Status::invalid_coordinates: return "invalid_coordinates";
+  case Status::dependent_target: return "dependent_target";
+  case Status::too_many_control_points: return "too_many_control_points";
   case Status::not_a_simplex: return "not_a_simplex";
   case Status::too_many_corners: return "too_many_corners";
   case Status::no_tetrahedron: return "no_tetrahedron";

@@ -26,6 +26,7 @@ enum deformation_options_t { deformation_options };
 enum deformation_traits_t { deformation_traits };
 enum region_of_interest_t { region_of_interest };
 enum target_weight_t { target_weight };
+enum control_points_t { control_points };
 enum output_point_map_t { output_point_map };
 enum target_rotations_t { target_rotations };
 enum cell_stiffness_t { cell_stiffness };
@@ -83,6 +84,16 @@ template <typename... NP>
 auto target_weight(double weight, const NP&... np)
 {
   return internal_np::prepend<internal_np::target_weight_t>(weight, np...);
+}
+
+/// control points, a range of tuples of a simplex, barycentric coordinates and a target, such as
+/// `std::vector<std::tuple<Simplex, std::array<double, 3>, Point>>`, see
+/// `ARAP_deformation::insert_control_point()`; `target_weight()` counts for them, too. In
+/// `arap_deform()` only.
+template <typename ControlPointRange, typename... NP>
+auto control_points(const ControlPointRange& points, const NP&... np)
+{
+  return internal_np::prepend<internal_np::control_points_t>(points, np...);
 }
 
 /// where the new points of a `FaceGraph` are written, a model of `WritablePropertyMap`; default the

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -80,7 +81,17 @@ public:
   // pulls a free vertex to a target: one more term of the energy
   void add_soft_position(std::size_t v, double weight, const Eigen::Vector3d& target)
   {
-    m_soft_positions.push_back({v, weight, target});
+    add_row({{v, 1}}, weight, [target](const Eigen::Vector3d&) { return target; });
+  }
+
+  // A linear combination of positions, and its target, which may depend on its value: it is pulled
+  // there, or put there if the weight is infinite.
+  using Combination = std::vector<std::pair<std::size_t, double>>;
+  using Target = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+  void add_row(const Combination& terms, double weight, const Target& target)
+  {
+    (std::isinf(weight) ? m_hard_rows : m_soft_rows).push_back({terms, weight, target});
   }
 
   // The energy with the best rotations. If rotations are smooth these are what one step from the
@@ -89,8 +100,8 @@ public:
   {
     fit(x);
     double sum = 0;
-    for(const Soft_position& soft : m_soft_positions)
-      sum += soft.weight * (x[soft.vertex] - soft.target).squaredNorm();
+    for(const Row& row : m_soft_rows)
+      sum += row.weight * (row.value(x) - row.target(row.value(x))).squaredNorm();
     for(std::size_t c = 0; c < m_cells.size(); ++c)
       for(const Form& form : m_cells[c].forms)
         sum += form.weight * (form.value(x) - m_rotations[c] * form.value(m_rest)).squaredNorm();
@@ -109,6 +120,12 @@ public:
     });
   }
 
+  // moves x to where hard rows are met, the shortest way in the metric of the matrix
+  void start(std::vector<Eigen::Vector3d>& x) const
+  {
+    solve(x, [](std::size_t, const Form&) { return Eigen::Vector3d(0, 0, 0); }, true);
+  }
+
   // The step with rotations that are interpolated: `vectors` has the rotation vectors of the fixed
   // vertices, and is solved for those of the others. Cells are at vertices.
   void rotation_guess(std::vector<Eigen::Vector3d> vectors, std::vector<Eigen::Vector3d>& x)
@@ -121,9 +138,10 @@ public:
     });
   }
 
-  // the positions of the free vertices with which forms are nearest to what is expected of them
+  // The positions of the free vertices with which forms are nearest to what is expected of them; at a
+  // start only the way from x to where hard rows are met.
   template <typename Expected>
-  void solve(std::vector<Eigen::Vector3d>& x, const Expected& expected) const
+  void solve(std::vector<Eigen::Vector3d>& x, const Expected& expected, bool is_start = false) const
   {
     const auto n = Eigen::Index(m_free.size());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b = Eigen::MatrixXd::Zero(n, 3);
@@ -143,14 +161,44 @@ public:
                 a(m_row[v], m_row[w]) += form.weight * coefficient * other;
           }
       }
-    for(const Soft_position& soft : m_soft_positions)
+    for(const Row& row : m_soft_rows)
     {
-      a(m_row[soft.vertex], m_row[soft.vertex]) += soft.weight;
-      b.row(m_row[soft.vertex]) += soft.weight * soft.target.transpose();
+      Eigen::Vector3d rest = row.target(row.value(x));
+      for(const auto& [v, c] : row.terms)
+        if(m_row[v] < 0)
+          rest -= c * x[v];
+      for(const auto& [v, c] : row.terms)
+        for(const auto& [w, d] : row.terms)
+          if(m_row[v] >= 0 && m_row[w] >= 0)
+            a(m_row[v], m_row[w]) += row.weight * c * d;
+      for(const auto& [v, c] : row.terms)
+        if(m_row[v] >= 0)
+          b.row(m_row[v]) += row.weight * c * rest.transpose();
     }
-    const Eigen::MatrixXd solution = a.fullPivLu().solve(b);
+    if(is_start) // only the way to where hard rows are met, from x
+      for(Eigen::Index k = 0; k < n; ++k)
+        b.row(k).setZero();
+    // the saddle point system
+    const auto m = Eigen::Index(m_hard_rows.size());
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m), right(n + m, 3);
+    whole.topLeftCorner(n, n) = a;
+    right.topRows(n) = b;
+    for(Eigen::Index r = 0; r < m; ++r)
+    {
+      const Row& row = m_hard_rows[std::size_t(r)];
+      right.row(n + r) = row.target({0, 0, 0}).transpose();
+      for(const auto& [v, c] : row.terms)
+      {
+        if(m_row[v] >= 0)
+          whole(m_row[v], n + r) = whole(n + r, m_row[v]) = c;
+        if(is_start || m_row[v] < 0)
+          right.row(n + r) -= c * x[v].transpose();
+      }
+    }
+    const Eigen::MatrixXd solution = whole.fullPivLu().solve(right);
     for(Eigen::Index k = 0; k < n; ++k)
-      x[m_free[k]] = solution.row(k).transpose();
+      x[m_free[k]] = (is_start ? x[m_free[k]] : Eigen::Vector3d(0, 0, 0)) +
+                     solution.row(k).transpose();
   }
 
   // naive Laplacian editing: the least-squares solution of L x = L p, L with a row for each vertex
@@ -503,11 +551,19 @@ private:
     return svd.matrixV() * u.transpose(); // Equation (6)
   }
 
-  struct Soft_position
+  struct Row
   {
-    std::size_t vertex;
+    Combination terms;
     double weight;
-    Eigen::Vector3d target;
+    Target target;
+
+    Eigen::Vector3d value(const std::vector<Eigen::Vector3d>& x) const
+    {
+      Eigen::Vector3d sum(0, 0, 0);
+      for(const auto& [v, c] : terms)
+        sum += c * x[v];
+      return sum;
+    }
   };
 
   std::vector<Eigen::Vector3d> m_rest;
@@ -522,7 +578,7 @@ private:
   std::map<std::pair<std::size_t, std::size_t>, double> m_couplings; // of cells
   Terms m_terms;
   bool m_is_element = false;
-  std::vector<Soft_position> m_soft_positions;
+  std::vector<Row> m_soft_rows, m_hard_rows;
 };
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H

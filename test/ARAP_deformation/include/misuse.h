@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-// Gives each call that sets a target of a vertex that is no control vertex to `check_refused`.
+// Gives each call that sets a target of what has none to `check_refused`.
 // Nothing may have changed by it.
 template <typename CheckRefused>
 void test_misuse(const CheckRefused& check_refused)
@@ -42,6 +42,13 @@ void test_misuse(const CheckRefused& check_refused)
     check_refused([&] { return d.rotate(vertices.begin(), vertices.end(), t, q); });
     check_refused([&] { return d.set_target_weight(free, 1); });
     check_refused([&] { return d.set_target_weight(vertices.begin(), vertices.end(), 1); });
+    check_refused([&] { return d.set_target_set(free, [](const Point& p) { return p; }); });
+    const CGAL::ARAP::Control_point none(1);
+    check_refused([&] { return d.set_target_position(none, Point(1, 2, 3)); });
+    check_refused([&] { return d.translate(none, t); });
+    check_refused([&] { return d.rotate(none, t, q); });
+    check_refused([&] { return d.set_target_weight(none, 1); });
+    check_refused([&] { return d.set_target_set(none, [](const Point& p) { return p; }); });
     CHECK(!d.is_control_vertex(free));
     CHECK(d.target_position(control) == target);
     d.insert_roi_vertex(free);

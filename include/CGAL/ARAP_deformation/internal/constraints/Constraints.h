@@ -22,8 +22,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <tuple>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -69,6 +72,22 @@ public:
               m_weights[r] * m_coefficients[k] * m_coefficients[l]);
   }
 
+  // Calls f(v, b) for each vertex of a row and its coefficient.
+  template <typename Function>
+  void for_each_coefficient(int r, const Function& f) const
+  {
+    for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
+      f(m_vertices.items[k], m_coefficients[k]);
+  }
+
+  // B_r x
+  Coordinates value(int r, const Coordinates* x) const
+  {
+    Coordinates sum = {0, 0, 0};
+    for_each_coefficient(r, [&](int v, double b) { add(sum, b, x[v]); });
+    return sum;
+  }
+
   // whether each row has one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
@@ -106,15 +125,6 @@ public:
         ++i, ++j;
   }
 
-  // the row times x: the point that it pulls to its target
-  Coordinates product(int r, const std::vector<Coordinates>& x) const
-  {
-    Coordinates sum = {0, 0, 0};
-    for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-      add(sum, m_coefficients[k], x[static_cast<std::size_t>(m_vertices.items[k])]);
-    return sum;
-  }
-
   // Returns the energy at x for these targets, one for each row, and adds minus half its gradient
   // to the forces.
   double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
@@ -127,17 +137,15 @@ public:
       double sum = 0;
       for(std::size_t r = begin; r < end; ++r)
       {
-        Coordinates residual = targets[r];
-        for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-          add(residual, -m_coefficients[k], positions[m_vertices.items[k]]);
+        const Coordinates residual =
+          difference(targets[r], value(static_cast<int>(r), positions));
         pulls[r] = scaled(residual, m_weights[r]);
         sum += dot(pulls[r], residual);
       }
       return sum;
     });
     for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
-      for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-        add(forces[m_vertices.items[k]], m_coefficients[k], pulls[r]);
+      for_each_coefficient(r, [&](int v, double b) { add(forces[v], b, pulls[r]); });
     return energy;
   }
 
@@ -182,16 +190,50 @@ struct Frame
   Matrix_3x3 rotation;
 };
 
-// What is prescribed for the movable vertices of a region: some are fixed, and rows pull others.
+// What is prescribed for the movable vertices of a region: some are fixed, rows pull others, and
+// hard rows B x = t are met, whatever their weights.
 // Targets are no part of it: they may change with each run.
 struct Constraints
 {
-  Array<char> is_fixed; // for each movable vertex
-  Weighted_rows rows;   // of vertices that may be fixed or not
+  Array<char> is_fixed;    // for each movable vertex
+  Weighted_rows rows;      // of vertices that may be fixed or not
+  Weighted_rows hard_rows; // the same
+
+  // calls f(begin, end, sum, weight) for each row, first for the soft ones
+  template <typename Function>
+  void for_each_row(const Function& f) const
+  {
+    rows.for_each_row(f);
+    hard_rows.for_each_row([&f](auto begin, auto end, double sum, double) {
+      f(begin, end, sum, std::numeric_limits<double>::infinity());
+    });
+  }
 
   std::size_t number_of_free_vertices() const
   {
     return static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), 0));
+  }
+};
+
+// The targets of the rows of constraints.
+struct Targets
+{
+  // The target of a row that is a set: what a row has for its target is the projection of its
+  // present value.
+  struct Set
+  {
+    int row;
+    std::function<Coordinates(const Coordinates&)> projection;
+  };
+
+  std::vector<Coordinates> soft, hard; // one for each row
+  std::vector<Set> sets;               // of soft rows, in their order
+  std::vector<Frame> frames;           // the rotations that are given to cells
+
+  void project(const Weighted_rows& rows, const std::vector<Coordinates>& x)
+  {
+    for(const Set& set : sets)
+      soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));
   }
 };
 

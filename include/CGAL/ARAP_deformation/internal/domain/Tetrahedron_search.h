@@ -15,16 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
-
-#if __has_include(<CGAL/AABB_traits_3.h>) // the name since CGAL 6.0
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
 
 #include <Eigen/LU>
 
@@ -74,36 +66,38 @@ barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& p
 class Tetrahedron_search
 {
 public:
+  using Corners = Tetrahedron_corners;
+
   struct Location
   {
-    std::size_t tetrahedron;             // its index in the argument of the constructor
+    std::size_t simplex;                 // its index in the argument of the constructor
     Barycentric_coordinates coordinates;
     double distance; // from the tetrahedron; 0 if it contains the point up to rounding
   };
 
   // Tetrahedra without volume are ignored.
   explicit Tetrahedron_search(std::vector<Tetrahedron_corners> tetrahedra)
-    : m_tetrahedra(std::move(tetrahedra))
+    : m_tetrahedra(std::move(tetrahedra)), m_tree(m_tetrahedra)
   {
-    fit_to(m_tetrahedra);
     for(std::size_t t = 0; t < m_tetrahedra.size(); ++t)
     {
       const Tetrahedron_corners& c = m_tetrahedra[t];
       if(barycentric_coordinates(c, c[0]))
         for(std::size_t k = 0; k < 4; ++k)
         {
-          std::array<Coordinates, 3> corners = {scaled(c[(k + 1) % 4]), scaled(c[(k + 2) % 4]),
-                                                scaled(c[(k + 3) % 4])};
+          std::array<Coordinates, 3> corners = {m_tree.scaled(c[(k + 1) % 4]),
+                                                m_tree.scaled(c[(k + 2) % 4]),
+                                                m_tree.scaled(c[(k + 3) % 4])};
           std::sort(corners.begin(), corners.end());
           m_faces.push_back({corners, t});
         }
     }
     std::sort(m_faces.begin(), m_faces.end(), [](const Face& a, const Face& b) {
-      return std::tie(a.corners, a.tetrahedron) < std::tie(b.corners, b.tetrahedron);
+      return std::tie(a.corners, a.simplex) < std::tie(b.corners, b.simplex);
     });
     for(std::size_t k = 0; k < m_faces.size(); ++k)
       if(k == 0 || m_faces[k].corners != m_faces[k - 1].corners)
-        m_tree.insert(Primitive(m_faces[k]));
+        m_tree.insert(m_faces[k]);
     m_tree.build();
   }
 
@@ -111,102 +105,34 @@ public:
   Tetrahedron_search(const Tetrahedron_search&) = delete;
   Tetrahedron_search& operator=(const Tetrahedron_search&) = delete;
 
-  bool is_empty() const { return m_tree.empty(); }
+  bool is_empty() const { return m_tree.is_empty(); }
 
   // returns none if the point is so far away that the computation overflows
   std::optional<Location> locate(const Coordinates& point) const
   {
-    const Coordinates c = scaled(point);
-    if(!(std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) < 1e100))
+    const auto nearest = m_tree.nearest(point);
+    if(!nearest)
       return std::nullopt;
-    const Point query(c[0], c[1], c[2]);
-    const auto [nearest_point, nearest_face] = m_tree.closest_point_and_primitive(query);
-    const double distance = std::sqrt(CGAL::squared_distance(query, nearest_point));
+    const double distance = nearest->distance;
 
     constexpr double tolerance = 1e-12;
-    std::vector<const Face*> faces = {nearest_face};
+    std::vector<const Face*> faces = {nearest->triangle};
     Location best = best_at(faces, point);
     if(smallest_coordinate(best) <= tolerance) // else no other tetrahedron contains the point
     {
       const double upper_bound = distance + tolerance * (1 + distance);
-      m_tree.all_intersected_primitives(Kernel::Sphere_3(query, upper_bound * upper_bound),
-                                        std::back_inserter(faces));
+      m_tree.append_within(upper_bound, point, faces);
       best = best_at(faces, point);
     }
     const bool is_inside = smallest_coordinate(best) >= 0 || distance <= tolerance;
-    best.distance = is_inside ? 0 : distance * m_extent;
+    best.distance = is_inside ? 0 : distance * m_tree.extent();
     if(!std::isfinite(smallest_coordinate(best)))
       return std::nullopt;
     return best;
   }
 
 private:
-  using Kernel = CGAL::Simple_cartesian<double>;
-  using Point = Kernel::Point_3;
-
-  // a face of a tetrahedron
-  struct Face
-  {
-    std::array<Coordinates, 3> corners; // scaled and sorted
-    std::size_t tetrahedron;
-  };
-
-  // The faces with the same corners, given by the first of them: a model of AABBPrimitive.
-  class Primitive
-  {
-  public:
-    using Id = const Face*;
-    using Point = Kernel::Point_3;
-    using Datum = Kernel::Triangle_3;
-
-    explicit Primitive(const Face& face) : m_face(&face) {}
-
-    Id id() const { return m_face; }
-    Datum datum() const { return Datum(corner(0), corner(1), corner(2)); }
-    Point reference_point() const { return corner(0); }
-
-  private:
-    Point corner(std::size_t k) const
-    {
-      const Coordinates& c = m_face->corners[k];
-      return Point(c[0], c[1], c[2]);
-    }
-
-    Id m_face;
-  };
-
-#if __has_include(<CGAL/AABB_traits_3.h>)
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
-#else
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-#endif
-
-  // The tree stores the complex centred at the origin and scaled to longest side 1, so that squares
-  // neither overflow nor underflow.
-  void fit_to(const std::vector<Tetrahedron_corners>& tetrahedra)
-  {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Coordinates lowest = {infinity, infinity, infinity};
-    Coordinates highest = {-infinity, -infinity, -infinity};
-    for(const Tetrahedron_corners& corners : tetrahedra)
-      for(const Coordinates& c : corners)
-        for(std::size_t k = 0; k < 3; ++k)
-        {
-          lowest[k] = (std::min)(lowest[k], c[k]);
-          highest[k] = (std::max)(highest[k], c[k]);
-        }
-    for(std::size_t k = 0; k < 3; ++k)
-    {
-      m_centre[k] = 0.5 * lowest[k] + 0.5 * highest[k];
-      m_extent = (std::max)(m_extent, highest[k] - lowest[k]);
-    }
-  }
-
-  Coordinates scaled(const Coordinates& c) const
-  {
-    return {(c[0] - m_centre[0]) / m_extent, (c[1] - m_centre[1]) / m_extent,
-            (c[2] - m_centre[2]) / m_extent};
-  }
+  using Face = Triangle_tree::Triangle; // those with the same corners are given by the first
 
   static double smallest_coordinate(const Location& location)
   {
@@ -220,7 +146,7 @@ private:
     for(const Face* first : faces)
       for(const Face* face = first;
           face != m_faces.data() + m_faces.size() && face->corners == first->corners; ++face)
-        candidates.push_back(face->tetrahedron);
+        candidates.push_back(face->simplex);
     std::sort(candidates.begin(), candidates.end());
 
     Location best = {0, {}, 0};
@@ -235,10 +161,8 @@ private:
   }
 
   std::vector<Tetrahedron_corners> m_tetrahedra;
+  Triangle_tree m_tree;
   std::vector<Face> m_faces; // faces with the same corners are consecutive
-  Coordinates m_centre = {0, 0, 0};
-  double m_extent = 0;
-  Tree m_tree;
 };
 
 } // namespace internal

@@ -35,12 +35,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// a status with the vertex or simplex of the region that it is about, where there is one
+// a status with the vertex, simplex or hard row that it is about, where there is one
 struct Diagnosis
 {
   Status status = Status::success;
   int vertex = -1;
   int simplex = -1;
+  int hard_row = -1;
 };
 
 // The models that a traits class hands out.
@@ -109,12 +110,10 @@ public:
   void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations but for those that the frames give; there is a target for each row of the
-  // constraints. Keeps only the factorization for the initial guess.
-  Diagnosis run(const Options& options, const Observer& observe,
-                const std::vector<Coordinates>& targets, const std::vector<Frame>& frames,
-                std::vector<Coordinates>& x,
-                std::vector<Matrix_3x3>& rotations, Report& report);
+  // rotations but for those that frames give. Targets that are sets become the projections of the final positions. Keeps only the
+  // factorization for the initial guess.
+  Diagnosis run(const Options& options, const Observer& observe, Targets& targets,
+                std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
 
   // the number of tetrahedra that are inside out at the positions x; 0 on a surface
   std::size_t number_of_inverted_simplices(const std::vector<Coordinates>& x) const;
@@ -125,10 +124,9 @@ private:
   Diagnosis prepare();
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
-  Diagnosis run_in_arena(const Options& options, const Observer& observe,
-                         const std::vector<Coordinates>& targets,
-                         const std::vector<Frame>& frames, std::vector<Coordinates>& x,
-                         std::vector<Matrix_3x3>& rotations, Report& report);
+  Diagnosis run_in_arena(const Options& options, const Observer& observe, Targets& targets,
+                         std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                         Report& report);
   Array<Matrix_3x3> rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;

@@ -148,6 +148,10 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   for(std::size_t v = 0; v < components.size(); ++v)
     constraints.is_fixed[v] |= components[v] >= 0;
 
+  if(constraints.hard_rows.size() > Hard_rows::most_rows)
+    return {Status::too_many_control_points};
+  if(const int r = Hard_rows(constraints).find_dependent(); r >= 0)
+    return {Status::dependent_target, -1, -1, r};
   if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
     return {Status::singular_matrix, v};
   Constrained_system::Work work;
@@ -180,13 +184,12 @@ void Deformation_core::reset_rotations()
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
-                                const std::vector<Coordinates>& targets,
-                                const std::vector<Frame>& frames, std::vector<Coordinates>& x,
+                                Targets& targets, std::vector<Coordinates>& x,
                                 std::vector<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
   run_with_threads(threads(options.threads), [&] {
-    diagnosis = run_in_arena(options, observe, targets, frames, x, rotations, report);
+    diagnosis = run_in_arena(options, observe, targets, x, rotations, report);
   });
   return diagnosis;
 }
@@ -251,18 +254,17 @@ Deformation_core::rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
-                                         const std::vector<Coordinates>& targets,
-                                         const std::vector<Frame>& frames,
-                                         std::vector<Coordinates>& x,
+                                         Targets& targets, std::vector<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
-  if(m_order == Minimization_order::local_first)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    is_placed = m_state->rigid_start(m_region, m_squared_size, m_constraints.rows, targets,
-                                     frames, is_laplacian, x);
+    targets.project(m_constraints.rows, x);
+    if(m_order == Minimization_order::local_first)
+      is_placed =
+        m_state->rigid_start(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
   }
   const bool are_all_placed =
     std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
@@ -281,13 +283,19 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     Bounding_box box;
     box.include(m_region.rest);
     box.include(before);
-    box.include(targets);
+    box.include(targets.soft);
+    box.include(targets.hard);
     const double size = box.squared_length();
     box.include(x);
     if(!(box.squared_length() <= 4 * size))
       x = before;
   }
-  m_state->energy.set_given_rotations(rotations_of_cells(frames));
+  m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    if(!m_state->system.meet(targets.hard, x))
+      return {Status::solver_failed};
+  }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
@@ -297,7 +305,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     const Array<Matrix_3x3> of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, targets, frames, x)(m_state->energy,
+      return Harmonic_rotations(m_region, m_constraints, targets, x)(m_state->energy,
                                                                              m_state->system);
     }();
     if(!of_vertices.empty() &&

@@ -66,7 +66,7 @@ inline Matrix_3x3 rotation_of_vector(const Coordinates& v)
 // Whether something that is fixed, or a target, is torn away from its neighbours: by more than a
 // tenth of the size of the rest shape. `size` is the squared diagonal of its bounding box.
 inline bool is_torn(const Region& region, const Constraints& constraints, double size,
-                    const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x)
+                    const Targets& targets, const std::vector<Coordinates>& x)
 {
   const int n = region.number_of_movable_vertices;
   const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
@@ -74,7 +74,7 @@ inline bool is_torn(const Region& region, const Constraints& constraints, double
   for(int r = 0; r < constraints.rows.size(); ++r)
     if(const int v = constraints.rows.position(r);
        v >= 0 && is_free(v) &&
-       is_far(difference(targets[static_cast<std::size_t>(r)], x[static_cast<std::size_t>(v)])))
+       is_far(difference(targets.soft[static_cast<std::size_t>(r)], x[static_cast<std::size_t>(v)])))
       return true;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
@@ -101,8 +101,7 @@ class Harmonic_rotations
 {
 public:
   Harmonic_rotations(const Region& region, const Constraints& constraints,
-                     const std::vector<Coordinates>& targets, const std::vector<Frame>& frames,
-                     const std::vector<Coordinates>& x)
+                     const Targets& targets, const std::vector<Coordinates>& x)
     : m_known(region.number_of_vertices(), Coordinates{0, 0, 0}),
       m_is_known(region.number_of_vertices(), 0), m_constraints(constraints)
   {
@@ -129,7 +128,7 @@ public:
       if(is_handle(v))
         handles[static_cast<int>(sets.find_set(v))].push_back(v);
     const auto place = [&](int v) {
-      return v < n && !constraints.is_fixed[v] ? targets[static_cast<std::size_t>(row_of[v])]
+      return v < n && !constraints.is_fixed[v] ? targets.soft[static_cast<std::size_t>(row_of[v])]
                                                : x[static_cast<std::size_t>(v)];
     };
     for(const auto& handle : handles)
@@ -142,7 +141,7 @@ public:
       for(int v : vertices)
         set(v, fit.rotation());
     }
-    for(const Frame& frame : frames)
+    for(const Frame& frame : targets.frames)
       set(frame.vertex, frame.rotation);
     m_are_all_known = true;
     for(int v = 0; v < region.number_of_vertices(); ++v)

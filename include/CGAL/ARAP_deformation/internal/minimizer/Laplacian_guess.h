@@ -34,8 +34,8 @@ namespace internal {
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
 // and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
-// are constant. Vertices that are pulled to targets are put there; other rows are not considered.
-// Vertices that are placed already stay where they are.
+// are constant. Vertices that are pulled to targets are put there; hard rows are met; other rows
+// are not considered. Vertices that are placed already stay where they are.
 //
 // L^T L is not formed: it has far more entries than L, and its condition number is the square of
 // that of L. The normal equations are solved by conjugate gradients, preconditioned by A^-1 A^-1,
@@ -63,9 +63,9 @@ public:
     });
   }
 
-  // Moves the free vertices of x; there is a target for each row of the constraints. Where they are
-  // before makes no difference. Returns false if the solver failed.
-  bool operator()(const std::vector<Coordinates>& targets, std::vector<Coordinates>& x)
+  // Moves the free vertices of x. Where they are before makes no difference. Returns false if the
+  // solver failed.
+  bool operator()(const Targets& targets, std::vector<Coordinates>& x)
   {
     const std::size_t n = m_constraints.is_fixed.size();
     for(std::size_t v = 0; v < n; ++v)
@@ -75,8 +75,11 @@ public:
       if(const int v = m_constraints.rows.position(r); v >= 0 && m_is_solved_for[v])
       {
         m_is_solved_for[v] = false;
-        x[static_cast<std::size_t>(v)] = targets[static_cast<std::size_t>(r)];
+        x[static_cast<std::size_t>(v)] = targets.soft[static_cast<std::size_t>(r)];
       }
+    // solutions with the system keep hard rows
+    if(!m_system.meet(targets.hard, x))
+      return false;
 
     // What is raised in the matrix is made up for by further passes, until they gain nothing.
     Coordinates last = {0, 0, 0};

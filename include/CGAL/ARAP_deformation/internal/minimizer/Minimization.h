@@ -50,11 +50,10 @@ public:
   double force_error = 0; // the rounding error of the force at a vertex
   double diameter = 0;    // of positions and targets
 
-  // there is a target for each row of the constraints
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
-               const Observer& observe, const std::vector<Coordinates>& targets,
-               std::vector<Coordinates>& x_, std::vector<Matrix_3x3>& rotations, Report& report_)
+               const Observer& observe, Targets& targets, std::vector<Coordinates>& x_,
+               std::vector<Matrix_3x3>& rotations, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
       m_rows(constraints.rows), m_observe(observe), m_targets(targets), m_rotations(rotations)
@@ -73,6 +72,7 @@ public:
     Scoped_seconds local(report.seconds.local_steps);
     if(m_energy.are_rotations_state()) // each trial starts from those of the last iterate
       m_rotations = m_last_rotations;
+    m_system.hard_rows().correct(m_targets.hard, x); // steps have rounding errors
     return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
 
@@ -187,12 +187,15 @@ public:
   }
 
 private:
-  // adds the pull of the rows to the rigidity, and leaves forces at free vertices only
+  // Adds the pull of the rows to the rigidity, and leaves forces at free vertices only. The squared
+  // distance from a set has the gradient of that from the projection, which is the target.
   double complete(double rigidity)
   {
-    m_value = rigidity + m_rows.pull(m_targets, x, m_force);
+    m_targets.project(m_rows, x);
+    m_value = rigidity + m_rows.pull(m_targets.soft, x, m_force);
     for(std::size_t v : m_fixed_vertices)
       m_force[v] = {0, 0, 0};
+    m_system.hard_rows().leave_out_multipliers(m_force);
     return m_value;
   }
 
@@ -201,7 +204,7 @@ private:
   {
     Scoped_seconds local(report.seconds.local_steps);
     Bounding_box box = m_energy.bounding_box(x);
-    box.include(m_targets);
+    box.include(m_targets.soft);
     report.energy_scale = m_energy.scale(box);
     report.rounding_level = m_energy.rounding_level(box);
     diameter = std::sqrt(box.squared_length());
@@ -225,7 +228,7 @@ private:
   const Weighted_rows& m_rows;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
-  const std::vector<Coordinates>& m_targets;
+  Targets& m_targets;
   std::vector<Matrix_3x3>& m_rotations;
   std::vector<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
   std::vector<Coordinates> m_force;

@@ -174,7 +174,7 @@ public:
     Pairs free, fixed, rows; // each with a free vertex of its part
     std::vector<int> other_rows;
     int r = 0;
-    constraints.rows.for_each_row([&](auto begin, auto end, double sum, double weight) {
+    constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
       if(const int v = weight == 0 ? -1 : unite_range(begin, end); v >= 0)
       {
         rows.emplace_back(v, r);
@@ -223,21 +223,25 @@ public:
   // in one of them. They are moved by as little as possible from the positions x, or if
   // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. Parts
   // that are twisted by a full turn are at a minimum of their own, and are left as they are.
-  Array<char> operator()(const Region& region, double size, const Weighted_rows& rows,
-                         const std::vector<Coordinates>& targets,
-                         const std::vector<Frame>& frames, bool is_from_rest,
+  Array<char> operator()(const Region& region, double size, const Constraints& constraints,
+                         const Targets& targets, bool is_from_rest,
                          std::vector<Coordinates>& x) const
   {
-    Array<const Matrix_3x3*> frame_of(frames.empty() ? 0 : region.number_of_vertices(), nullptr);
-    for(const Frame& frame : frames)
+    Array<const Matrix_3x3*> frame_of(targets.frames.empty() ? 0 : region.number_of_vertices(),
+                                      nullptr);
+    for(const Frame& frame : targets.frames)
       frame_of[frame.vertex] = &frame.rotation;
+    Array<char> is_set(targets.sets.empty() ? 0 : constraints.rows.size(), false);
+    for(const Targets::Set& set : targets.sets)
+      is_set[set.row] = true;
     Array<char> is_placed(m_part.size(), false);
     std::vector<Motion> motions;
     Array<int> deformed(m_free.size(), -1); // for each part its motion, if it is not rigid before
     bool is_any_deformed = false;
     for(int part = 0; part < m_free.size(); ++part)
       if(m_can_be_rigid[part])
-        find_motion(part, region, size, rows, targets, frame_of, is_from_rest, x, motions);
+        find_motion(part, region, size, constraints, targets, is_set, frame_of, is_from_rest, x,
+                    motions);
     for(std::size_t k = 0; k < motions.size(); ++k)
       if(motions[k].before.squared_error() > tolerance * size)
       {
@@ -245,7 +249,7 @@ public:
         is_any_deformed = true;
       }
     if(is_any_deformed)
-      find_twisted_parts(region, rows, x, deformed, motions);
+      find_twisted_parts(region, constraints, x, deformed, motions);
     for(const Motion& motion : motions)
       if(!motion.is_twisted)
         for(int k = m_free.begin[motion.part]; k < m_free.begin[motion.part + 1]; ++k)
@@ -296,8 +300,8 @@ private:
   }
 
   // Adds the motion of a part if its constraints are those of a rigid copy.
-  void find_motion(int part, const Region& region, double size, const Weighted_rows& rows,
-                   const std::vector<Coordinates>& targets,
+  void find_motion(int part, const Region& region, double size, const Constraints& constraints,
+                   const Targets& targets, const Array<char>& is_set,
                    const Array<const Matrix_3x3*>& frame_of, bool is_from_rest,
                    const std::vector<Coordinates>& x, std::vector<Motion>& motions) const
   {
@@ -325,9 +329,18 @@ private:
     }
     for(int k = m_rows.begin[part]; k < m_rows.begin[part + 1]; ++k)
     {
-      rest.push_back(rows.product(m_rows.items[k], region.rest));
-      place.push_back(targets[static_cast<std::size_t>(m_rows.items[k])]);
-      add_frame(rows.position(m_rows.items[k]));
+      const int r = m_rows.items[k], number_of_soft = constraints.rows.size();
+      if(r >= number_of_soft)
+      {
+        rest.push_back(constraints.hard_rows.value(r - number_of_soft, region.rest.data()));
+        place.push_back(targets.hard[static_cast<std::size_t>(r - number_of_soft)]);
+        continue;
+      }
+      if(!is_set.empty() && is_set[r])
+        return;
+      rest.push_back(constraints.rows.value(r, region.rest.data()));
+      place.push_back(targets.soft[static_cast<std::size_t>(r)]);
+      add_frame(constraints.rows.position(r));
     }
     const auto rest_of = [&](std::size_t k) { return rest[k]; };
     const auto place_of = [&](std::size_t k) { return place[k]; };
@@ -361,7 +374,7 @@ private:
   // vertices only, are turned by any angle against the motion before, so that those that are turned
   // by 120 degrees or more keep constraints apart. Where a part is only crumpled, others tie them
   // to each other, or they keep single points apart, which hold no twist.
-  void find_twisted_parts(const Region& region, const Weighted_rows& rows,
+  void find_twisted_parts(const Region& region, const Constraints& constraints,
                           const std::vector<Coordinates>& x, const Array<int>& deformed,
                           std::vector<Motion>& motions) const
   {
@@ -398,7 +411,7 @@ private:
         if(deformed[motion.part] >= 0)
           for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
             f(m_fixed.items[k], motion.part);
-      rows.for_each_row([&](auto begin, auto end, double, double weight) {
+      constraints.for_each_row([&](auto begin, auto end, double, double weight) {
         for(auto v = begin; v != end; ++v)
           if(weight != 0 && is_deformed(*v))
             f(*v, m_part[*v]);
@@ -417,7 +430,7 @@ private:
         if(!is_turned[*v])
           sets.union_set(*first, *v);
     }
-    rows.for_each_row([&](auto begin, auto end, double, double weight) {
+    constraints.for_each_row([&](auto begin, auto end, double, double weight) {
       for(auto v = begin; v != end && weight != 0; ++v)
         sets.union_set(*begin, *v);
     });

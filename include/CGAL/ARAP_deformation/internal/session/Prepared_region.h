@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
@@ -99,14 +100,20 @@ public:
         positions[v] = Domain::coordinates(point);
   }
 
-  // how many vertices are in the region of interest, how many are controls, and those of these that
+  // how many vertices are in the region of interest, how many controls there are, and those that
   // have no incident simplex, by index
   std::size_t roi_size() const { return m_roi_size; }
   std::size_t number_of_controls() const { return m_number_of_controls; }
   const std::vector<std::size_t>& isolated_controls() const { return m_isolated_controls; }
 
-  // for each row of the constraints the number of its vertex in the region
-  const std::vector<int>& soft_vertices() const { return m_soft_vertices; }
+  // whose targets the rows of the constraints have
+  struct Rows
+  {
+    std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
+    std::vector<Control_point> soft_points, hard_points; // the others, and the hard rows
+  };
+
+  const Rows& rows() const { return m_rows; }
 
   // To be called when vertices were fixed or freed, or the weight of a target was changed.
   void constraints_changed() { m_present.constraints = ++m_last_version; }
@@ -251,14 +258,18 @@ private:
         return made;
     }
     Prepared& prepared = next ? *next : *m_prepared;
-    std::vector<int> soft_vertices;
+    Rows rows;
     std::vector<std::size_t> isolated_controls;
     const Diagnosis diagnosis = prepared.core->set_constraints(
-      collect_constraints(vertices, prepared, soft_vertices, isolated_controls),
+      collect_constraints(vertices, prepared, rows, isolated_controls),
       m_rules.are_unconstrained_refused ? Unconstrained_components::refused
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
       options.threads, stages);
+    if(diagnosis.hard_row >= 0)
+      return outcome(diagnosis.status,
+                     control_point_name(
+                       rows.hard_points[static_cast<std::size_t>(diagnosis.hard_row)]));
     Outcome result = explain(diagnosis, vertices.domain(), prepared);
     if(!result)
       return result;
@@ -272,10 +283,10 @@ private:
         take_over_rotations(vertices.domain(), *next);
       m_prepared = std::move(next);
     }
-    m_soft_vertices = std::move(soft_vertices);
+    m_rows = std::move(rows);
     m_isolated_controls = std::move(isolated_controls);
     m_roi_size = roi_size;
-    m_number_of_controls = number_of_controls;
+    m_number_of_controls = number_of_controls + vertices.points().size();
     m_ready = m_present;
     return result;
   }
@@ -366,8 +377,7 @@ private:
       });
   }
 
-  Constraints collect_constraints(const Vertices& vertices, const Prepared& prepared,
-                                  std::vector<int>& soft_vertices,
+  Constraints collect_constraints(const Vertices& vertices, const Prepared& prepared, Rows& rows,
                                   std::vector<std::size_t>& isolated_controls) const
   {
     Constraints constraints;
@@ -387,10 +397,28 @@ private:
       else if(vertices.is_pulled(entry))
       {
         constraints.rows.append(v, vertices.weight(entry));
-        soft_vertices.push_back(v);
+        rows.soft_vertices.push_back(v);
       }
       else if(prepared.core->is_isolated(v) && !m_rules.are_unconstrained_refused)
         constraints.is_fixed[v] = true;
+    }
+    for(const auto& [point, held] : vertices.points())
+    {
+      const double weight = held.target.weight;
+      if(weight == 0)
+        continue;
+      Array<int> corners;
+      Array<double> coefficients;
+      for(std::size_t k = 0; k < held.corners.size(); ++k)
+        if(const int v = prepared.region.find_vertex(vertices.domain(), held.corners[k]);
+           prepared.is_movable(v))
+        {
+          corners.push_back(v);
+          coefficients.push_back(held.coordinates[k]);
+        }
+      const bool is_pull = Vertices::is_pull(weight);
+      (is_pull ? constraints.rows : constraints.hard_rows).append(corners, coefficients, weight);
+      (is_pull ? rows.soft_points : rows.hard_points).push_back(point);
     }
     return constraints;
   }
@@ -419,7 +447,7 @@ private:
   Session_rules m_rules;
   Outcome m_outcome;
   std::optional<Prepared> m_prepared; // what was last prepared with success
-  std::vector<int> m_soft_vertices;
+  Rows m_rows;
   std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
   bool m_are_rotations_coupled = false;

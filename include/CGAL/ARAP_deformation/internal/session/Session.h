@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
@@ -31,9 +32,13 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,6 +47,10 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+template <typename Domain>
+using Call_is_simplex = decltype(std::declval<const Domain&>().is_simplex(
+  std::declval<const typename Domain::simplex_descriptor&>()));
 
 // Stands between a domain and the numeric core: keeps the region, reads the points once, runs the
 // core on them, and writes them back once.
@@ -86,15 +95,33 @@ public:
 
   const Vertices& vertices() const { return m_vertices; }
 
-  // the target of a control vertex, the point of any other
-  Point target(vertex_descriptor v) const
+  // The target of a control vertex or a control point, the projection of where it is if the target
+  // is a set; the point of what is no control.
+  template <typename Handle>
+  Point target(Handle handle) const
   {
-    return m_vertices.is_control(v) ? m_vertices.target(*m_vertices.find(v))
-                                    : m_vertices.present(v);
+    const auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? present(handle)
+           : target->set     ? target->set(present(handle)) : target->point;
+  }
+
+  Point present(vertex_descriptor v) const
+  {
+    return takes_points() ? Point(domain().point(v)) : m_vertices.present(v);
+  }
+
+  Point present(Control_point point) const
+  {
+    return point_at(point, [this](vertex_descriptor v) { return present(v); });
   }
 
   // the point of a vertex of the region of interest in the rest shape
   const Point& rest_point(vertex_descriptor v) const { return m_vertices.find(v)->rest; }
+
+  Point rest_point(Control_point point) const
+  {
+    return point_at(point, [this](vertex_descriptor v) { return rest_point(v); });
+  }
 
   // The functions that change the sets of vertices return whether they did.
 
@@ -110,6 +137,7 @@ public:
 
   void clear_roi()
   {
+    clear_points();
     if(!refuse_in_a_run() && m_vertices.clear_roi())
       region_changed();
   }
@@ -136,43 +164,98 @@ public:
 
   void clear_control()
   {
+    clear_points();
     if(!refuse_in_a_run() && m_vertices.clear_control())
       constraints_changed();
   }
 
-  // replaces the target t of the control vertex v by f(t)
-  template <typename Function>
-  Outcome change_target(vertex_descriptor v, const Function& f)
+  // The corners are given by their barycentric coordinates.
+  template <typename CoordinateRange>
+  Control_point_insertion insert_point(const simplex_descriptor& s,
+                                       const CoordinateRange& coordinates)
   {
     if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    auto* entry = m_vertices.find_control(v);
-    if(entry == nullptr)
-      return outcome(Status::not_a_control_vertex, name(v));
-    Point& target = m_vertices.target(*entry);
-    target = f(target);
-    return Outcome(Status::success, std::string());
+      return Control_point_insertion(outcome(Status::in_a_run));
+    typename Vertices::Held_point held = {{}, {}, {Domain::make_point({0, 0, 0}), Vertices::hard}};
+    if(!collect_corners(s, held.corners))
+      return Control_point_insertion(Outcome(
+        Status::not_a_simplex, "the simplex that was given for a control point is not there"));
+    held.coordinates.assign(std::begin(coordinates), std::end(coordinates));
+    const double sum = std::accumulate(held.coordinates.begin(), held.coordinates.end(), 0.0);
+    if(held.coordinates.size() != held.corners.size() || !(std::abs(sum - 1) <= 1e-9) ||
+       !std::all_of(held.coordinates.begin(), held.coordinates.end(),
+                    [](double c) { return is_finite(c); }))
+      return Control_point_insertion(outcome(Status::invalid_coordinates, "a control point"));
+    for(std::size_t k = held.corners.size(); k-- > 0;)
+      if(held.coordinates[k] == 0)
+      {
+        held.corners.erase(held.corners.begin() + static_cast<std::ptrdiff_t>(k));
+        held.coordinates.erase(held.coordinates.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+      else
+        held.coordinates[k] /= sum;
+    held.target.point = Domain::make_point(Vertices::position(
+      held, [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
+    for(vertex_descriptor v : held.corners)
+      insert_roi(v);
+    constraints_changed();
+    return Control_point_insertion(Outcome(Status::success, std::string()),
+                                   m_vertices.insert_point(std::move(held)));
   }
 
-  // the weight of the target of a control vertex, 0 for any other
-  double weight(vertex_descriptor v) const
+  bool erase_point(Control_point point)
   {
-    return m_vertices.is_control(v) ? m_vertices.weight(*m_vertices.find(v)) : 0;
+    return !refuse_in_a_run() && m_vertices.erase_point(point) && constraints_changed();
   }
 
-  Outcome set_weight(vertex_descriptor v, double weight)
+  void clear_points()
   {
-    if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    auto* entry = m_vertices.find_control(v);
-    if(entry == nullptr)
-      return outcome(Status::not_a_control_vertex, name(v));
-    if(!(weight >= 0))
-      return outcome(Status::invalid_weight, name(v));
-    const double before = std::exchange(m_vertices.weight(*entry), weight);
-    if(weight != before)
+    if(!refuse_in_a_run() && m_vertices.clear_points())
       constraints_changed();
-    return Outcome(Status::success, std::string());
+  }
+
+  // replaces the target t of a control vertex or a control point by f(t)
+  template <typename Handle, typename Function>
+  Outcome change_target(Handle handle, const Function& f)
+  {
+    return with_target(handle, [&](auto& target) {
+      replace_target(target, f(this->target(handle)));
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  template <typename Handle, typename Projection>
+  Outcome set_target_set(Handle handle, Projection projection)
+  {
+    return with_target(handle, [&](auto& target) {
+      if(target.weight == Vertices::hard)
+        return refuse_hard_set(handle);
+      target.set = std::move(projection);
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  // the weight of the target of a control vertex or a control point, 0 for what is none
+  template <typename Handle>
+  double weight(Handle handle) const
+  {
+    const auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? 0 : target->weight;
+  }
+
+  template <typename Handle>
+  Outcome set_weight(Handle handle, double weight)
+  {
+    return with_target(handle, [&](auto& target) {
+      if(!(weight >= 0))
+        return outcome(Status::invalid_weight, name(handle));
+      if(target.set && weight == Vertices::hard)
+        return refuse_hard_set(handle);
+      const double before = std::exchange(target.weight, weight);
+      if(weight != before)
+        constraints_changed();
+      return Outcome(Status::success, std::string());
+    });
   }
 
   // the rotation of the cells at a control vertex, or none: then it is fitted
@@ -264,14 +347,19 @@ public:
         if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
           positions[k] = Domain::coordinates(entry->rest);
     }
-    std::vector<Point> points = copies(&Entry::rest), targets = points;
+    std::vector<Point> points = copies(&Entry::rest), targets = points, held_targets;
+    for(const auto& held : m_vertices.points())
+      held_targets.push_back(rest_point(held.first));
     for(const auto& entry : m_vertices.entries())
       if(entry.is_roi || !m_rules.are_erased_put_back)
         domain().set_point(entry.vertex, entry.rest);
     move_to(&Entry::present, points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
-        m_vertices.target(entry) = std::move(targets[k]);
+        replace_target(*m_vertices.find_target(entry.vertex), std::move(targets[k]));
+    std::size_t number = 0;
+    for(auto& held : m_vertices.points())
+      replace_target(held.second.target, std::move(held_targets[number++]));
     if(m_prepared.has_region())
       m_prepared.positions().swap(positions);
     m_prepared.reset_rotations();
@@ -362,6 +450,68 @@ protected:
   const Domain& domain() const { return m_vertices.domain(); }
 
   std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+  std::string name(Control_point point) const { return control_point_name(point); }
+
+  static void replace_target(typename Vertices::Target& target, Point point)
+  {
+    target.point = std::move(point);
+    target.set = nullptr;
+  }
+
+  // calls f(target) with the target of a control vertex or a control point
+  template <typename Handle, typename Function>
+  Outcome with_target(Handle handle, const Function& f)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? refuse_without_target(handle) : f(*target);
+  }
+
+  Outcome refuse_without_target(vertex_descriptor v) const
+  {
+    return outcome(Status::not_a_control_vertex, name(v));
+  }
+
+  Outcome refuse_without_target(Control_point point) const
+  {
+    return Outcome(Status::not_a_control_vertex,
+                   name(point) + " has no target: it was erased, or is of another object");
+  }
+
+  template <typename Handle>
+  Outcome refuse_hard_set(Handle handle) const
+  {
+    return Outcome(Status::invalid_weight, name(handle) + " has an infinite weight; for a target "
+                                           "that is a set give it a finite one first");
+  }
+
+  // the control point if its corners are where a function of vertices tells
+  template <typename Function>
+  Point point_at(Control_point point, const Function& f) const
+  {
+    const auto found = m_vertices.points().find(point);
+    return Domain::make_point(
+      found == m_vertices.points().end()
+        ? Coordinates{0, 0, 0}
+        : Vertices::position(found->second,
+                             [&](vertex_descriptor v) { return Domain::coordinates(f(v)); }));
+  }
+
+  // the corners of a simplex; false if it is not one of the domain
+  bool collect_corners(const simplex_descriptor& s, std::vector<vertex_descriptor>& corners) const
+  {
+    if constexpr(is_valid<Call_is_simplex, Domain>)
+      if(!domain().is_simplex(s))
+        return false;
+    for(vertex_descriptor v : domain().simplex_vertices(s))
+      corners.push_back(v);
+    bool is_there = false;
+    if(!corners.empty())
+      domain().for_each_incident_simplex(
+        corners[0], [&](const simplex_descriptor& t, const auto&) { is_there |= t == s; });
+    return is_there;
+  }
 
   // Points of all entries are copied before any is changed: copies may throw.
   std::vector<Point> copies(Point Entry::*point) const
@@ -440,7 +590,7 @@ protected:
     report.unconstrained_components = core.unconstrained_components();
 
     Array<Coordinates> positions;
-    std::vector<Coordinates> targets; // of the rows of the constraints
+    Targets targets;
     if(Outcome read = read_targets(positions, targets, report); !read)
       return read;
     const auto observe = [&](unsigned int iteration, double energy) {
@@ -450,9 +600,12 @@ protected:
     m_is_in_a_run = true;
     const auto end_of_run = [](bool* flag) { *flag = false; };
     const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis =
-      core.run(options, observe, targets, frames(), positions, rotations, report);
+    targets.frames = frames();
+    const Diagnosis diagnosis = core.run(options, observe, targets, positions, rotations, report);
     Outcome result = m_prepared.explain(diagnosis, domain());
+    for(const Targets::Set& set : targets.sets)
+      if(!is_finite(targets.soft[static_cast<std::size_t>(set.row)]))
+        return outcome(Status::non_finite_point, "the target of " + name_of_row(set.row));
     if(result)
     {
       if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
@@ -502,8 +655,7 @@ protected:
 
   // The positions at which a run starts, with the hard control vertices at their targets, and the
   // targets of the others.
-  Outcome read_targets(Array<Coordinates>& positions, std::vector<Coordinates>& targets,
-                       Report& report) const
+  Outcome read_targets(Array<Coordinates>& positions, Targets& targets, Report& report) const
   {
     Scoped_seconds seconds(report.seconds.transfer);
     const auto& region = m_prepared.region();
@@ -519,10 +671,22 @@ protected:
       if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
     }
-    targets.reserve(m_prepared.soft_vertices().size());
-    for(int v : m_prepared.soft_vertices())
-      targets.push_back(
-        Domain::coordinates(m_vertices.target(*m_vertices.find(region.vertices[v]))));
+    const auto& rows = m_prepared.rows();
+    targets.soft.reserve(rows.soft_vertices.size() + rows.soft_points.size());
+    for(int v : rows.soft_vertices)
+      append_target(*m_vertices.find_target(region.vertices[v]), {0, 0, 0}, targets);
+    for(const auto* points : {&rows.soft_points, &rows.hard_points})
+      for(Control_point point : *points)
+      {
+        const auto& held = m_vertices.points().at(point);
+        if(!is_finite(Domain::coordinates(held.target.point)))
+          return outcome(Status::non_finite_point, "the target of " + name(point));
+        const Coordinates fixed = fixed_share(held, positions);
+        if(points == &rows.soft_points)
+          append_target(held.target, fixed, targets);
+        else
+          targets.hard.push_back(difference(Domain::coordinates(held.target.point), fixed));
+      }
     return outcome(Status::success);
   }
 
@@ -535,6 +699,43 @@ protected:
         if(const int v = m_prepared.region().find_vertex(domain(), entry.vertex); v >= 0)
           frames.push_back({v, *m_vertices.rotation(entry)});
     return frames;
+  }
+
+  // What corners that are not movable add to the position of a control point: they are no part of
+  // its row.
+  Coordinates fixed_share(const typename Vertices::Held_point& held,
+                          const Array<Coordinates>& positions) const
+  {
+    return Vertices::position(held, [&](vertex_descriptor v) {
+      const int number = m_prepared.region().find_vertex(domain(), v);
+      if(number >= 0)
+        return number < m_prepared.core().region().number_of_movable_vertices
+                 ? Coordinates{0, 0, 0} : positions[number];
+      const Entry& entry = *m_vertices.find(v);
+      return Domain::coordinates(m_vertices.is_hard_control(entry) ? m_vertices.target(entry)
+                                                                   : entry.present);
+    });
+  }
+
+  // adds the target of a soft row that lacks a share of its position
+  static void append_target(const typename Vertices::Target& target, const Coordinates& share,
+                            Targets& targets)
+  {
+    if(target.set)
+      targets.sets.push_back(
+        {static_cast<int>(targets.soft.size()), [&target, share](Coordinates c) {
+           add(c, 1, share);
+           return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
+         }});
+    targets.soft.push_back(difference(Domain::coordinates(target.point), share));
+  }
+
+  std::string name_of_row(int r) const
+  {
+    const auto& rows = m_prepared.rows();
+    const std::size_t row = static_cast<std::size_t>(r), n = rows.soft_vertices.size();
+    return row < n ? name(m_prepared.region().vertices[rows.soft_vertices[row]])
+                   : name(rows.soft_points[row - n]);
   }
 
   // adds to the message what a user would not expect

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
@@ -23,7 +24,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,9 +39,9 @@ template <typename Domain>
 using Call_is_vertex = decltype(std::declval<const Domain&>().is_vertex(
   std::declval<typename Domain::vertex_descriptor>()));
 
-// The region of interest, the control vertices and their targets, the rest shape and the present
-// one. Vertices keep their entry when they leave the region of interest: they may have been moved,
-// and the entry knows the rest shape.
+// The region of interest, the control vertices and control points with their targets, the rest
+// shape and the present one. Vertices keep their entry when they leave the region of interest: they
+// may have been moved, and the entry knows the rest shape.
 template <typename Domain>
 class Session_vertices
 {
@@ -65,6 +68,23 @@ public:
 
   const Domain& domain() const { return m_domain; }
 
+  // What a control vertex or a control point is moved to or pulled towards.
+  struct Target
+  {
+    Point point;
+    double weight;
+    std::function<Point(const Point&)> set = {}; // projects onto the target, if that is a set
+    std::optional<Matrix_3x3> rotation = {};     // of the cells there, if it is given
+  };
+
+  // a handle inside a simplex, with its corners of non-zero barycentric coordinates
+  struct Held_point
+  {
+    std::vector<vertex_descriptor> corners;
+    std::vector<double> coordinates;
+    Target target;
+  };
+
   // the target of a control vertex
   Point& target(const Entry& entry) { return m_targets[entry.target].point; }
   const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
@@ -88,10 +108,46 @@ public:
     return entry.is_control && weight(entry) == hard;
   }
 
+  // whether a target is a term of the energy
+  static bool is_pull(double weight) { return 0 < weight && weight < hard; }
+
   // whether a vertex is solved for, and has a term of its own in the energy
   bool is_pulled(const Entry& entry) const
   {
-    return entry.is_control && 0 < weight(entry) && weight(entry) < hard;
+    return entry.is_control && is_pull(weight(entry));
+  }
+
+  // the target of a control vertex or a control point, nullptr for what is none
+
+  const Target* find_target(vertex_descriptor v) const
+  {
+    return is_control(v) ? &m_targets[find(v)->target] : nullptr;
+  }
+
+  const Target* find_target(Control_point point) const
+  {
+    const auto found = m_points.find(point);
+    return found == m_points.end() ? nullptr : &found->second.target;
+  }
+
+  template <typename Handle>
+  Target* find_target(Handle handle)
+  {
+    return const_cast<Target*>(std::as_const(*this).find_target(handle));
+  }
+
+  // the control points, in the order of insertion
+  std::map<Control_point, Held_point>& points() { return m_points; }
+  const std::map<Control_point, Held_point>& points() const { return m_points; }
+
+  // Where a control point is; `coordinates(v)` are those of a vertex.
+  template <typename Function>
+  static Coordinates position(const Held_point& held, const Function& coordinates)
+  {
+    Coordinates sum = {0, 0, 0};
+    for(std::size_t k = 0; k < held.corners.size(); ++k)
+      add(sum, held.coordinates[k], coordinates(held.corners[k]));
+    return sum;
   }
 
   std::vector<Entry>& entries() { return m_entries; }
@@ -182,7 +238,7 @@ public:
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
       m_targets.reserve(2 * m_targets.size() + 1);
-    Target target = {present(v), hard, {}};
+    Target target = {present(v), hard};
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {
@@ -230,6 +286,24 @@ public:
     return is_change;
   }
 
+  // The corners are in the region of interest.
+  Control_point insert_point(Held_point held)
+  {
+    const Control_point point(m_last_point + 1);
+    m_points.emplace(point, std::move(held));
+    ++m_last_point;
+    return point;
+  }
+
+  bool erase_point(Control_point point) { return m_points.erase(point) > 0; }
+
+  bool clear_points()
+  {
+    const bool is_change = !m_points.empty();
+    m_points.clear();
+    return is_change;
+  }
+
   // the vertices whose entries fulfil a predicate, in the order in which they entered the region of
   // interest
   template <typename Predicate>
@@ -267,13 +341,6 @@ public:
     return changed;
   }
 
-  struct Target
-  {
-    Point point;
-    double weight;
-    std::optional<Matrix_3x3> rotation; // of the cells there, if it is given
-  };
-
   // all of it, as a value
   struct State
   {
@@ -281,9 +348,13 @@ public:
     std::vector<Target> targets;
     std::vector<Point> first_points;
     std::vector<Surrounding> surroundings;
+    std::map<Control_point, Held_point> points;
   };
 
-  State state() const { return {m_entries, m_targets, m_first_points, m_surroundings}; }
+  State state() const
+  {
+    return {m_entries, m_targets, m_first_points, m_surroundings, m_points};
+  }
 
   // Returns to an earlier state. Vertices that have entered since leave.
   void restore(State state)
@@ -297,6 +368,7 @@ public:
     m_entries.swap(state.entries);
     m_targets.swap(state.targets);
     m_first_points.swap(state.first_points);
+    m_points.swap(state.points);
   }
 
   // to be called before the rest shape is overwritten
@@ -379,7 +451,9 @@ private:
   Paged_index_map m_surrounding_slots; // the same for m_surroundings
   std::vector<Surrounding> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
+  std::map<Control_point, Held_point> m_points;
   std::size_t m_number_of_insertions = 0;
+  std::size_t m_last_point = 0; // its number, which no other one gets
 };
 
 } // namespace internal

@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 
@@ -28,6 +29,11 @@ namespace internal {
 inline std::string vertex_name(std::size_t index)
 {
   return "vertex " + std::to_string(index);
+}
+
+inline std::string control_point_name(Control_point point)
+{
+  return "control point " + std::to_string(point.number());
 }
 
 inline std::string simplex_name(const Region& region, int simplex)
@@ -98,6 +104,14 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::invalid_rotation:
     return about(" was given a target rotation that is not a rotation: its columns must have "
                  "length 1, be orthogonal, and be right-handed");
+  case Status::invalid_coordinates:
+    return about(" needs barycentric coordinates that are finite and add up to one, one for each "
+                 "corner of its simplex");
+  case Status::dependent_target:
+    return about(": its position is determined by other hard targets; erase one of them, or give "
+                 "it a finite weight");
+  case Status::too_many_control_points:
+    return about("there are more than 3000 hard control points; give them finite weights");
   case Status::not_a_simplex:
     return about(" is incident to a face that is not a polygon, or to a cell that is not a "
                  "tetrahedron: the number of corners is wrong, or a corner is repeated or missing");

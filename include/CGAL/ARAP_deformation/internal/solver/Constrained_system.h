@@ -18,12 +18,16 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/solver/Hard_rows.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
+
+#include <Eigen/Cholesky>
 
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -43,6 +47,9 @@ namespace internal {
 // A vertex that was free and is fixed is kept where it is by a multiplier, with a column of B that
 // is a unit vector. One that was fixed and is free is a further unknown, whose column has its
 // entries of A. One whose row of A differs, because of the rows of the constraints, is both.
+//
+// Hard rows are multipliers of the border, too. Where there is none, or it would be too large, they
+// are eliminated: with S = B A^-1 B^T, a solution is  x = y - A^-1 B^T S^-1 B y,  y = A^-1 f.
 class Constrained_system
 {
 public:
@@ -76,23 +83,36 @@ public:
   int find_singular_vertex(const Constraints& constraints) const;
 
   // Replaces the right-hand side x, one row for each movable vertex, zero where it is fixed, by the
-  // solution.
-  bool solve(std::vector<Coordinates>& x);
+  // solution, which has these values of the hard rows, or zero.
+  bool solve(std::vector<Coordinates>& x, const std::vector<Coordinates>& values = {});
+
+  // Moves the free vertices of x to where the hard rows have these values, the shortest way in the
+  // metric of the matrix.
+  bool meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x);
+
+  const Hard_rows& hard_rows() const { return m_hard_rows; }
 
 private:
-  bool set_border(const Constraints& constraints);
+  Constraints without_hard_rows(const Constraints& constraints) const;
+  bool border_or_eliminate(const Constraints& constraints);
+  bool set_border(const Constraints& constraints, bool are_hard_rows_bordered);
+  bool eliminate_hard_rows();
   bool factorize(const Constraints& constraints, Work& work);
+  bool solve_matrix(std::vector<Coordinates>& x, const Hard_rows::Values& values);
   Sparse_matrix with_rows(const Weighted_rows& rows) const;
 
   Laplacian m_laplacian;
   std::unique_ptr<Linear_solver> m_prototype; // nothing is analyzed
   std::unique_ptr<Linear_solver> m_solver;    // has an order, if there is one
   bool m_has_factor = false;
-  Constraints m_factorized;                   // the constraints of the factor
+  Constraints m_factorized;                   // the constraints of the factor, without hard rows
   Eigen::Index m_analyzed_nonzeros = 0;       // of the pattern that the solver knows
   // the vertices whose unknowns are in the border, and those that it keeps where they are
   Array<int> m_further_unknowns, m_multipliers;
-  Array<Coordinates> m_bordered; // scratch
+  Hard_rows m_hard_rows;
+  bool m_are_hard_rows_bordered = false;
+  Eigen::LLT<Dense_matrix> m_eliminated; // S, if they are not
+  Array<Coordinates> m_bordered;         // scratch
 };
 
 } // namespace internal

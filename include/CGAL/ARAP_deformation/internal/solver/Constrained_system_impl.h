@@ -17,7 +17,9 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
+#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -52,7 +54,7 @@ int Constrained_system::find_singular_vertex(const Constraints& constraints) con
   Array<double> diagonal(n);
   for(int v = 0; v < n; ++v)
     diagonal[v] = diagonal_entry(m_laplacian.matrix, v);
-  constraints.rows.for_each_entry([&](int i, int j, double entry) {
+  without_hard_rows(constraints).rows.for_each_entry([&](int i, int j, double entry) {
     if(i == j) diagonal[i] += entry;
   });
   for(int v = 0; v < n; ++v)
@@ -61,18 +63,61 @@ int Constrained_system::find_singular_vertex(const Constraints& constraints) con
   return -1;
 }
 
+// The constraints of the matrix. Where hard rows are all that constrains a component they are soft
+// ones, too: that changes no solution that keeps them, and makes the matrix definite.
+CGAL_ARAP_INLINE_FUNCTION
+Constraints Constrained_system::without_hard_rows(const Constraints& constraints) const
+{
+  Constraints result = {constraints.is_fixed, constraints.rows, {}};
+  if(constraints.hard_rows.size() == 0)
+    return result;
+  const Array<int> components = find_unconstrained_components(m_laplacian, result);
+  for(int r = 0; r < constraints.hard_rows.size(); ++r)
+  {
+    Array<int> vertices;
+    Array<double> coefficients;
+    bool is_needed = false;
+    double weight = 0;
+    constraints.hard_rows.for_each_coefficient(r, [&](int v, double b) {
+      vertices.push_back(v);
+      coefficients.push_back(b);
+      is_needed |= components[v] >= 0;
+      weight += std::abs(b) * diagonal_entry(m_laplacian.matrix, v);
+    });
+    if(is_needed)
+      result.rows.append(vertices, coefficients, weight > 0 && std::isfinite(weight) ? weight : 1);
+  }
+  return result;
+}
+
 CGAL_ARAP_INLINE_FUNCTION
 bool Constrained_system::prepare(const Constraints& constraints, Work& work)
 {
   work = Work();
+  m_hard_rows = Hard_rows(constraints);
   if(constraints.number_of_free_vertices() == 0)
     return true;
-  if(m_has_factor && m_prototype->can_have_border() && set_border(constraints))
+  const Constraints of_matrix = without_hard_rows(constraints);
+  if(!m_has_factor || !border_or_eliminate(of_matrix))
   {
-    work.border = !m_further_unknowns.empty() || !m_multipliers.empty();
-    return true;
+    if(!factorize(of_matrix, work))
+      return false;
+    if(!m_hard_rows.is_empty() && !border_or_eliminate(of_matrix))
+    {
+      release_factor();
+      return false;
+    }
   }
-  return factorize(constraints, work);
+  work.border =
+    !m_further_unknowns.empty() || !m_multipliers.empty() || !m_hard_rows.is_empty();
+  return true;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Constrained_system::border_or_eliminate(const Constraints& constraints)
+{
+  return set_border(constraints, true) ||
+         (!m_hard_rows.is_empty() && set_border(constraints, false) && eliminate_hard_rows());
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -116,9 +161,9 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::set_border(const Constraints& constraints)
+bool Constrained_system::set_border(const Constraints& constraints, bool are_hard_rows_bordered)
 {
-  constexpr std::size_t largest_border = 256; // beyond it a factorization costs less
+  constexpr int largest_border = 256; // beyond it a factorization costs less
   const int n = m_laplacian.size();
   Array<char> is_kept(n);
   for(int v = 0; v < n; ++v)
@@ -133,18 +178,18 @@ bool Constrained_system::set_border(const Constraints& constraints)
       if(!m_factorized.is_fixed[v]) multipliers.push_back(v);
     }
   const int number_of_unknowns = static_cast<int>(further_unknowns.size());
-  const std::size_t size = further_unknowns.size() + multipliers.size();
-  if(size > largest_border)
+  const int first_row = number_of_unknowns + static_cast<int>(multipliers.size());
+  const int size = first_row + (are_hard_rows_bordered ? m_hard_rows.size() : 0);
+  if(size > (m_prototype->can_have_border() ? largest_border : 0))
     return false;
 
   Array<Eigen::Triplet<double, int>> entries;
-  Eigen::MatrixXd corner =
-    Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
+  Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(size, size);
+  Array<int> column(n, -1);
+  for(int k = 0; k < number_of_unknowns; ++k)
+    column[further_unknowns[k]] = k;
   if(number_of_unknowns > 0)
   {
-    Array<int> column(n, -1);
-    for(int k = 0; k < number_of_unknowns; ++k)
-      column[further_unknowns[k]] = k;
     const bool has_rows = constraints.rows.size() > 0;
     const Sparse_matrix own = has_rows ? with_rows(constraints.rows) : Sparse_matrix();
     const Sparse_matrix& matrix = has_rows ? own : m_laplacian.matrix;
@@ -164,25 +209,93 @@ bool Constrained_system::set_border(const Constraints& constraints)
   }
   for(std::size_t k = 0; k < multipliers.size(); ++k)
     entries.emplace_back(multipliers[k], number_of_unknowns + static_cast<int>(k), 1);
-  Sparse_matrix border(n, static_cast<Eigen::Index>(size));
+  for(int r = 0; r < size - first_row; ++r)
+    for(Sparse_matrix::InnerIterator entry(m_hard_rows.columns(), r); entry; ++entry)
+      if(const int k = column[entry.row()]; k >= 0)
+        corner(first_row + r, k) = corner(k, first_row + r) = entry.value();
+      else
+        entries.emplace_back(entry.row(), first_row + r, entry.value());
+  Sparse_matrix border(n, size);
   border.setFromTriplets(entries.begin(), entries.end());
-  if(!m_solver->set_border(border, corner))
+  if(m_prototype->can_have_border() && !m_solver->set_border(border, corner))
     return false;
+  m_are_hard_rows_bordered = are_hard_rows_bordered;
   m_further_unknowns = std::move(further_unknowns);
   m_multipliers = std::move(multipliers);
   return true;
 }
 
+// computes and factorizes S, three columns with each solution
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::solve(std::vector<Coordinates>& x)
+bool Constrained_system::eliminate_hard_rows()
 {
-  const std::size_t n = x.size(), border_size = m_further_unknowns.size() + m_multipliers.size();
+  const int m = m_hard_rows.size();
+  Dense_matrix s(m, m);
+  for(int first = 0; first < m; first += 3)
+  {
+    const int count = (std::min)(3, m - first);
+    Hard_rows::Values three = Hard_rows::Values::Zero(m, 3);
+    for(int k = 0; k < count; ++k)
+      three(first + k, k) = 1;
+    std::vector<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()));
+    m_hard_rows.add(three, x);
+    if(!solve_matrix(x, {}))
+      return false;
+    s.middleCols(first, count) = m_hard_rows.values(x).leftCols(count);
+  }
+  m_eliminated.compute(s);
+  return m_eliminated.info() == Eigen::Success;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Constrained_system::solve(std::vector<Coordinates>& x, const std::vector<Coordinates>& values)
+{
+  const Hard_rows::Values scaled = m_hard_rows.scaled(values);
+  if(!solve_matrix(x, scaled))
+    return false;
+  if(m_hard_rows.is_empty())
+    return true;
+  if(!m_are_hard_rows_bordered)
+  {
+    std::vector<Coordinates> correction(x.size(), Coordinates{0, 0, 0});
+    m_hard_rows.add(m_eliminated.solve(scaled - m_hard_rows.values(x)), correction);
+    if(!solve_matrix(correction, {}))
+      return false;
+    for(std::size_t v = 0; v < x.size(); ++v)
+      add(x[v], 1, correction[v]);
+  }
+  m_hard_rows.project(scaled, x); // whatever the solver's rounding errors are
+  return true;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Constrained_system::meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x)
+{
+  if(m_hard_rows.is_empty())
+    return true;
+  std::vector<Coordinates> step(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
+  if(!solve(step, m_hard_rows.residuals(values, x)))
+    return false;
+  for(std::size_t v = 0; v < step.size(); ++v)
+    add(x[v], 1, step[v]);
+  return true;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Constrained_system::solve_matrix(std::vector<Coordinates>& x, const Hard_rows::Values& values)
+{
+  const std::size_t n = x.size(), first_row = m_further_unknowns.size() + m_multipliers.size();
+  const std::size_t border_size =
+    first_row + static_cast<std::size_t>(m_are_hard_rows_bordered ? m_hard_rows.size() : 0);
   if(border_size == 0)
     return m_solver->solve(n, x.data());
   m_bordered.assign(n + border_size, Coordinates{0, 0, 0});
   std::copy(x.begin(), x.end(), m_bordered.begin());
   for(std::size_t k = 0; k < m_further_unknowns.size(); ++k)
     std::swap(m_bordered[n + k], m_bordered[m_further_unknowns[k]]);
+  for(std::size_t r = first_row; r < border_size; ++r)
+    for(std::size_t c = 0; c < 3; ++c)
+      m_bordered[n + r][c] = values(static_cast<int>(r - first_row), static_cast<int>(c));
   if(!m_solver->solve(m_bordered.size(), m_bordered.data()))
     return false;
   for(int v : m_multipliers)

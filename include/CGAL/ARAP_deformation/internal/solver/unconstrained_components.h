@@ -26,7 +26,7 @@ namespace ARAP {
 namespace internal {
 
 // For each movable vertex -1 if it is fixed, or if a chain of edges of non-zero weight ties it, by
-// way of other free vertices, to a vertex that is fixed or pulled to a target. If not, its
+// way of other free vertices, to a vertex that is fixed or has a target. If not, its
 // component could be anywhere, and the system is singular: then it is the smallest vertex of that
 // component.
 inline Array<int> find_unconstrained_components(const Laplacian& laplacian,
@@ -54,10 +54,11 @@ inline Array<int> find_unconstrained_components(const Laplacian& laplacian,
     for(Sparse_matrix::InnerIterator entry(laplacian.matrix, v); entry; ++entry)
       if(entry.value() != 0 && entry.row() != v)
         tie(static_cast<int>(entry.row()), v);
-  constraints.rows.for_each_row([&](auto begin, auto end, double sum, double weight) {
-    for(auto v = begin; v != end && weight != 0; ++v)
-      tie(*v, sum != 0 ? fixed : *begin); // a row that adds up to zero only ties its vertices
-  });
+  for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
+    rows->for_each_row([&](auto begin, auto end, double sum, double weight) {
+      for(auto v = begin; v != end && weight != 0; ++v)
+        tie(*v, sum != 0 ? fixed : *begin); // a row that adds up to zero only ties its vertices
+    });
   for(int v = 0; v < n; ++v)
     parent[v] = find(v);
   parent.pop_back();

@@ -1,0 +1,107 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGLE_SEARCH_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGLE_SEARCH_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Finds the triangle nearest to a point.
+class Triangle_search
+{
+public:
+  using Corners = std::array<Coordinates, 3>;
+
+  struct Location
+  {
+    std::size_t simplex;               // its index in the argument of the constructor
+    std::array<double, 3> coordinates; // of the nearest point, not negative
+    double distance;
+  };
+
+  // Triangles without area are ignored.
+  explicit Triangle_search(const std::vector<Corners>& triangles) : m_tree(triangles)
+  {
+    for(std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      const Corners& c = triangles[t];
+      const Triangle_tree::Triangle triangle = {
+        {m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t};
+      if(decomposition(triangle).rank() == 2)
+        m_triangles.push_back(triangle);
+    }
+    for(const auto& triangle : m_triangles)
+      m_tree.insert(triangle);
+    m_tree.build();
+  }
+
+  // the tree refers to the triangles
+  Triangle_search(const Triangle_search&) = delete;
+  Triangle_search& operator=(const Triangle_search&) = delete;
+
+  bool is_empty() const { return m_tree.is_empty(); }
+
+  // returns none if the point is so far away that the computation overflows
+  std::optional<Location> locate(const Coordinates& point) const
+  {
+    const auto nearest = m_tree.nearest(point);
+    if(!nearest)
+      return std::nullopt;
+    const Triangle_tree::Triangle& triangle = *nearest->triangle;
+    const Eigen::Vector2d solution = decomposition(triangle).solve(
+      vector(nearest->point) - vector(triangle.corners[0]));
+    // rounding errors at an edge make no coordinate negative
+    const double b = (std::min)((std::max)(solution[0], 0.0), 1.0);
+    const double c = (std::min)((std::max)(solution[1], 0.0), 1 - b);
+    return Location{triangle.simplex, {1 - b - c, b, c}, nearest->distance * m_tree.extent()};
+  }
+
+private:
+  static Eigen::Vector3d vector(const Coordinates& c) { return {c[0], c[1], c[2]}; }
+
+  // of its edges from the first corner; backward stable for thin triangles
+  static Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 2>>
+  decomposition(const Triangle_tree::Triangle& triangle)
+  {
+    Eigen::Matrix<double, 3, 2> edges;
+    for(int k = 0; k < 2; ++k)
+      edges.col(k) =
+        vector(triangle.corners[static_cast<std::size_t>(k + 1)]) - vector(triangle.corners[0]);
+    Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 2>> result;
+    result.setThreshold(1e-12);
+    result.compute(edges);
+    return result;
+  }
+
+  Triangle_tree m_tree;
+  std::vector<Triangle_tree::Triangle> m_triangles;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_TRIANGLE_SEARCH_H

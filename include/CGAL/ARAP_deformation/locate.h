@@ -1,0 +1,143 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_LOCATE_H
+#define CGAL_ARAP_DEFORMATION_LOCATE_H
+
+#include <CGAL/ARAP_deformation/internal/config.h>
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/domain/Tetrahedron_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/Triangle_search.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief finds the face or the tetrahedron that is nearest to a point, for control points of
+/// `CGAL::ARAP_deformation`.
+///
+/// It is built for the points that the domain has at construction. Takes \f$O(n \log n)\f$ time for
+/// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Triangles, and triangles
+/// of the fan of a polygon, that have no area are ignored, and so are tetrahedra without volume and
+/// simplices with a point that is not finite.
+///
+/// \tparam Domain a model of `ARAPDomain`
+template <typename Domain>
+class Locator
+{
+public:
+  /// a face or a tetrahedron.
+  using simplex_descriptor = typename Domain::simplex_descriptor;
+
+  /// builds a search tree over the simplices of a domain.
+  explicit Locator(const Domain& domain)
+  {
+    std::vector<Corners> corners;
+    for(const auto& v : domain.vertices())
+      domain.for_each_incident_simplex(v, [&](const simplex_descriptor& s, const auto& range) {
+        const std::vector<typename Domain::vertex_descriptor> all(std::begin(range),
+                                                                  std::end(range));
+        // at the first of its vertices only
+        const bool is_first = std::none_of(all.begin(), all.end(), [&](const auto& w) {
+          return domain.index(w) < domain.index(v);
+        });
+        std::vector<Coordinates> points;
+        for(const auto& w : all)
+          points.push_back(Domain::coordinates(domain.point(w)));
+        if(is_first && all.size() > Domain::dimension && internal::find_non_finite(points) < 0)
+          append(s, points, corners);
+      });
+    m_search = std::make_unique<Search>(std::move(corners));
+  }
+
+  /// \brief returns the place of the nearest simplex that is nearest to `point`, and its
+  /// coordinates; none if there is no simplex, or if `point` is not finite.
+  ///
+  /// On a surface the coordinates are not negative: those of the nearest point. For a point outside
+  /// of all tetrahedra they are those of the point itself, and some are negative.
+  std::optional<Location<simplex_descriptor>> locate(const typename Domain::Point& point) const
+  {
+    const Coordinates c = Domain::coordinates(point);
+    if(m_search->is_empty() || !internal::is_finite(c))
+      return std::nullopt;
+    const auto found = m_search->locate(c);
+    if(!found)
+      return std::nullopt;
+    const Part& part = m_parts[found->simplex];
+    Location<simplex_descriptor> location = {part.simplex, {}, found->distance};
+    location.coordinates.assign(part.number_of_corners, 0);
+    for(std::size_t k = 0; k < found->coordinates.size(); ++k)
+      location.coordinates[k == 0 ? 0 : part.fan + k] += found->coordinates[k];
+    return location;
+  }
+
+private:
+  using Search = std::conditional_t<Domain::dimension == 3, internal::Tetrahedron_search,
+                                    internal::Triangle_search>;
+  using Corners = typename Search::Corners;
+
+  // a simplex, or a triangle (0, fan + 1, fan + 2) of a polygon
+  struct Part
+  {
+    simplex_descriptor simplex;
+    std::size_t fan, number_of_corners;
+  };
+
+  void append(const simplex_descriptor& s, const std::vector<Coordinates>& points,
+              std::vector<Corners>& corners)
+  {
+    for(std::size_t fan = 0; fan + Domain::dimension < points.size(); ++fan)
+    {
+      m_parts.push_back({s, fan, points.size()});
+      corners.emplace_back();
+      for(std::size_t k = 0; k < corners.back().size(); ++k)
+        corners.back()[k] = points[k == 0 ? 0 : fan + k];
+    }
+  }
+
+  std::vector<Part> m_parts;
+  std::unique_ptr<Search> m_search;
+};
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the place in the simplices of a mesh or domain that is nearest to a point, for
+/// `CGAL::ARAP_deformation::insert_control_point()`; none if there is no simplex, or if `point` is
+/// not finite.
+///
+/// Builds a search tree. For more than one point use `Locator`.
+template <typename Shape, typename Point>
+auto locate(Shape& shape, const Point& point)
+{
+  using Domain = typename internal::Default_domain<std::remove_const_t<Shape>>::type;
+  if constexpr(internal::Is_domain<Shape>::value)
+    return Locator<Domain>(shape).locate(point);
+  else
+    return Locator<Domain>(internal::make_domain<Domain>(shape)).locate(point);
+}
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_LOCATE_H

@@ -1,0 +1,980 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Handles inside a face or a tetrahedron, hard and soft, and targets that are sets: against a dense
+// computation, in their limits, with every solver, and over a history of changes.
+
+#include "include/check.h"
+#include "include/dense_reference.h"
+#include "include/domains.h"
+#include "include/shapes.h"
+#include "include/Single_precision_solver.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/ARAP_deformation/target_sets.h>
+#include <CGAL/ARAP_deformation_traits.h>
+#include <CGAL/arap_deform.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+using CGAL::ARAP::Control_point;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+using Simplices = std::vector<std::vector<std::size_t>>;
+
+// a shape with what is to be held inside its simplices
+template <int Dimension>
+struct Held_shape
+{
+  std::string name;
+  std::vector<Eigen::Vector3d> points;
+  Simplices simplices;
+  Scenario scenario;
+
+  double diameter() const { return diameter_of(points); }
+
+  // simplices with so many free corners, or all, and none outside the region of interest, far from
+  // each other
+  std::vector<std::size_t> places(std::size_t count, std::size_t least_free = 1) const
+  {
+    std::vector<std::size_t> all;
+    for(std::size_t s = 0; s < simplices.size(); ++s)
+    {
+      std::size_t free = 0, outside = 0;
+      for(std::size_t v : simplices[s])
+      {
+        free += scenario.selection[v] == 1;
+        outside += scenario.selection[v] == 0;
+      }
+      if(free >= (std::min)(least_free, simplices[s].size()) && outside == 0)
+        all.push_back(s);
+    }
+    std::vector<std::size_t> some;
+    for(std::size_t k = 0; k < count; ++k)
+      some.push_back(all[k * (all.size() - 1) / (count - 1)]);
+    return some;
+  }
+};
+
+inline Held_shape<2> triangles()
+{
+  const Shape shape = grid("sheet", 7, 5, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.2 * std::sin(5 * u) * v);
+  });
+  Held_shape<2> held{"triangles", shape.points, {}, scenario(shape, 0.5)};
+  for(const auto& t : shape.triangles)
+    held.simplices.emplace_back(t.begin(), t.end());
+  return held;
+}
+
+inline Held_shape<2> quads()
+{
+  Held_shape<2> held{"quads", {}, {}, {}};
+  const std::size_t n = 7, m = 5;
+  for(std::size_t i = 0; i <= n; ++i)
+    for(std::size_t j = 0; j <= m; ++j)
+      held.points.emplace_back(0.3 * double(i), 0.2 * double(j), 0.1 * std::sin(double(i * j)));
+  for(std::size_t i = 0; i < n; ++i)
+    for(std::size_t j = 0; j < m; ++j)
+    {
+      const std::size_t a = i * (m + 1) + j, b = a + m + 1;
+      held.simplices.push_back({a, b, b + 1, a + 1});
+    }
+  held.scenario = scenario(Shape{"", held.points, {}}, 0.5);
+  return held;
+}
+
+inline Held_shape<3> tetrahedra()
+{
+  const Block solid = block(4, 2, 2);
+  Held_shape<3> held{"tetrahedra", solid.points, {}, scenario(solid, 0.5)};
+  for(const auto& t : solid.tetrahedra)
+    held.simplices.emplace_back(t.begin(), t.end());
+  return held;
+}
+
+template <int Dimension>
+using Soup = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
+
+// A deformation of a shape: the object under test.
+template <int Dimension, typename Solver = CGAL::Default>
+struct Subject
+{
+  using Deformation =
+    CGAL::ARAP_deformation<Soup<Dimension>, CGAL::ARAP_deformation_traits<Solver>>;
+
+  explicit Subject(const Held_shape<Dimension>& shape_, bool is_prepared = true)
+    : shape(shape_), points(points_of(shape.points)),
+      deformation(Soup<Dimension>(points, shape.simplices))
+  {
+    if(is_prepared)
+      prepare(deformation, shape.scenario, numbers(points.size()));
+  }
+
+  // inserts a control point, with a target at a shift from where it is
+  Control_point insert(std::size_t simplex, const std::vector<double>& coordinates, double weight,
+                       const Eigen::Vector3d& shift)
+  {
+    const auto inserted = deformation.insert_control_point(simplex, coordinates);
+    CHECK(inserted);
+    CHECK(deformation.is_control_point(inserted.point));
+    CHECK(deformation.translate(inserted.point, shift));
+    CHECK(deformation.set_target_weight(inserted.point, weight));
+    return inserted.point;
+  }
+
+  // how far the hard control points are from their targets
+  double miss() const
+  {
+    double largest = 0;
+    for(Control_point p : deformation.control_points())
+      if(deformation.target_weight(p) == infinite)
+        largest = larger(largest, (vector(deformation.control_point_position(p)) -
+                                   vector(deformation.target_position(p))).norm());
+    return largest;
+  }
+
+  Held_shape<Dimension> shape;
+  std::vector<Point> points;
+  Deformation deformation;
+};
+
+// barycentric coordinates for so many corners, different for each k
+inline std::vector<double> coordinates(std::size_t corners, std::size_t k)
+{
+  std::vector<double> result;
+  double sum = 0;
+  for(std::size_t c = 0; c < corners; ++c)
+    sum += result.emplace_back(1 + double((k + 2 * c) % 3) + 0.3 * double(c));
+  for(double& c : result)
+    c /= sum;
+  return result;
+}
+
+// Iterates and energies against the dense reference: hard and soft points, and ones with a plane.
+namespace iterates {
+
+template <typename Solver, int Dimension>
+void compare(const Held_shape<Dimension>& shape, Cell_scheme cells, Dense_reference::Cells dense)
+{
+  Subject<Dimension, Solver> s(shape);
+  auto& d = s.deformation;
+  CHECK(d.set_options(options_for(cells, Minimizer::local_global)));
+  Dense_reference reference(shape.points, shape.simplices, Dimension, shape.scenario.selection,
+                            dense, Dense_reference::SAFE);
+  const Kernel::Plane_3 plane(Point(0.3, 0.2, 0.4), Kernel::Vector_3(1, 2, 3));
+  const std::vector<std::size_t> places = shape.places(8);
+  for(std::size_t k = 0; k < places.size(); ++k)
+  {
+    const auto& corners = shape.simplices[places[k]];
+    const std::vector<double> b = coordinates(corners.size(), k);
+    const double weight = k % 2 == 0 ? infinite : 0.3 * double(k);
+    const Eigen::Vector3d shift(0.02 * double(k), -0.03, 0.1 - 0.02 * double(k));
+    const Control_point p = s.insert(places[k], b, weight, shift);
+    Dense_reference::Combination terms;
+    for(std::size_t c = 0; c < corners.size(); ++c)
+      terms.emplace_back(corners[c], b[c]);
+    if(k == 3)
+    {
+      CHECK(d.set_target_set(p, CGAL::ARAP::projection_onto(plane)));
+      reference.add_row(terms, weight, [plane](const Eigen::Vector3d& x) {
+        return vector(plane.projection(point(x)));
+      });
+    }
+    else
+      reference.add_row(terms, weight, [t = vector(d.target_position(p))](const auto&) {
+        return t;
+      });
+  }
+
+  const unsigned int iterations = 6;
+  std::vector<Eigen::Vector3d> x = shape.scenario.targets;
+  reference.start(x);
+  std::vector<double> energies = {reference.energy(x)};
+  std::vector<std::vector<Eigen::Vector3d>> all = {x};
+  for(unsigned int k = 0; k < iterations; ++k)
+  {
+    reference.iterate(x);
+    energies.push_back(reference.energy(x));
+    all.push_back(x);
+  }
+  const std::vector<Point> points = s.points;
+  const Report report = d.deform(iterations, 0, [&](const auto& iterate) {
+    std::vector<Point> copy = points;
+    iterate.put_points(boost::make_iterator_property_map(
+      copy.begin(), boost::typed_identity_property_map<std::size_t>()));
+    CHECK_AT_MOST(largest_distance(copy, all[iterate.iteration()]), 1e-10 * shape.diameter());
+    return CGAL::ARAP::Visitor_action::proceed;
+  });
+  CHECK(report.status == Status::iteration_limit);
+  if(!CHECK(report.energy.size() == energies.size()))
+    return;
+  for(std::size_t k = 0; k < energies.size(); ++k)
+    CHECK_AT_MOST(std::abs(report.energy[k] - energies[k]), 1e-10 * energies[k]);
+  CHECK_AT_MOST(s.miss(), 1e-13 * shape.diameter());
+}
+
+template <int Dimension>
+void compare_all(const Held_shape<Dimension>& shape)
+{
+  const std::pair<Cell_scheme, Dense_reference::Cells> schemes[] = {
+    {Cell_scheme::spokes(), Dense_reference::SPOKES},
+    {Cell_scheme::spokes_and_rims(), Dense_reference::SPOKES_AND_RIMS},
+    {Cell_scheme::elements(), Dense_reference::ELEMENTS}};
+  for(const auto& [cells, dense] : schemes)
+  {
+    test_case() = shape.name + ", cells " + std::to_string(dense);
+    compare<CGAL::Default>(shape, cells, dense);
+    compare<CGAL::ARAP::Eigen_LDLT_solver>(shape, cells, dense);
+  }
+}
+
+} // namespace iterates
+
+// Every solver, minimizer and cell scheme, from either guess: hard points are met, the energy never
+// rises.
+namespace solvers {
+
+template <typename Solver, int Dimension>
+void test(const std::string& name, const Held_shape<Dimension>& shape)
+{
+  for_all_options([&](const CGAL::ARAP::Options& options) {
+    test_case() = name + ", " + shape.name;
+    Subject<Dimension, Solver> s(shape);
+    CHECK(s.deformation.set_options(options));
+    const std::vector<std::size_t> places = shape.places(6);
+    for(std::size_t k = 0; k < places.size(); ++k)
+      s.insert(places[k], coordinates(shape.simplices[places[k]].size(), k),
+               k == 4 ? 2.0 : infinite, {0.1, 0.05 * double(k), -0.2});
+    const Report report = s.deformation.deform(30, 0);
+    CHECK(report);
+    CHECK(report.stages.border);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK(report.energy[30] < report.energy[0]);
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+  });
+}
+
+template <int Dimension>
+void test_all(const Held_shape<Dimension>& shape)
+{
+  test<CGAL::Default>("default", shape);
+  test<Single_precision_solver>("single precision", shape);
+  test<CGAL::ARAP::Eigen_LDLT_solver>("Eigen", shape);
+  test<CGAL::ARAP::Eigen_conjugate_gradient_solver>("conjugate gradients", shape);
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  test<CGAL::ARAP::Cholmod_solver>("CHOLMOD", shape);
+#endif
+}
+
+} // namespace solvers
+
+namespace limits {
+
+// At a corner it is the control vertex: a soft one to the last bit, a hard one where both end.
+template <int Dimension>
+void test_corner(const Held_shape<Dimension>& shape)
+{
+  const std::size_t place = shape.places(3)[1];
+  const auto& simplex = shape.simplices[place];
+  std::size_t corner = 0;
+  while(shape.scenario.selection[simplex[corner]] != 1)
+    ++corner;
+  std::vector<double> b(simplex.size(), 0);
+  b[corner] = 1;
+  for(double weight : {infinite, 3.0})
+  {
+    test_case() = shape.name + ", corner, weight " + std::to_string(weight);
+    Subject<Dimension> s(shape), t(shape);
+    const Eigen::Vector3d shift(0.1, -0.05, 0.1);
+    s.insert(place, b, weight, shift);
+    t.deformation.insert_control_vertex(simplex[corner]);
+    t.deformation.translate(simplex[corner], shift);
+    CHECK(t.deformation.set_target_weight(simplex[corner], weight));
+    CHECK(s.deformation.deform(400, 0));
+    CHECK(t.deformation.deform(400, 0));
+    CHECK_AT_MOST(largest_distance(s.points, t.points),
+                  (weight < infinite ? 0 : 1e-10) * shape.diameter());
+  }
+}
+
+// Soft points tend to hard ones with the weight.
+template <int Dimension>
+void test_weights(const Held_shape<Dimension>& shape)
+{
+  test_case() = shape.name + ", weights";
+  const std::vector<std::size_t> places = shape.places(3, 4);
+  const auto run = [&](double weight) {
+    Subject<Dimension> s(shape);
+    for(std::size_t k = 0; k < 3; ++k)
+      s.insert(places[k], coordinates(shape.simplices[places[k]].size(), k), weight,
+               {0.05, 0.05 * double(k), 0.05});
+    const Report report = s.deformation.deform(500, 0);
+    CHECK(report);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    return s.points;
+  };
+  const std::vector<Point> hard = run(infinite);
+  double last = 1e300;
+  for(double weight : {1.0, 1e2, 1e4, 1e6})
+  {
+    const double distance = largest_distance(run(weight), hard);
+    CHECK(distance < 0.2 * last);
+    last = distance;
+  }
+  CHECK_AT_MOST(last, 1e-5 * shape.diameter());
+}
+
+// Rigid in, rigid out, also where points are all that holds the shape.
+template <int Dimension>
+void test_rigid(const Held_shape<Dimension>& shape)
+{
+  const Eigen::Isometry3d motion = rigid_motion(1.2, {1, 2, 3}, {0.4, 0.5, -0.2});
+  std::vector<Eigen::Vector3d> moved;
+  for(const auto& p : shape.points)
+    moved.push_back(motion * p);
+  for(double weight : {infinite, 0.5})
+    for(const Cell_scheme& cells : all_cell_schemes)
+    {
+      if(Dimension == 2 && cells == Cell_scheme::elements())
+        continue; // triangles fold
+      test_case() = shape.name + ", rigid, weight " + std::to_string(weight);
+      Subject<Dimension> s(shape, false);
+      CHECK(s.deformation.set_options(options_for(cells)));
+      for(std::size_t v = 0; v < s.points.size(); ++v)
+        s.deformation.insert_roi_vertex(v);
+      for(std::size_t place : shape.places(5))
+      {
+        const Control_point p =
+          s.insert(place, coordinates(shape.simplices[place].size(), 1), weight, {0, 0, 0});
+        CHECK(s.deformation.set_target_position(
+          p, point(motion * vector(s.deformation.target_position(p)))));
+      }
+      const Report report = s.deformation.deform();
+      CHECK(report.status == Status::converged);
+      CHECK_AT_MOST(report.iterations, 3.0);
+      CHECK_AT_MOST(largest_distance(s.points, moved), 1e-9 * shape.diameter());
+      CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+      // what is translated again needs no other factor
+      for(Control_point p : s.deformation.control_points())
+        s.deformation.translate(p, Eigen::Vector3d(0, 0, 1));
+      const Report again = s.deformation.deform();
+      CHECK(again.status == Status::converged && !again.stages.factor && !again.stages.border);
+    }
+}
+
+template <int Dimension>
+void test_all(const Held_shape<Dimension>& shape)
+{
+  test_corner(shape);
+  test_weights(shape);
+  test_rigid(shape);
+}
+
+} // namespace limits
+
+namespace refusals {
+
+template <typename Subject>
+void check_refused(Subject& s, Status status, const std::string& text)
+{
+  const std::vector<Point> before = s.points;
+  const Report report = s.deformation.deform();
+  CHECK(report.status == status);
+  CHECK(report.message.find(text) != std::string::npos);
+  CHECK(largest_distance(before, s.points) == 0);
+}
+
+// Points that others determine.
+template <typename Solver>
+void test_dependent()
+{
+  const Held_shape<2> shape = triangles();
+  const std::size_t place = shape.places(3)[1];
+  const Eigen::Vector3d shift(0, 0, 0.1);
+  {
+    test_case() = "four points in a triangle";
+    Subject<2, Solver> s(shape);
+    for(std::size_t k = 0; k < 3; ++k)
+      s.insert(place, coordinates(3, k), infinite, shift);
+    CHECK(s.deformation.deform());
+    const Control_point fourth = s.insert(place, {0.4, 0.3, 0.3}, infinite, shift);
+    check_refused(s, Status::dependent_target, "control point 4");
+    CHECK(s.deformation.set_target_weight(fourth, 2));
+    CHECK(s.deformation.deform());
+    CHECK(s.deformation.set_target_weight(fourth, infinite));
+    check_refused(s, Status::dependent_target, "control point 4");
+    CHECK(s.deformation.erase_control_point(s.deformation.control_points().front()));
+    CHECK(s.deformation.deform());
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+  }
+  {
+    test_case() = "twice the same";
+    Subject<2, Solver> s(shape);
+    s.insert(place, {0.2, 0.3, 0.5}, infinite, shift);
+    s.insert(place, {0.2, 0.3 + 1e-9, 0.5 - 1e-9}, infinite, shift);
+    check_refused(s, Status::dependent_target, "control point 2");
+  }
+  {
+    test_case() = "all corners fixed";
+    Subject<2, Solver> s(shape);
+    for(std::size_t v : shape.simplices[place])
+      s.deformation.insert_control_vertex(v);
+    const Control_point p = s.insert(place, {0.2, 0.3, 0.5}, infinite, shift);
+    check_refused(s, Status::dependent_target, "control point 1");
+    // a soft one is a constant of the energy
+    CHECK(s.deformation.set_target_weight(p, 2));
+    CHECK(s.deformation.deform());
+    s.deformation.erase_control_vertex(shape.simplices[place][0]);
+    CHECK(s.deformation.set_target_weight(p, infinite));
+    CHECK(s.deformation.deform());
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+  }
+  {
+    test_case() = "nothing free";
+    Subject<2, Solver> s(shape);
+    for(std::size_t v = 0; v < s.points.size(); ++v)
+      s.deformation.insert_control_vertex(v);
+    const Control_point p = s.insert(place, {0.2, 0.3, 0.5}, infinite, shift);
+    check_refused(s, Status::dependent_target, "control point 1");
+    CHECK(s.deformation.set_target_weight(p, 2));
+    const Report report = s.deformation.deform();
+    CHECK(report);
+    CHECK_AT_MOST(std::abs(report.final_energy() - 2 * 0.01), 1e-12 + report.energy[0]);
+  }
+}
+
+void test_input()
+{
+  test_case() = "input";
+  Mesh mesh = make_mesh<Mesh>(shapes()[2]);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  const Mesh::Face_index f(7);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for(const std::vector<double>& b :
+      {std::vector<double>{0.2, 0.3, 0.4}, {0.5, 0.5}, {0.25, 0.25, 0.25, 0.25}, {nan, 0.5, 0.5},
+       {infinite, -infinite, 1}, {}})
+  {
+    const auto refused = d.insert_control_point(f, b);
+    CHECK(refused.status == Status::invalid_coordinates);
+    CHECK(!d.is_control_point(refused.point));
+  }
+  CHECK(d.insert_control_point(Mesh::Face_index(), {1, 0, 0}).status == Status::not_a_simplex);
+  CHECK(d.insert_control_point(Mesh::Face_index(100000), {1, 0, 0}).status ==
+        Status::not_a_simplex);
+  CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
+  CHECK(d.insert_control_point(f, {0.2, 0.3, 0.5}).status == Status::not_a_simplex);
+  CHECK(d.roi_vertices().empty() && d.control_points().empty());
+
+  // only corners that count enter the region of interest
+  const auto inserted = d.insert_control_point(Mesh::Face_index(9), {0, 0.4, 0.6});
+  CHECK(inserted);
+  CHECK(d.roi_vertices().size() == 2 && d.control_vertices().empty());
+  CHECK(!d.erase_control_point(Control_point()) && !d.erase_control_point(Control_point(9)));
+  CHECK(d.translate(inserted.point, Eigen::Vector3d(0.1, 0, 0)));
+  CHECK(d.rotate(inserted.point, Eigen::Vector3d(0, 0, 0), Eigen::Quaterniond(1, 0, 0, 0)));
+  CHECK(d.transform(d.control_points(), [](const Point& p) { return p; },
+                    CGAL::ARAP::Transformed::rest_shape));
+  CHECK(d.set_target_weight(inserted.point, -1).status == Status::invalid_weight);
+  CHECK(d.deform());
+  const double inf = infinite;
+  CHECK(d.set_target_position(inserted.point, Point(inf, 0, 0)));
+  const Report report = d.deform();
+  CHECK(report.status == Status::non_finite_point);
+  CHECK(report.message.find("the target of control point 1") != std::string::npos);
+  d.clear_control_vertices();
+  CHECK(d.control_points().empty());
+  CHECK(d.insert_control_point(Mesh::Face_index(9), {0.5, 0.25, 0.25}).point == Control_point(2));
+  d.clear_roi_vertices();
+  CHECK(d.control_points().empty() && d.roi_vertices().empty());
+}
+
+} // namespace refusals
+
+// Histories of changes against an object that has none.
+namespace histories {
+
+template <typename Solver, int Dimension>
+void test_random_changes(const Held_shape<Dimension>& shape, bool is_held)
+{
+  std::mt19937 generator(5);
+  const auto random = [&](std::size_t n) { return generator() % n; };
+  Subject<Dimension, Solver> s(shape, false);
+  auto& d = s.deformation;
+  for(std::size_t v = 0; v < s.points.size(); ++v)
+    d.insert_roi_vertex(v);
+  if(is_held)
+    for(std::size_t v : {std::size_t(0), s.points.size() / 2})
+      d.insert_control_vertex(v);
+  struct Held
+  {
+    std::size_t place;
+    std::vector<double> coordinates;
+    double weight;
+  };
+  std::map<Control_point, Held> held;
+  int number_of_factors = 0, number_of_regions = 0;
+  for(int step = 0; step < 20; ++step)
+  {
+    test_case() = shape.name + ", changes, step " + std::to_string(step);
+    for(int change = 0; change < 3; ++change)
+    {
+      const std::size_t kind = random(6);
+      if(kind == 0 && held.size() > 3)
+      {
+        const auto p = std::next(held.begin(), std::ptrdiff_t(random(held.size())));
+        CHECK(d.erase_control_point(p->first));
+        held.erase(p);
+      }
+      else if(kind == 1 && held.size() > 3)
+      {
+        auto& [p, h] = *std::next(held.begin(), std::ptrdiff_t(random(held.size())));
+        h.weight = random(2) ? infinite : 0.1 + double(random(5));
+        CHECK(d.set_target_weight(p, h.weight));
+      }
+      else if(kind == 2 && is_held)
+      {
+        const std::size_t v = 1 + random(s.points.size() - 1);
+        if(!d.insert_control_vertex(v))
+          d.erase_control_vertex(v);
+      }
+      else
+      {
+        const std::size_t place = random(shape.simplices.size());
+        const bool is_taken = std::any_of(held.begin(), held.end(), [&](const auto& h) {
+          return h.second.place == place;
+        });
+        const double weight = random(3) && !is_taken ? infinite : 0.7;
+        const std::vector<double> b = coordinates(shape.simplices[place].size(), random(3));
+        const Control_point p = s.insert(place, b, weight, {0.05, 0.02, -0.05});
+        held[p] = {place, b, weight};
+      }
+    }
+    // the state as a fresh object has it
+    Subject<Dimension, Solver> t(shape, false);
+    t.points = s.points;
+    auto fresh = [&] {
+      std::vector<Point> now = t.points;
+      t.points = points_of(shape.points);
+      auto object = typename Subject<Dimension, Solver>::Deformation(
+        Soup<Dimension>(t.points, t.shape.simplices));
+      for(std::size_t v = 0; v < t.points.size(); ++v)
+        object.insert_roi_vertex(v);
+      t.points = now;
+      return object;
+    }();
+    for(std::size_t v : d.control_vertices())
+      fresh.insert_control_vertex(v, d.target_position(v));
+    for(const auto& [p, h] : held)
+    {
+      const auto inserted = fresh.insert_control_point(h.place, h.coordinates);
+      CHECK(fresh.set_target_position(inserted.point, d.target_position(p)));
+      CHECK(fresh.set_target_weight(inserted.point, h.weight));
+    }
+    const std::vector<Point> before = s.points;
+    const auto state = d.state();
+    const Report a = d.deform(5, 0), b = fresh.deform(5, 0);
+    CHECK(a.status == b.status);
+    number_of_factors += a.stages.factor;
+    number_of_regions += a.stages.region;
+    if(!a) // by chance points depend on each other
+    {
+      CHECK(a.status == Status::dependent_target);
+      CHECK(d.erase_control_point(held.rbegin()->first));
+      held.erase(std::prev(held.end()));
+      continue;
+    }
+    CHECK_AT_MOST(largest_distance(s.points, t.points), 1e-9 * shape.diameter());
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+    CHECK(CGAL::ARAP::first_rise_of_energy(a) == 0);
+    // undo, and again
+    const std::vector<Point> after = s.points;
+    CHECK(d.restore(state));
+    CHECK(largest_distance(s.points, before) == 0);
+    CHECK(d.control_points().size() == held.size());
+    CHECK(d.deform(5, 0));
+    CHECK_AT_MOST(largest_distance(s.points, after), 1e-10 * shape.diameter());
+  }
+  CHECK(number_of_regions == 1);
+  if constexpr(std::is_same_v<Solver, CGAL::Default>)
+    CHECK_AT_MOST(number_of_factors, is_held ? 2.0 : 5.0);
+}
+
+// What changes of points cost.
+void test_stages()
+{
+  test_case() = "stages";
+  const Shape sheet = grid("sheet", 40, 40, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0.1 * std::sin(5 * u * v));
+  });
+  Held_shape<2> shape{"", sheet.points, {}, {}};
+  for(const auto& t : sheet.triangles)
+    shape.simplices.emplace_back(t.begin(), t.end());
+  Subject<2> s(shape, false);
+  auto& d = s.deformation;
+  for(std::size_t v = 0; v < s.points.size(); ++v)
+  {
+    d.insert_roi_vertex(v);
+    if(v <= 40)
+      d.insert_control_vertex(v);
+  }
+  Report report = d.deform(2, 0);
+  CHECK(report.stages.region && report.stages.factor && !report.stages.border);
+  const Control_point p = s.insert(1000, {0.2, 0.3, 0.5}, infinite, {0, 0, 0.1});
+  report = d.deform(2, 0);
+  CHECK(!report.stages.region && !report.stages.factor && report.stages.border);
+  d.translate(p, Eigen::Vector3d(0, 0, 0.1));
+  report = d.deform(2, 0);
+  CHECK(!report.stages.factor && !report.stages.border);
+  CHECK(d.erase_control_point(p));
+  report = d.deform(2, 0);
+  CHECK(!report.stages.region && !report.stages.factor && !report.stages.border);
+
+  // 500 soft points, and 500 others
+  const auto insert_soft = [&](std::size_t first) {
+    d.clear_control_points();
+    for(std::size_t k = 0; k < 500; ++k)
+      s.insert(200 + 6 * k + first, coordinates(3, k), 0.5, {0, 0, 0.1});
+  };
+  for(std::size_t round = 0; round < 3; ++round)
+  {
+    insert_soft(round);
+    report = d.deform(2, 0);
+    CHECK(report);
+    CHECK(!report.stages.region && !report.stages.weights && !report.stages.order &&
+          report.stages.factor);
+  }
+  // more hard ones than a border takes
+  d.clear_control_points();
+  for(std::size_t k = 0; k < 300; ++k)
+    s.insert(200 + 10 * k, coordinates(3, k), infinite, {0, 0, 0.01});
+  report = d.deform(10, 0);
+  CHECK(report);
+  CHECK(!report.stages.region && !report.stages.order && report.stages.border);
+  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  CHECK_AT_MOST(s.miss(), 1e-12);
+  for(std::size_t k = 0; k < 2800; ++k)
+    d.insert_control_point(200 + k, coordinates(3, k));
+  report = d.deform(2, 0);
+  CHECK(report.status == Status::too_many_control_points);
+  d.clear_control_points();
+  CHECK(d.deform(2, 0));
+}
+
+void test_reset()
+{
+  test_case() = "reset";
+  const Held_shape<2> shape = triangles();
+  Subject<2> s(shape);
+  auto& d = s.deformation;
+  for(std::size_t v : d.control_vertices())
+    d.erase_control_vertex(v);
+  const Control_point p = s.insert(shape.places(3)[1], {0.2, 0.3, 0.5}, infinite, {0, 0, 0.2});
+  CHECK(d.deform());
+  CHECK(largest_distance(s.points, shape.points) > 0.1);
+  d.overwrite_initial_geometry();
+  CHECK(d.is_control_point(p));
+  const Report still = d.deform();
+  CHECK_AT_MOST(still.final_energy(), still.rounding_level + 1e-25);
+  CHECK(d.translate(p, Eigen::Vector3d(0, 0, 0.2)));
+  CHECK(d.deform());
+  const std::vector<Point> moved = s.points;
+  d.reset();
+  CHECK(largest_distance(s.points, moved) > 0.1);
+  CHECK_AT_MOST((vector(d.target_position(p)) - vector(d.control_point_position(p))).norm(), 1e-15);
+  const std::vector<Point> rest = s.points;
+  CHECK(d.deform());
+  CHECK_AT_MOST(largest_distance(s.points, rest), 1e-12);
+}
+
+// Corners that leave the region of interest, or are fixed far from what is free, are fixed where
+// they are.
+void test_fixed_corners()
+{
+  test_case() = "fixed corners";
+  const Held_shape<2> shape = triangles();
+  for(double weight : {infinite, 2.0})
+  {
+    Subject<2> s(shape);
+    auto& d = s.deformation;
+    const std::size_t place = shape.places(3)[1];
+    const Control_point p = s.insert(place, {0.2, 0.3, 0.5}, weight, {0, 0, 0.1});
+    const std::size_t v = shape.simplices[place][2];
+    CHECK(d.erase_roi_vertex(v));
+    CHECK(d.deform());
+    CHECK(s.points[v] == point(shape.points[v]));
+    CHECK_AT_MOST(s.miss(), 1e-12);
+    const double gap = (vector(d.control_point_position(p)) - vector(d.target_position(p))).norm();
+    CHECK(weight == infinite ? gap < 1e-12 : gap > 1e-6 && gap < 0.2);
+    // all but its neighbourhood is fixed: another region
+    for(std::size_t w = 0; w < s.points.size(); ++w)
+      if(w != shape.simplices[place][0])
+        d.insert_control_vertex(w, s.points[w]);
+    CHECK(d.deform());
+    CHECK_AT_MOST(s.miss(), 1e-12);
+  }
+}
+
+} // namespace histories
+
+namespace sets {
+
+// The ends of a sheet are held, and points inside are pulled to a plane above it.
+struct Pulled_sheet
+{
+  explicit Pulled_sheet(double weight) : s(triangles())
+  {
+    for(std::size_t place : s.shape.places(6, 3))
+      points.push_back(s.insert(place, coordinates(3, 0), weight, {0, 0, 0}));
+  }
+
+  Subject<2> s;
+  std::vector<Control_point> points;
+  Kernel::Plane_3 plane = Kernel::Plane_3(Point(0, 0, 0.6), Kernel::Vector_3(0.2, 0.1, 1));
+};
+
+void test_plane()
+{
+  test_case() = "plane";
+  for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+  {
+    Pulled_sheet glides(1e6), holds(1e6);
+    double energies[2];
+    for(Pulled_sheet* sheet : {&glides, &holds})
+    {
+      auto& d = sheet->s.deformation;
+      CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), minimizer)));
+      for(Control_point p : sheet->points)
+        if(sheet == &glides)
+          CHECK(d.set_target_set(p, CGAL::ARAP::projection_onto(sheet->plane)));
+        else
+          CHECK(d.set_target_position(p, sheet->plane.projection(d.target_position(p))));
+      const Report report = d.deform(300, 0);
+      CHECK(report);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      energies[sheet == &holds] = report.final_energy();
+      for(Control_point p : sheet->points)
+        CHECK_AT_MOST(
+          std::sqrt(CGAL::squared_distance(d.control_point_position(p), sheet->plane)), 1e-4);
+    }
+    CHECK(energies[0] < 0.999 * energies[1]);
+  }
+}
+
+void test_line_at_vertex()
+{
+  test_case() = "line";
+  Subject<2> s(triangles());
+  const std::size_t v = 20;
+  const Kernel::Line_3 line(Point(0, 0, 0.5), Kernel::Vector_3(1, 0.3, 0));
+  s.deformation.insert_control_vertex(v);
+  CHECK(s.deformation.set_target_weight(v, 1e6));
+  CHECK(s.deformation.set_target_set(v, CGAL::ARAP::projection_onto(line)));
+  for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
+  {
+    CHECK(s.deformation.set_options(
+      options_for(Cell_scheme::spokes_and_rims(), Minimizer::quasi_newton, guess)));
+    const Report report = s.deformation.deform(200, 0);
+    CHECK(report);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(s.points[v], line)), 1e-4);
+    CHECK_AT_MOST((vector(s.deformation.target_position(v)) -
+                   vector(line.projection(s.points[v]))).norm(), 1e-12);
+  }
+  // moving the target makes it a point
+  CHECK(s.deformation.translate(v, Eigen::Vector3d(0, 0, 0.1)));
+  const Point target = s.deformation.target_position(v);
+  CHECK_AT_MOST(std::abs(target.z() - 0.6), 1e-12);
+  CHECK(s.deformation.set_target_weight(v, infinite));
+  CHECK(s.deformation.deform());
+  CHECK(s.points[v] == target);
+}
+
+void test_refusals()
+{
+  test_case() = "sets that are refused";
+  Pulled_sheet sheet(infinite);
+  auto& d = sheet.s.deformation;
+  const Control_point p = sheet.points[0];
+  const auto onto_plane = CGAL::ARAP::projection_onto(sheet.plane);
+  const CGAL::ARAP::Outcome refused = d.set_target_set(p, onto_plane);
+  CHECK(refused.status == Status::invalid_weight);
+  CHECK(refused.message.find("control point 1 ") == 0);
+  CHECK(d.set_target_weight(p, 1));
+  CHECK(d.set_target_set(p, onto_plane));
+  CHECK(d.set_target_weight(p, infinite).status == Status::invalid_weight);
+  CHECK(d.target_weight(p) == 1);
+  CHECK(d.deform());
+
+  // an exception rolls back, and what is not finite is a status
+  const std::vector<Point> before = sheet.s.points;
+  int calls = 0;
+  CHECK(d.set_target_set(p, [&calls](const Point& q) {
+    if(++calls == 5)
+      throw std::runtime_error("no such point");
+    return Point(q.x(), q.y(), 3);
+  }));
+  bool has_thrown = false;
+  try
+  {
+    [[maybe_unused]] const Report report = d.deform();
+  }
+  catch(const std::runtime_error&)
+  {
+    has_thrown = true;
+  }
+  CHECK(has_thrown && calls == 5);
+  CHECK(largest_distance(before, sheet.s.points) == 0);
+  CHECK(d.set_target_set(p, [](const Point& q) {
+    return Point(q.x(), q.y(), std::numeric_limits<double>::quiet_NaN());
+  }));
+  const Report report = d.deform();
+  CHECK(report.status == Status::non_finite_point);
+  CHECK(report.message.find("the target of control point 1") == 0);
+  CHECK(largest_distance(before, sheet.s.points) == 0);
+  CHECK(d.set_target_set(p, onto_plane));
+  CHECK(d.deform());
+}
+
+} // namespace sets
+
+namespace locations {
+
+template <typename Domain>
+Eigen::Vector3d place(const Domain& domain,
+                      const CGAL::ARAP::Location<typename Domain::simplex_descriptor>& location)
+{
+  Eigen::Vector3d sum(0, 0, 0);
+  std::size_t k = 0;
+  for(auto v : domain.simplex_vertices(location.simplex))
+  {
+    const CGAL::ARAP::Coordinates c = Domain::coordinates(domain.point(v));
+    sum += location.coordinates[k++] * Eigen::Vector3d(c[0], c[1], c[2]);
+  }
+  return sum;
+}
+
+template <int Dimension>
+void test(const Held_shape<Dimension>& shape)
+{
+  test_case() = shape.name + ", locate";
+  std::vector<Point> points = points_of(shape.points);
+  const Soup<Dimension> domain(points, shape.simplices);
+  const CGAL::ARAP::Locator<Soup<Dimension>> locator(domain);
+  for(std::size_t s = 0; s < shape.simplices.size(); s += 3)
+  {
+    const std::size_t corners = shape.simplices[s].size();
+    if(corners > 3 && Dimension == 2) // a quad that is not plane has no point of its own
+      continue;
+    const Eigen::Vector3d p = place(domain, {s, coordinates(corners, s), 0});
+    const auto found = locator.locate(point(p));
+    CHECK(found && found->simplex == s);
+    CHECK_AT_MOST((place(domain, *found) - p).norm(), 1e-14);
+    CHECK_AT_MOST(found->distance, 1e-14);
+  }
+  // from a point outside to the nearest one
+  const Point outside(-1, 0.3, 0.2);
+  const auto found = CGAL::ARAP::locate(domain, outside);
+  if(!CHECK(found))
+    return;
+  CHECK(found->coordinates.size() == shape.simplices[found->simplex].size());
+  const double distance = (place(domain, *found) - vector(outside)).norm();
+  if(Dimension == 2)
+  {
+    CHECK_AT_MOST(std::abs(distance - found->distance), 1e-13);
+    for(const auto& p : shape.points)
+      CHECK(found->distance <= (p - vector(outside)).norm() + 1e-13);
+    for(double c : found->coordinates)
+      CHECK(c >= 0);
+  }
+  else
+    CHECK_AT_MOST(distance, 1e-13);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(!CGAL::ARAP::locate(domain, Point(nan, 0, 0)));
+}
+
+void test_function()
+{
+  test_case() = "arap_deform";
+  Mesh mesh = make_mesh<Mesh>(shapes()[2]);
+  const auto found = CGAL::ARAP::locate(mesh, Point(0.1, 0.2, 2));
+  if(!CHECK(found))
+    return;
+  const std::vector<std::tuple<Mesh::Face_index, std::vector<double>, Point>> held = {
+    {found->simplex, found->coordinates, Point(0.1, 0.2, 1.5)}};
+  const std::map<Mesh::Vertex_index, Point> targets = {{Mesh::Vertex_index(5), Point(0, 0, -1)}};
+  CHECK(CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(held)));
+  const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
+  CHECK_AT_MOST((place(domain, *found) - Eigen::Vector3d(0.1, 0.2, 1.5)).norm(), 1e-12);
+  const std::vector<std::tuple<Mesh::Face_index, std::array<double, 3>, Point>> wrong = {
+    {found->simplex, {1, 1, 1}, Point(0, 0, 0)}};
+  CHECK(CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(wrong)).status ==
+        Status::invalid_coordinates);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  CHECK(d.insert_control_point(*found));
+}
+
+} // namespace locations
+
+template <int Dimension>
+void test_all(const Held_shape<Dimension>& shape)
+{
+  iterates::compare_all(shape);
+  solvers::test_all(shape);
+  limits::test_all(shape);
+  for(bool is_held : {true, false})
+  {
+    histories::test_random_changes<CGAL::Default>(shape, is_held);
+    histories::test_random_changes<CGAL::ARAP::Eigen_LDLT_solver>(shape, is_held);
+  }
+  locations::test(shape);
+}
+
+int main()
+{
+  test_all(triangles());
+  test_all(quads());
+  test_all(tetrahedra());
+  refusals::test_dependent<CGAL::Default>();
+  refusals::test_dependent<CGAL::ARAP::Eigen_LDLT_solver>();
+  refusals::test_input();
+  histories::test_stages();
+  histories::test_reset();
+  histories::test_fixed_corners();
+  sets::test_plane();
+  sets::test_line_at_vertex();
+  sets::test_refusals();
+  locations::test_function();
+  return checks_result();
+}
