@@ -612,7 +612,8 @@ void test_all()
 
 } // namespace identities
 
-// The rotations of the handles, interpolated: against a dense computation, and where they are taken.
+// The rotations of the handles, interpolated: against a dense computation, and where they are
+// taken.
 namespace initial_guess {
 
 using CGAL::ARAP::Initial_guess;

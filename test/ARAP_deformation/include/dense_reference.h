@@ -138,8 +138,8 @@ public:
     });
   }
 
-  // The positions of the free vertices with which forms are nearest to what is expected of them; at a
-  // start only the way from x to where hard rows are met.
+  // The positions of the free vertices with which forms are nearest to what is expected of them; at
+  // a start only the way from x to where hard rows are met.
   template <typename Expected>
   void solve(std::vector<Eigen::Vector3d>& x, const Expected& expected, bool is_start = false) const
   {

@@ -110,8 +110,8 @@ public:
   void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
-  // rotations but for those that frames give. Targets that are sets become the projections of the final positions. Keeps only the
-  // factorization for the initial guess.
+  // rotations but for those that frames give. Targets that are sets become the projections of the
+  // final positions. Keeps only the factorization for the initial guess.
   Diagnosis run(const Options& options, const Observer& observe, Targets& targets,
                 std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
 

@@ -72,9 +72,8 @@ inline bool is_torn(const Region& region, const Constraints& constraints, double
   const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
   const auto is_far = [&](const Coordinates& d) { return dot(d, d) > 0.01 * size; };
   for(int r = 0; r < constraints.rows.size(); ++r)
-    if(const int v = constraints.rows.position(r);
-       v >= 0 && is_free(v) &&
-       is_far(difference(targets.soft[static_cast<std::size_t>(r)], x[static_cast<std::size_t>(v)])))
+    if(is_far(difference(targets.soft[static_cast<std::size_t>(r)],
+                         constraints.rows.value(r, x.data()))))
       return true;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
