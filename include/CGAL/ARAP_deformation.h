@@ -139,7 +139,7 @@ public:
   ///
   /// The named parameters are `vertex_point_map`, `vertex_index_map`, `weight_calculator` and
   /// `sparse_linear_solver`, as in `arap_deform()`, and those of \ref PkgARAPDeformationParameters
-  /// but the weight of targets.
+  /// but the weight of targets and control points.
   /// \pre The options are valid, see `ARAP::Options::check()`.
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
   ARAP_deformation(Mesh_& mesh, const CGAL_NP_CLASS& np)
