@@ -139,11 +139,18 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
+<<<<<<< HEAD
   /// The named parameters are those of `arap_deform()`, but for the visitor and the weight of
   /// targets, which do not compile: see `deform()` and `set_target_weight()`. The region of
   /// interest is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
   /// `deform()` refuse them.
+=======
+  /// The named parameters are `vertex_point_map`, `vertex_index_map`, `weight_calculator` and
+  /// `sparse_linear_solver`, as in `arap_deform()`, and those of \ref PkgARAPDeformationParameters
+  /// but the weight of targets and control points.
+  /// \pre The options are valid, see `ARAP::Options::check()`.
+>>>>>>> w_rows
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
   ARAP_deformation(Mesh_& mesh, const CGAL_NP_CLASS& np)
     : m_session(ARAP::internal::domain_from_parameters(mesh, np),

@@ -34,13 +34,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -581,19 +583,12 @@ void test_random_changes(const Held_shape<Dimension>& shape, bool is_held)
         held[p] = {place, b, weight};
       }
     }
-    // the state as a fresh object has it
+    // a fresh object in the same state; its rest shape is what it finds first
     Subject<Dimension, Solver> t(shape, false);
+    auto& fresh = t.deformation;
+    for(std::size_t v = 0; v < t.points.size(); ++v)
+      fresh.insert_roi_vertex(v);
     t.points = s.points;
-    auto fresh = [&] {
-      std::vector<Point> now = t.points;
-      t.points = points_of(shape.points);
-      auto object = typename Subject<Dimension, Solver>::Deformation(
-        Soup<Dimension>(t.points, t.shape.simplices));
-      for(std::size_t v = 0; v < t.points.size(); ++v)
-        object.insert_roi_vertex(v);
-      t.points = now;
-      return object;
-    }();
     for(std::size_t v : d.control_vertices())
       fresh.insert_control_vertex(v, d.target_position(v));
     for(const auto& [p, h] : held)

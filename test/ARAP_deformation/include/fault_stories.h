@@ -27,6 +27,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -110,6 +111,11 @@ struct Session
     append_sets_and_targets(state.others, d, deformed.vertices());
     for(const auto v : d.control_vertices())
       state.others.push_back(d.target_weight(v));
+    for(const auto p : d.control_points())
+    {
+      append_point(state.others, d.target_position(p));
+      state.others.push_back(d.target_weight(p));
+    }
     const CGAL::ARAP::Options& options = d.options();
     state.others.insert(state.others.end(), {d.energy(), double(options.iterations),
                                              double(options.cells == Cell_scheme::spokes()),
@@ -191,6 +197,27 @@ struct Steps
     }, false};
   }
 
+  // in the first simplex at the first free vertex
+  static Step_ insert_control_point()
+  {
+    return {"insert a control point", [](Session& s) {
+      std::size_t k = 0;
+      while(s.deformed.fixed.selection[k] != 1)
+        ++k;
+      const auto domain = s.deformed.domain();
+      std::optional<typename Session::Deformation::simplex_descriptor> first;
+      std::vector<double> coordinates;
+      domain.for_each_incident_simplex(
+        s.deformed.vertices()[k], [&](const auto& simplex, const auto& corners) {
+          first = simplex;
+          const auto n = std::distance(std::begin(corners), std::end(corners));
+          coordinates.assign(std::size_t(n), 1 / double(n));
+        });
+      const auto inserted = s.deformation->insert_control_point(*first, coordinates);
+      return inserted && s.deformation->translate(inserted.point, Eigen::Vector3d(0, 0, 0.1));
+    }, false};
+  }
+
   static Step_ overwrite()
   {
     return {"overwrite the rest shape", [](Session& s) {
@@ -226,7 +253,8 @@ void test_stories(Fault_test<Session> test, const std::string& name, Cell_scheme
   test(name, make,
        {S::construct(), S::insert(), start, S::deform(), S::change_control_vertices(),
         S::deform(" with other control vertices"), S::set_weights(2, 3),
-        S::deform(" with soft targets"), S::overwrite(), S::deform(" again"), S::reset(),
+        S::deform(" with soft targets"), S::insert_control_point(),
+        S::deform(" with a control point"), S::overwrite(), S::deform(" again"), S::reset(),
         S::deform(" after a reset")}, 4);
 }
 

@@ -49,7 +49,8 @@ struct Deformation_core::State
   Deformation_energy energy;
   Constrained_system system;
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
-  Rigid_start rigid_start;
+  Array<int> parts; // for each movable vertex: see Rigid_start
+  std::optional<Rigid_start> rigid_start;
 };
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -99,7 +100,7 @@ Diagnosis Deformation_core::prepare()
     m_state->stars.reset();
   }
   else
-    m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {},
+    m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {}, {},
                             {}});
   m_state->system.set_laplacian(std::move(laplacian));
   m_weights_version = version;
@@ -128,15 +129,17 @@ CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::constrain(Constraints constraints,
                                       Unconstrained_components unconstrained, Stages& stages)
 {
-  const std::vector<int> components =
-    find_unconstrained_components(m_state->system.laplacian(), constraints);
-  std::map<int, std::size_t> smallest_index; // of each component
+  const int n = m_region.number_of_movable_vertices;
+  const Free_components components =
+    find_free_components(m_state->system.laplacian(), constraints);
+  std::map<int, std::size_t> smallest_index; // of each unconstrained component
   bool are_there_others = false;
-  for(std::size_t v = 0; v < components.size(); ++v)
-    if(components[v] >= 0)
+  for(int v = 0; v < n; ++v)
+    if(components.is_unconstrained(v))
     {
       const std::size_t index = m_region.indices[v];
-      std::size_t& smallest = smallest_index.emplace(components[v], index).first->second;
+      std::size_t& smallest =
+        smallest_index.emplace(components.component[v], index).first->second;
       smallest = (std::min)(smallest, index);
     }
     else
@@ -145,8 +148,8 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
      (unconstrained == Unconstrained_components::refused ||
       (unconstrained == Unconstrained_components::fixed_beside_others && !are_there_others)))
     return {Status::no_fixed_vertex, smallest_index.begin()->first};
-  for(std::size_t v = 0; v < components.size(); ++v)
-    constraints.is_fixed[v] |= components[v] >= 0;
+  for(int v = 0; v < n; ++v)
+    constraints.is_fixed[v] |= components.is_unconstrained(v);
 
   if(constraints.hard_rows.size() > Hard_rows::most_rows)
     return {Status::too_many_control_points};
@@ -161,11 +164,11 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   stages.border |= work.border;
   if(!is_ready)
     return {Status::singular_matrix};
-  Array<char> is_untied = m_is_isolated;
-  for(std::size_t v = 0; v < components.size(); ++v)
-    is_untied[v] |= components[v] >= 0;
-  if(m_order == Minimization_order::local_first)
-    m_state->rigid_start = Rigid_start(m_region, constraints, is_untied);
+  m_state->parts = components.component;
+  for(int v = 0; v < n; ++v)
+    if(constraints.is_fixed[v])
+      m_state->parts[v] = components.is_unconstrained(v) || m_is_isolated[v] ? -2 : -1;
+  m_state->rigid_start.reset();
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
   m_constraints = std::move(constraints);
@@ -263,8 +266,12 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     Scoped_seconds seconds(report.seconds.initial_guess);
     targets.project(m_constraints.rows, x);
     if(m_order == Minimization_order::local_first)
-      is_placed =
-        m_state->rigid_start(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
+    {
+      if(!m_state->rigid_start)
+        m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
+      is_placed = (*m_state->rigid_start)(m_region, m_squared_size, m_constraints, targets,
+                                          is_laplacian, x);
+    }
   }
   const bool are_all_placed =
     std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),

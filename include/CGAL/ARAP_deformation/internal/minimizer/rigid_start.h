@@ -136,87 +136,56 @@ inline std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinate
 
 // Starts a run at its minimum where that is known to be zero: where all that constrains a part of
 // the free vertices is a rigid copy of the rest shape, the whole part can be one. Any minimizer
-// would need many iterations. Vertices that share cells or rows are in one part.
+// would need many iterations.
 class Rigid_start
 {
 public:
-  Rigid_start() = default;
-
-  // `is_ignored` tells which fixed vertices nothing ties to the free ones.
-  Rigid_start(const Region& region, const Constraints& constraints, const Array<char>& is_ignored)
+  // For each movable vertex `parts` has a vertex of its part, which all that are tied together
+  // share; -1 if it is fixed, and -2 if nothing ties it to free vertices.
+  Rigid_start(const Region& region, const Constraints& constraints, const Array<int>& parts)
+    : m_part(parts)
   {
     const int n = region.number_of_movable_vertices;
-    const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
-    const auto is_constraint = [&](int v) { return v >= n || (!is_free(v) && !is_ignored[v]); };
-    Sets sets(static_cast<std::size_t>(n)); // of vertices in one part
-    // unites those of a range that are free, and returns one of them, or -1
-    const auto unite_range = [&](auto begin, auto end) {
+    int count = 0;
+    Array<int> number(n, -1);
+    for(int v = 0; v < n; ++v)
+      if(m_part[v] >= 0)
+      {
+        int& part = number[m_part[v]];
+        part = part < 0 ? count++ : part;
+        m_part[v] = part;
+      }
+    const auto is_free = [&](int v) { return v < n && m_part[v] >= 0; };
+    const auto is_constraint = [&](int v) { return v >= n || m_part[v] == -1; };
+    Pairs free, fixed, rows; // each with its part
+    const auto add_fixed = [&](auto begin, auto end) { // returns a part, or -1
       const auto first = std::find_if(begin, end, is_free);
-      for(auto v = first; v != end; ++v)
-        if(is_free(*v))
-          sets.union_set(*first, *v);
-      return first == end ? -1 : *first;
+      if(first == end)
+        return -1;
+      for(auto v = begin; v != end; ++v)
+        if(is_constraint(*v))
+          fixed.emplace_back(m_part[*first], *v);
+      return m_part[*first];
     };
-    // All that is in simplices at a vertex, free or not, may share a cell.
-    Array<int> around(region.number_of_vertices(), -1); // a free vertex in a simplex there
     for(int s = 0; s < region.number_of_simplices(); ++s)
-    {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
-      if(const int free = unite_range(begin, end); free >= 0)
-        for(const int* v = begin; v != end; ++v)
-        {
-          if(around[*v] >= 0)
-            sets.union_set(around[*v], free);
-          around[*v] = free;
-        }
-    }
-    Pairs free, fixed, rows; // each with a free vertex of its part
-    std::vector<int> other_rows;
+      add_fixed(region.corners_of(s), region.corners_of(s) + region.number_of_corners(s));
+    m_can_be_rigid = Array<char>(count, true);
     int r = 0;
     constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
-      if(const int v = weight == 0 ? -1 : unite_range(begin, end); v >= 0)
+      if(const int part = weight == 0 ? -1 : add_fixed(begin, end); part >= 0)
       {
-        rows.emplace_back(v, r);
-        for(auto w = begin; w != end; ++w)
-          if(is_constraint(*w))
-            fixed.emplace_back(v, *w);
+        rows.emplace_back(part, r);
         if(!(std::abs(sum - 1) <= 1e-12))
-          other_rows.push_back(v);
+          m_can_be_rigid[part] = false; // it is not invariant under translations
       }
       ++r;
     });
-    for(int s = 0; s < region.number_of_simplices(); ++s)
-    {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
-      if(std::any_of(begin, end, is_constraint))
-        for(int last = -1, k = 0; k < region.number_of_corners(s); ++k)
-          if(const int v = around[begin[k]]; v >= 0 && static_cast<int>(sets.find_set(v)) != last)
-          {
-            last = static_cast<int>(sets.find_set(v));
-            for(const int* w = begin; w != end; ++w)
-              if(is_constraint(*w))
-                fixed.emplace_back(v, *w);
-          }
-    }
-
-    m_part = Array<int>(n, -1);
-    int count = 0;
     for(int v = 0; v < n; ++v)
-      if(is_free(v))
-      {
-        int& part = m_part[sets.find_set(v)]; // of the one that stands for its set
-        part = part < 0 ? count++ : part;
-        m_part[v] = part;
-        free.emplace_back(v, v);
-      }
+      if(m_part[v] >= 0)
+        free.emplace_back(m_part[v], v);
     m_free = lists(count, std::move(free));
     m_fixed = lists(count, std::move(fixed));
     m_rows = lists(count, std::move(rows));
-    m_can_be_rigid = Array<char>(count, true);
-    for(int v : other_rows)
-      m_can_be_rigid[m_part[v]] = false; // it is not invariant under translations
   }
 
   // Moves the parts of x that can be rigid there, and returns for each movable vertex whether it is
@@ -280,11 +249,9 @@ private:
     bool is_twisted = false;
   };
 
-  // for each part the second numbers of pairs that have one of its vertices
-  Index_lists lists(int count, Pairs pairs) const
+  // for each part the second numbers of its pairs
+  static Index_lists lists(int count, Pairs pairs)
   {
-    for(auto& pair : pairs)
-      pair.first = m_part[pair.first];
     if(!std::is_sorted(pairs.begin(), pairs.end()))
       std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

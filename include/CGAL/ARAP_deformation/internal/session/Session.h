@@ -356,7 +356,7 @@ public:
     move_to(&Entry::present, points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
-        replace_target(*m_vertices.find_target(entry.vertex), std::move(targets[k]));
+        replace_target(m_vertices.whole_target(entry), std::move(targets[k]));
     std::size_t number = 0;
     for(auto& held : m_vertices.points())
       replace_target(held.second.target, std::move(held_targets[number++]));

@@ -86,6 +86,7 @@ public:
   };
 
   // the target of a control vertex
+  Target& whole_target(const Entry& entry) { return m_targets[entry.target]; }
   Point& target(const Entry& entry) { return m_targets[entry.target].point; }
   const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
 

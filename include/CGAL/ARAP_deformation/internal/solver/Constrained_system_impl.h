@@ -54,9 +54,13 @@ int Constrained_system::find_singular_vertex(const Constraints& constraints) con
   Array<double> diagonal(n);
   for(int v = 0; v < n; ++v)
     diagonal[v] = diagonal_entry(m_laplacian.matrix, v);
-  without_hard_rows(constraints).rows.for_each_entry([&](int i, int j, double entry) {
+  const auto add = [&](int i, int j, double entry) {
     if(i == j) diagonal[i] += entry;
-  });
+  };
+  if(constraints.hard_rows.size() == 0)
+    constraints.rows.for_each_entry(add);
+  else
+    without_hard_rows(constraints).rows.for_each_entry(add);
   for(int v = 0; v < n; ++v)
     if(!constraints.is_fixed[v] && (!(diagonal[v] > 0) || !std::isfinite(diagonal[v])))
       return v;
@@ -69,8 +73,6 @@ CGAL_ARAP_INLINE_FUNCTION
 Constraints Constrained_system::without_hard_rows(const Constraints& constraints) const
 {
   Constraints result = {constraints.is_fixed, constraints.rows, {}};
-  if(constraints.hard_rows.size() == 0)
-    return result;
   const Array<int> components = find_unconstrained_components(m_laplacian, result);
   for(int r = 0; r < constraints.hard_rows.size(); ++r)
   {
@@ -97,19 +99,20 @@ bool Constrained_system::prepare(const Constraints& constraints, Work& work)
   m_hard_rows = Hard_rows(constraints);
   if(constraints.number_of_free_vertices() == 0)
     return true;
-  const Constraints of_matrix = without_hard_rows(constraints);
+  const bool has_hard_rows = !m_hard_rows.is_empty();
+  const Constraints copy = has_hard_rows ? without_hard_rows(constraints) : Constraints();
+  const Constraints& of_matrix = has_hard_rows ? copy : constraints;
   if(!m_has_factor || !border_or_eliminate(of_matrix))
   {
     if(!factorize(of_matrix, work))
       return false;
-    if(!m_hard_rows.is_empty() && !border_or_eliminate(of_matrix))
+    if(has_hard_rows && !border_or_eliminate(of_matrix))
     {
       release_factor();
       return false;
     }
   }
-  work.border =
-    !m_further_unknowns.empty() || !m_multipliers.empty() || !m_hard_rows.is_empty();
+  work.border = !m_further_unknowns.empty() || !m_multipliers.empty() || has_hard_rows;
   return true;
 }
 
@@ -185,7 +188,9 @@ bool Constrained_system::set_border(const Constraints& constraints, bool are_har
 
   Array<Eigen::Triplet<double, int>> entries;
   Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(size, size);
-  Array<int> column(n, -1);
+  Array<int> column; // of each vertex that is a further unknown, -1 of any other
+  if(number_of_unknowns > 0)
+    column = Array<int>(n, -1);
   for(int k = 0; k < number_of_unknowns; ++k)
     column[further_unknowns[k]] = k;
   if(number_of_unknowns > 0)
@@ -211,7 +216,7 @@ bool Constrained_system::set_border(const Constraints& constraints, bool are_har
     entries.emplace_back(multipliers[k], number_of_unknowns + static_cast<int>(k), 1);
   for(int r = 0; r < size - first_row; ++r)
     for(Sparse_matrix::InnerIterator entry(m_hard_rows.columns(), r); entry; ++entry)
-      if(const int k = column[entry.row()]; k >= 0)
+      if(const int k = column.empty() ? -1 : column[entry.row()]; k >= 0)
         corner(first_row + r, k) = corner(k, first_row + r) = entry.value();
       else
         entries.emplace_back(entry.row(), first_row + r, entry.value());

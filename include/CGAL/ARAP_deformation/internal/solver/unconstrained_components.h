@@ -25,45 +25,58 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// For each movable vertex -1 if it is fixed, or if a chain of edges of non-zero weight ties it, by
-// way of other free vertices, to a vertex that is fixed or has a target. If not, its
-// component could be anywhere, and the system is singular: then it is the smallest vertex of that
-// component.
-inline Array<int> find_unconstrained_components(const Laplacian& laplacian,
-                                                const Constraints& constraints)
+// The free vertices that edges of non-zero weight and rows tie together.
+struct Free_components
 {
-  // union-find, with one more element for all that is fixed; the smallest vertex of each set is its
-  // root, but for that one
-  const int n = laplacian.size(), fixed = n;
-  Array<int> parent(n + 1);
+  Array<int> component; // for each movable vertex the smallest one of its component, -1 if it is fixed
+  Array<char> is_tied;  // for these: whether the component is tied to a fixed vertex or a target
+
+  // What is not tied could be anywhere, and the system is singular.
+  bool is_unconstrained(int v) const { return component[v] >= 0 && !is_tied[component[v]]; }
+};
+
+inline Free_components find_free_components(const Laplacian& laplacian,
+                                            const Constraints& constraints)
+{
+  // union-find, in which the smallest vertex of each set is its root
+  const int n = laplacian.size();
+  Free_components result{Array<int>(n), laplacian.is_tied};
+  Array<int>& parent = result.component;
+  Array<char>& is_tied = result.is_tied;
   std::iota(parent.begin(), parent.end(), 0);
+  const auto& is_fixed = constraints.is_fixed;
   const auto find = [&parent](int v) {
     while(parent[v] != v)
       v = parent[v] = parent[parent[v]];
     return v;
   };
   const auto tie = [&](int i, int j) {
-    const int a = find(i), b = find(j);
-    const int root = (std::max)(a, b) == fixed ? fixed : (std::min)(a, b);
-    parent[a] = parent[b] = root;
+    if(!is_fixed[i] && !is_fixed[j])
+    {
+      const int a = find(i), b = find(j);
+      parent[a] = parent[b] = (std::min)(a, b);
+    }
+    is_tied[i] |= is_fixed[j];
+    is_tied[j] |= is_fixed[i];
   };
-  for(int v = 0; v < n; ++v)
-    if(constraints.is_fixed[v] || laplacian.is_tied[v])
-      parent[v] = fixed;
   for(int v = 0; v < n; ++v)
     for(Sparse_matrix::InnerIterator entry(laplacian.matrix, v); entry; ++entry)
       if(entry.value() != 0 && entry.row() != v)
         tie(static_cast<int>(entry.row()), v);
-  for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
-    rows->for_each_row([&](auto begin, auto end, double sum, double weight) {
-      for(auto v = begin; v != end && weight != 0; ++v)
-        tie(*v, sum != 0 ? fixed : *begin); // a row that adds up to zero only ties its vertices
-    });
+  constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
+    for(auto v = begin; v != end && weight != 0; ++v)
+    {
+      tie(*begin, *v);
+      is_tied[*v] |= sum != 0; // a row that adds up to zero only ties its vertices
+    }
+  });
   for(int v = 0; v < n; ++v)
-    parent[v] = find(v);
-  parent.pop_back();
-  std::replace(parent.begin(), parent.end(), fixed, -1);
-  return parent;
+  {
+    parent[v] = is_fixed[v] ? -1 : find(v);
+    if(!is_fixed[v])
+      is_tied[parent[v]] |= is_tied[v];
+  }
+  return result;
 }
 
 } // namespace internal
