@@ -139,18 +139,11 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
-<<<<<<< HEAD
-  /// The named parameters are those of `arap_deform()`, but for the visitor and the weight of
-  /// targets, which do not compile: see `deform()` and `set_target_weight()`. The region of
-  /// interest is empty by default; vertices that are constrained become control vertices.
+  /// The named parameters are those of `arap_deform()`, but for the visitor, which `deform()` takes,
+  /// and what is about targets; `visitor` and `target_weight` do not compile. The region of interest
+  /// is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
   /// `deform()` refuse them.
-=======
-  /// The named parameters are `vertex_point_map`, `vertex_index_map`, `weight_calculator` and
-  /// `sparse_linear_solver`, as in `arap_deform()`, and those of \ref PkgARAPDeformationParameters
-  /// but the weight of targets and control points.
-  /// \pre The options are valid, see `ARAP::Options::check()`.
->>>>>>> w_rows
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
   ARAP_deformation(Mesh_& mesh, const CGAL_NP_CLASS& np)
     : m_session(ARAP::internal::domain_from_parameters(mesh, np),
@@ -167,6 +160,10 @@ public:
     if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
       insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
     ARAP::internal::insert_constrained_vertices(*this, np);
+    if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::cell_stiffness_t>)
+      set_stiffness(parameters::get_parameter(np, internal_np::cell_stiffness));
+    if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::cell_groups_t>)
+      set_groups(parameters::get_parameter(np, internal_np::cell_groups));
   }
 
   /// moves. A moved-from object can only be assigned to or destroyed.

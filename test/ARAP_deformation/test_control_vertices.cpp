@@ -24,7 +24,7 @@
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
-#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
+#include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -1148,9 +1148,10 @@ void test_all()
   Constraints loose;
   loose.is_fixed.assign(n, false);
   loose.rows.append({3, 57}, {1, -1}, 1);
-  CHECK(find_unconstrained_components(laplacian, loose)[5] == 0);
+  CHECK(find_free_components(laplacian, loose).component[5] == 0);
+  CHECK(find_free_components(laplacian, loose).is_unconstrained(5));
   loose.rows.append({12, 13, 22}, {0.2, 0.3, 0.5}, 1);
-  CHECK(find_unconstrained_components(laplacian, loose)[5] == -1);
+  CHECK(!find_free_components(laplacian, loose).is_unconstrained(5));
 
   // the energy of rows and its forces, against differences of the energy
   std::vector<Coordinates> x(n), force(n, Coordinates{0, 0, 0}), ignored = force;

@@ -291,8 +291,8 @@ void test_deformed()
     {
       const Shape shape = sheet(n);
       const std::size_t m = n + 1, last = m * m - 1;
-      Surface s(shape.points, shape.triangles, {0, m - 1, last - n + 1, last, m * m / 2 + 1}, weight,
-                minimizer);
+      Surface s(shape.points, shape.triangles,
+                {0, m - 1, last - n + 1, last, m * m / 2 + 1}, weight, minimizer);
       go(s, "deformed " + shape.name + ", weight " + std::to_string(weight));
     }
     const Block shape = block(8, 5, 4);

@@ -33,7 +33,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
-#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
+#include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
 #include <map>

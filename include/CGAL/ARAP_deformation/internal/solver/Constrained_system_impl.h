@@ -17,7 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
-#include <CGAL/ARAP_deformation/internal/solver/unconstrained_components.h>
+#include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -73,7 +73,9 @@ CGAL_ARAP_INLINE_FUNCTION
 Constraints Constrained_system::without_hard_rows(const Constraints& constraints) const
 {
   Constraints result = {constraints.is_fixed, constraints.rows, {}};
-  const Array<int> components = find_unconstrained_components(m_laplacian, result);
+  if(constraints.hard_rows.size() == 0)
+    return result;
+  const Free_components components = find_free_components(m_laplacian, result);
   for(int r = 0; r < constraints.hard_rows.size(); ++r)
   {
     Array<int> vertices;
@@ -83,7 +85,7 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
     constraints.hard_rows.for_each_coefficient(r, [&](int v, double b) {
       vertices.push_back(v);
       coefficients.push_back(b);
-      is_needed |= components[v] >= 0;
+      is_needed |= components.is_unconstrained(v);
       weight += std::abs(b) * diagonal_entry(m_laplacian.matrix, v);
     });
     if(is_needed)
