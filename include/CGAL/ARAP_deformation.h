@@ -139,9 +139,9 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
-  /// The named parameters are those of `arap_deform()`, but for the visitor, which `deform()` takes,
-  /// and what is about targets; `visitor` and `target_weight` do not compile. The region of interest
-  /// is empty by default; vertices that are constrained become control vertices.
+  /// The named parameters are those of `arap_deform()`, but for what is about targets, and for the
+  /// visitor, which `deform()` takes: `visitor` and `target_weight` do not compile. The region of
+  /// interest is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
   /// `deform()` refuse them.
   template <typename Mesh_, typename CGAL_NP_TEMPLATE_PARAMETERS>
