@@ -580,7 +580,8 @@ public:
   /// A map is a function object, a property map, an associative container, or a vector by indices.
   /// It is copied, and asked when the region is prepared: call the function again after a change of
   /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
-  /// simplices; maps with the other keys have no effect. @{
+  /// simplices; maps with the other keys have no effect.
+  /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, the weights \f$w_i\f$ of Equation (3) of the
   /// paper; where the map has no value it is 1. Costs one numeric factorization.

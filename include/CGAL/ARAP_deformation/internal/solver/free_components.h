@@ -28,7 +28,7 @@ namespace internal {
 // The free vertices that edges of non-zero weight and rows tie together.
 struct Free_components
 {
-  Array<int> component; // for each movable vertex the smallest one of its component, -1 if it is fixed
+  Array<int> component; // for each movable vertex the smallest of its component, -1 if fixed
   Array<char> is_tied;  // for these: whether the component is tied to a fixed vertex or a target
 
   // What is not tied could be anywhere, and the system is singular.
