@@ -17,6 +17,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/number_type_config.h>
 
 #include <algorithm>
 #include <array>
@@ -25,8 +26,9 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <random>
+#include <optional>
 #include <ostream>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -57,6 +59,7 @@ struct View
   Vector up{0, 0, 1};        // also the normal of the ground
   int width = 480;           // of one panel, in pixels
   int height = 640;
+  std::optional<CGAL::Bbox_3> box = {}; // what each panel shows; by default its own points
   bool show_edges = false;   // draw the edges of the triangles as thin lines
   bool show_ground = true;   // let the shapes cast a shadow on the ground under them
 };
@@ -88,6 +91,27 @@ inline View default_view(const Points& points)
   view.up = Vector(upwards[0], upwards[1], upwards[2]);
   if(!is_long)
     view.width = view.height;
+  return view;
+}
+
+// A view from elsewhere: from a direction, or from an azimuth and an elevation in degrees; the
+// azimuth is that of a right-handed system whose last axis is upwards, so from x to y if that is z.
+inline View turned(View view, const std::vector<double>& from)
+{
+  const int up = view.up.x() != 0 ? 0 : view.up.y() != 0 ? 1 : 2;
+  std::array<double, 3> direction;
+  if(from.size() == 2)
+  {
+    const double azimuth = from[0] * CGAL_PI / 180, elevation = from[1] * CGAL_PI / 180;
+    direction[(up + 1) % 3] = std::cos(azimuth) * std::cos(elevation);
+    direction[(up + 2) % 3] = std::sin(azimuth) * std::cos(elevation);
+    direction[up] = std::sin(elevation);
+  }
+  else
+    std::copy(from.begin(), from.end(), direction.begin());
+  view.from = Vector(direction[0], direction[1], direction[2]);
+  if(CGAL::cross_product(view.up, view.from) == Vector(0, 0, 0)) // along the old one
+    view.up = Vector(up == 2, up == 0, up == 1);
   return view;
 }
 
@@ -237,12 +261,12 @@ struct Temporary_folder
   }
 };
 
-// Runs POV-Ray in the folder, where its files and messages go, and returns its exit code. No name
+// Runs a program in the folder, where its files and messages go, and returns its exit code. No name
 // chosen by a user reaches the shell, and the name of the folder is quoted.
-inline int run_povray(const Temporary_folder& folder, const std::string& options)
+inline int run_program(const Temporary_folder& folder, const std::string& call)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
-  return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
+  return std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
 }
 
 // The messages of POV-Ray after its last headline, which tell why it stopped.
@@ -277,6 +301,13 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
     for(const auto& [x, y, z] : panels[k].points) {
       seen[k].push_back(eye(Vector(x, y, z)));
       boxes[k] += (CGAL::ORIGIN + seen[k].back()).bbox();
+    }
+    for(int corner = 0; corner < 8 && view.box; ++corner) {
+      const auto end = [&](int axis) {
+        return corner >> axis & 1 ? view.box->max(axis) : view.box->min(axis);
+      };
+      const auto place = (CGAL::ORIGIN + eye(Vector(end(0), end(1), end(2)))).bbox();
+      boxes[k] = corner == 0 ? place : boxes[k] + place;
     }
     all += boxes[k];
     widest = (std::max)(widest, boxes[k].x_span());
@@ -324,19 +355,20 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
 inline void check_renderer()
 {
   const internal::Temporary_folder folder;
-  if(internal::run_povray(folder, "--version") != 0)
+  if(internal::run_program(folder, "povray --version") != 0)
     throw std::runtime_error("pictures need POV-Ray, but its program povray was not found");
 }
 
-// Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
-// fails.
-inline void render(const std::vector<Panel>& panels, const View& view, std::ostream& out)
+namespace internal {
+
+// Draws the panels in a row as a file of the folder. The format is one of POV-Ray: N is PNG, P PPM.
+inline void draw(const Temporary_folder& folder, const std::vector<Panel>& panels, const View& view,
+                 const std::string& picture, char format)
 {
   for(const Panel& panel : panels)
     for(const auto& [x, y, z] : panel.points)
       if(!std::isfinite(x + y + z))
         throw std::runtime_error("a shape whose coordinates are not finite cannot be drawn");
-  const internal::Temporary_folder folder;
   std::ofstream scene(folder.path / "scene.pov");
   write_scene(scene, panels, view);
   scene.close();
@@ -344,10 +376,20 @@ inline void render(const std::vector<Panel>& panels, const View& view, std::ostr
     throw std::runtime_error("the scene of the picture could not be written to " +
                              folder.path.string());
   const std::string width = std::to_string(view.width * panels.size());
-  if(internal::run_povray(folder, "+Iscene.pov +Opicture.png +FN +W" + width + " +H" +
-                                    std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
+  if(run_program(folder, "povray +Iscene.pov +O" + picture + " +F" + format + " +W" + width +
+                           " +H" + std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
     throw std::runtime_error("POV-Ray could not draw the picture:" +
-                             internal::last_messages(folder.path / "messages"));
+                             last_messages(folder.path / "messages"));
+}
+
+} // namespace internal
+
+// Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
+// fails.
+inline void render(const std::vector<Panel>& panels, const View& view, std::ostream& out)
+{
+  const internal::Temporary_folder folder;
+  internal::draw(folder, panels, view, "picture.png", 'N');
   out << std::ifstream(folder.path / "picture.png", std::ios::binary).rdbuf();
 }
 

@@ -53,6 +53,7 @@ inline std::vector<Kernel::Point_3> points_of(const Mesh& mesh)
 // the 4 x 4 matrix of an affine map, row by row
 using Transform = std::array<double, 16>;
 
+// the status of a vertex; handle k has the status k, from HANDLE on
 enum Selection_status { FIXED = 0, FREE = 1, HANDLE = 2 };
 
 inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
@@ -62,7 +63,7 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
-// Passes the selection and the targets of the handles to a deformation.
+// Passes the selection to a deformation, with the targets of the handles.
 template <typename Deformation>
 void insert_selection(Deformation& deformation, const std::vector<int>& selection,
                       const Transform& transform)
@@ -73,11 +74,8 @@ void insert_selection(Deformation& deformation, const std::vector<int>& selectio
     const int status = selection[domain.index(v)];
     if(status != FIXED)
       deformation.insert_roi_vertex(v);
-    if(status == HANDLE)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(transform, domain.point(v)));
-    }
+    if(status >= HANDLE)
+      deformation.insert_control_vertex(v, transformed(transform, domain.point(v)));
   }
 }
 
@@ -220,7 +218,7 @@ inline void check_end(std::istream& in, const std::string& file, const std::stri
   throw bad_line(file, line, "there is more than " + contents);
 }
 
-// One status per line and vertex: 0 fixed, 1 free, 2 handle.
+// One status per line and vertex: 0 fixed, 1 free, 2 and more the number of a handle.
 inline std::vector<int> read_selection(const std::string& file, std::size_t number_of_vertices)
 {
   std::vector<int> selection;
@@ -230,9 +228,10 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
     std::string rest;
     if(!(in >> status) || in >> rest)
       throw bad_line(file, number, "expected one integer, the status of a vertex");
-    if(status != FIXED && status != FREE && status != HANDLE)
+    if(status < FIXED || std::size_t(status) > number_of_vertices + 1)
       throw bad_line(file, number, "unknown status " + std::to_string(status) +
-                                     "; use 0 (fixed), 1 (free) or 2 (handle)");
+                                     "; use 0 (fixed), 1 (free), or the number of a handle, from 2 "
+                                     "on");
     selection.push_back(status);
   });
   if(selection.size() != number_of_vertices)
@@ -242,8 +241,24 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
   return selection;
 }
 
-// Four rows of four numbers, the last row 0 0 0 1.
-inline Transform read_transform(const std::string& file)
+// Throws if the matrix is not that of an affine map that can be undone.
+inline void check_transform(const Transform& m, const std::string& name)
+{
+  const std::array<double, 4> last_row = {0, 0, 0, 1};
+  if(!std::equal(last_row.begin(), last_row.end(), m.begin() + 12))
+    throw std::runtime_error(name + ": the last row of the transform is not 0 0 0 1");
+  const auto column = [&m](int k) { // divided by its largest entry, so that no product overflows
+    const Kernel::Vector_3 v(m[k], m[4 + k], m[8 + k]);
+    return v / (std::max)({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
+  };
+  const Kernel::Vector_3 x = column(0), y = column(1), z = column(2);
+  const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
+  if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
+    throw std::runtime_error(name + ": the transform is singular: it flattens the handle");
+}
+
+// Matrices of four rows of four numbers, the last row 0 0 0 1.
+inline std::vector<Transform> read_transforms(const std::string& file)
 {
   std::vector<double> entries;
   for_each_line(file, [&](const std::string& line, int number) {
@@ -258,24 +273,24 @@ inline Transform read_transform(const std::string& file)
       entries.push_back(entry);
     }
   });
-  Transform transform;
-  if(entries.size() != transform.size())
+  if(entries.empty() || entries.size() % 16 != 0)
     throw std::runtime_error(file + ": has " + std::to_string(entries.size()) +
                              " numbers; a transform is a 4 x 4 matrix of 16");
-  std::copy(entries.begin(), entries.end(), transform.begin());
-  const std::array<double, 4> last_row = {0, 0, 0, 1};
-  if(!std::equal(last_row.begin(), last_row.end(), transform.begin() + 12))
-    throw std::runtime_error(file + ": the last row of the transform is not 0 0 0 1");
-  const Transform& m = transform;
-  const auto column = [&m](int k) { // divided by its largest entry, so that no product overflows
-    const Kernel::Vector_3 v(m[k], m[4 + k], m[8 + k]);
-    return v / (std::max)({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
-  };
-  const Kernel::Vector_3 x = column(0), y = column(1), z = column(2);
-  const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
-  if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
-    throw std::runtime_error(file + ": the transform is singular: it flattens the handle");
-  return transform;
+  std::vector<Transform> transforms(entries.size() / 16);
+  for(std::size_t k = 0; k < transforms.size(); ++k)
+  {
+    std::copy_n(entries.begin() + 16 * k, 16, transforms[k].begin());
+    check_transform(transforms[k],
+                    file + (k == 0 ? "" : ", matrix " + std::to_string(k + 1)));
+  }
+  return transforms;
+}
+
+inline void write_transform(std::ostream& out, const Transform& transform)
+{
+  out.precision(std::numeric_limits<double>::max_digits10);
+  for(int k = 0; k < 16; ++k)
+    out << transform[k] << (k % 4 == 3 ? '\n' : ' ');
 }
 
 // Throws if the format of the file cannot store the mesh.

@@ -26,6 +26,8 @@
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
+#include <Eigen/Geometry>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -36,6 +38,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -363,8 +366,11 @@ void test_refusals()
   select("bad.sel", "has 105 statuses, but the mesh has 104 vertices");
   write("bad.sel", good.substr(0, good.size() - 16));
   select("bad.sel", "has 103 statuses, but the mesh has 104 vertices");
-  write("bad.sel", "1\n1\n3\n" + good);
-  select("bad.sel", "bad.sel, line 3: unknown status 3");
+  for(const std::string status : {"-1", "106", "2147483647"})
+  {
+    write("bad.sel", "1\n1\n" + status + "\n" + good);
+    select("bad.sel", "bad.sel, line 3: unknown status " + status);
+  }
   write("bad.sel", "1\none\n" + good);
   select("bad.sel", "bad.sel, line 2: expected one integer");
   write("bad.sel", "1.5\n" + good);
@@ -420,6 +426,321 @@ void test_refusals()
   check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
 }
 
+// the points of an .off file that the command has written
+std::vector<Eigen::Vector3d> read_points(const std::string& file)
+{
+  Mesh mesh;
+  CHECK(CGAL::IO::read_polygon_mesh((folder / file).string(), mesh));
+  std::vector<Eigen::Vector3d> points;
+  for(auto v : mesh.vertices())
+    points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
+  return points;
+}
+
+std::string text(const Eigen::Affine3d& map)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << map.matrix() << '\n';
+  return out.str();
+}
+
+// Several handles, each with its own matrix; hard and soft; against the library.
+void test_handles()
+{
+  test_case() = "handles";
+  const auto handle = [](const Eigen::Vector3d& p) {
+    return p.z() < 0.5 ? 0 : p.z() > 4.5 ? 3 : std::abs(p.z() - 2.5) < 0.3 && p.x() > 0 ? 2 : 1;
+  };
+  std::string statuses;
+  for(const auto& p : shape.points)
+    statuses += std::to_string(handle(p)) + '\n';
+  write("two.sel", statuses);
+  const Eigen::Affine3d maps[2] = {
+    Eigen::Affine3d(rigid_motion(0.4, {1, 2, 3}, {0.2, 0, 0.1})),
+    Eigen::Affine3d(rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0}))};
+  write("two.def", text(maps[0]) + "# the other\n" + text(maps[1]));
+  for(const std::string soft : {"", " --soft 2.5"})
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    for(auto v : mesh.vertices())
+    {
+      const int k = handle(shape.points[v]);
+      if(k != 0)
+        d.insert_roi_vertex(v);
+      if(k < 2)
+        continue;
+      const Eigen::Vector3d target = maps[k - 2] * shape.points[v];
+      d.insert_control_vertex(v, Point(target.x(), target.y(), target.z()));
+      if(!soft.empty())
+        CHECK(d.set_target_weight(v, 2.5));
+    }
+    CHECK(d.deform(30, 0));
+    CHECK(run("in.off --selection two.sel --transform two.def -o two.off --tolerance 0 "
+              "--iterations 30" + soft).exit_code == 0);
+    const auto result = read_points("two.off");
+    for(auto v : mesh.vertices())
+      CHECK_AT_MOST((result[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
+                                                 mesh.point(v).z())).norm(), 1e-12);
+  }
+  write("three.def", text(maps[0]) + text(maps[0]) + text(maps[1]));
+  check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
+                "three.def: has 3 matrices, but there are 2 handles");
+  write("three.def", text(maps[0]) + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
+  check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
+                "three.def, matrix 2: the transform is singular");
+}
+
+void test_frames()
+{
+  test_case() = "frames";
+  const std::string call = "in.off --selection in.sel --transform in.def --quiet -o ";
+  CHECK(run(call + "plain.off").exit_code == 0);
+  CHECK(run(call + "one.off --frames 1").exit_code == 0);
+  CHECK(!fs::exists(folder / "one.off"));
+  CHECK(content(folder / "one-0001.off") == content(folder / "plain.off"));
+
+  // two key frames, the second a stretch, in six frames
+  const Eigen::Affine3d first(rigid_motion(2, {1, 0.5, 0.3}, {3, 0, 1}));
+  const Eigen::Affine3d second = first * Eigen::Scaling(1., 1., 1.5);
+  write("first.def", text(first));
+  write("second.def", text(second));
+  CHECK(run("in.off --selection in.sel --transform first.def --transform second.def --frames 6 "
+            "-o six.off --report r.json").exit_code == 0);
+  CHECK(!fs::exists(folder / "six.off") && !fs::exists(folder / "six-0007.off"));
+  Eigen::Vector3d centre(0, 0, 0);
+  std::vector<std::size_t> handle;
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(status(shape.points[v]) == 2)
+    {
+      handle.push_back(v);
+      centre += shape.points[v];
+    }
+  centre /= static_cast<double>(handle.size());
+  for(int frame = 1; frame <= 6; ++frame)
+  {
+    const auto points = read_points("six-000" + std::to_string(frame) + ".off");
+    Eigen::Affine3d map = first;
+    if(frame <= 3) // turns at constant speed, and the centre moves along a straight line
+    {
+      const double share = frame / 3.;
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(first.linear()));
+      map.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
+      map.translation() = (1 - share) * centre + share * (first * centre) - map.linear() * centre;
+    }
+    else // only the stretch changes
+    {
+      const double share = (frame - 3) / 3.;
+      map = first * Eigen::Scaling(1., 1., 1 + 0.5 * share);
+    }
+    for(std::size_t v : handle)
+      if(frame % 3 == 0) // exactly
+      {
+        const auto& m = frame == 3 ? first : second;
+        const auto& p = shape.points[v];
+        for(int k = 0; k < 3; ++k)
+          CHECK(points[v][k] == m(k, 0) * p.x() + m(k, 1) * p.y() + m(k, 2) * p.z() + m(k, 3));
+      }
+      else
+        CHECK_AT_MOST((points[v] - map * shape.points[v]).norm(), 1e-12);
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(status(shape.points[v]) == 0)
+        CHECK(points[v] == shape.points[v]);
+  }
+  const auto json = nlohmann::json::parse(content(folder / "r.json"));
+  CHECK(json["frames"].size() == 6);
+  for(int frame = 0; frame < 6; ++frame)
+    CHECK(json["frames"][frame]["factorized"] == (frame == 0)); // the factor is kept
+  CHECK(json["energy"].back() == json["frames"][5]["energy"][1]);
+
+  test_case() = "frames start from the one before";
+  CHECK(run(call + "a.off --frames 2 --iterations 3 --tolerance 0").exit_code == 0);
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  const auto rest = read_points("in.off"), middle = read_points("a-0001.off");
+  for(auto v : mesh.vertices())
+  {
+    if(status(rest[v]) != 0)
+      d.insert_roi_vertex(v);
+    if(status(rest[v]) == 2)
+      d.insert_control_vertex(v, Point(middle[v].x(), middle[v].y(), middle[v].z()));
+  }
+  CHECK(d.deform(3, 0));
+  for(auto v : d.control_vertices())
+    d.set_target_position(v, Point(-rest[v].y(), rest[v].x(), rest[v].z() + 0.5));
+  CHECK(d.deform(3, 0));
+  const auto end = read_points("a-0002.off");
+  for(auto v : mesh.vertices())
+    CHECK_AT_MOST((end[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
+                                            mesh.point(v).z())).norm(), 1e-12);
+
+  write("precious.off", "precious");
+  const std::string two_keys = "in.off --selection in.sel --transform first.def --transform "
+                               "second.def ";
+  check_refused(two_keys + "--frames 1 -o new.off", 2, "--frames 1: there is at least one for");
+  check_refused(call + "new.off --frames 10000", 2, "--frames 10000");
+  check_refused(call + "new.off --frames x", 2, "--frames 'x' is not a whole number");
+  write("in-0002.off", content(folder / "in.off"));
+  check_refused("in-0002.off --selection in.sel --transform in.def -o in.off --frames 3", 2,
+                "in-0002.off is given for two things");
+  check_refused(call + "new.off --frames 3 --report new-0002.off", 2, "is given for two things");
+#if defined(__unix__) || defined(__APPLE__)
+  check_refused(call + "/dev/stdout --frames 3", 2, "frames need a file each");
+#endif
+
+  test_case() = "films";
+  check_refused(call + "new.off --animation film.avi", 1, "a film ends in .gif");
+  for(const auto& [file, start] : std::map<std::string, std::string>{
+        {"film.gif", "GIF89a"}, {"film.glb", "glTF"}, {"film.gltf", "{"},
+        {"film.webm", "\x1A\x45\xDF\xA3"}})
+  {
+    const Run done = run(call + "new.off --frames 2 --animation " + file);
+    if(done.exit_code == 1 && done.err.find("--animation " + file) != std::string::npos)
+      std::cout << "NOTICE: not tested: " << done.err; // something is not installed
+    else
+    {
+      CHECK(done.exit_code == 0);
+      CHECK(content(folder / file).rfind(start, 0) == 0);
+    }
+  }
+  if(fs::exists(folder / "film.gltf"))
+  {
+    const auto gltf = nlohmann::json::parse(content(folder / "film.gltf"));
+    CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
+    CHECK(gltf["accessors"][1]["count"] == shape.points.size());
+    CHECK(gltf["animations"][0]["channels"][0]["target"]["path"] == "weights");
+  }
+  const std::string shell_command = command;
+  command = "/usr/bin/env\" PATH=/nonexistent \"" + shell_command;
+  check_refused("missing.off --selection in.sel --transform in.def -o other.off --animation a.mp4",
+                1, "--animation a.mp4: needs the program ffmpeg");
+  command = shell_command;
+}
+
+// What is picked, against the same conditions here.
+void test_picks()
+{
+  using P = Eigen::Vector3d;
+  const P low(-1, -1, 0), size(2, 2, 5); // of the bounding box
+  const auto check_picked = [&](const std::string& what, const auto& is_picked) {
+    test_case() = what;
+    std::string expected;
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+      expected += is_picked(v, shape.points[v]) ? "2\n" : "0\n";
+    CHECK(expected.find('2') != std::string::npos);
+    const Run done = run("in.off --fix x:-9.. --handle '" + what + "' --move 0,0,1 -o new.off "
+                         "--save-selection new.sel --quiet");
+    if(!CHECK(done.exit_code == 0))
+      std::cerr << "    " << done.err;
+    CHECK(content(folder / "new.sel") == expected);
+  };
+  check_picked("z:90%..", [&](auto, const P& p) { return p.z() >= low.z() + 0.9 * size.z(); });
+  check_picked("z:100%..", [&](auto, const P& p) { return p.z() == 5; });
+  check_picked("y:..0.25", [&](auto, const P& p) { return p.y() <= 0.25; });
+  check_picked("x:-0.5..60%", [&](auto, const P& p) { return p.x() >= -0.5 && p.x() <= 0.2; });
+  check_picked("box:-2,0,0%,2,2,50%", [&](auto, const P& p) { return p.y() >= 0 && p.z() <= 2.5; });
+  check_picked("sphere:1,0,0,2", [&](auto, const P& p) { return (p - P(1, 0, 0)).norm() <= 2; });
+  check_picked("sphere:50%,50%,50%,30%", [&](auto, const P& p) {
+    return (p - P(0, 0, 2.5)).norm() <= 0.3 * size.norm();
+  });
+  check_picked("plane:0,0,2.5,1,0,-1", [&](auto, const P& p) { return p.x() - p.z() + 2.5 >= 0; });
+  check_picked("near:0,1.2,100%", [&](auto v, const P&) {
+    const auto nearest = std::min_element(
+      shape.points.begin(), shape.points.end(), [](const P& p, const P& q) {
+        return (p - P(0, 1.2, 5)).norm() < (q - P(0, 1.2, 5)).norm();
+      });
+    return int(v) == nearest - shape.points.begin();
+  });
+  write("list", "7 # a comment\n# none\n9 11\n");
+  const auto is_listed = [](auto v, const P&) { return v == 7 || v == 9 || v == 11; };
+  check_picked("list:7,11,9", is_listed);
+  check_picked("list:@list", is_listed);
+
+  test_case() = "one line, and the same from files";
+  const std::string picks = "in.off --fix z:..0.5 --handle z:4.5.. --rotate z 90 0,0,7 "
+                            "--move 0,0,0.5 --handle near:1,0,2.5 --move -10%,0,0 ";
+  CHECK(run(picks + "-o picked.off --save-selection s.sel --save-transform s.def").exit_code == 0);
+  CHECK(run("in.off --selection s.sel --transform s.def -o read.off --save-selection t.sel "
+            "--save-transform t.def").exit_code == 0);
+  CHECK(content(folder / "picked.off") == content(folder / "read.off"));
+  CHECK(content(folder / "s.sel") == content(folder / "t.sel"));
+  CHECK(content(folder / "s.def") == content(folder / "t.def"));
+  auto points = read_points("picked.off");
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const P& p = shape.points[v];
+    if(p.z() >= 4.5)
+      CHECK_AT_MOST((points[v] - P(-p.y(), p.x(), p.z() + 0.5)).norm(), 1e-14);
+    if(p.z() <= 0.5)
+      CHECK(points[v] == p);
+  }
+
+  test_case() = "a full turn about the handle's own centre, in frames";
+  CHECK(run("in.off --fix z:..0.5 --handle z:4.5.. --rotate 0,0,2 360 --frames 4 -o t.off")
+          .exit_code == 0);
+  points = read_points("t-0001.off");
+  P centre(0, 0, 0); // the seam of the tube is there
+  int n = 0;
+  for(const P& p : shape.points)
+    if(p.z() >= 4.5)
+    {
+      centre += p;
+      ++n;
+    }
+  centre /= n;
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(const P p = shape.points[v] - centre; shape.points[v].z() >= 4.5)
+      CHECK_AT_MOST((points[v] - centre - P(-p.y(), p.x(), p.z())).norm(), 1e-14);
+
+  test_case() = "region, soft";
+  CHECK(run("in.off --region z:2..4 --handle z:2.9..3.1 --move 0.2,0,0 --soft 3 -o region.off "
+            "--save-selection region.sel").exit_code == 0);
+  points = read_points("region.off");
+  bool is_soft = false;
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const P& p = shape.points[v];
+    if(p.z() < 2 || p.z() > 4)
+      CHECK(points[v] == p);
+    else if(p.z() > 2.9 && p.z() < 3.1)
+      is_soft = is_soft || (points[v] - p - P(0.2, 0, 0)).norm() > 1e-3;
+  }
+  CHECK(is_soft);
+
+  write("precious.off", "precious");
+  const std::string rest = " --move 0,0,1 -o precious.off";
+  const auto refuse = [&](const std::string& arguments, int exit_code, const std::string& phrase) {
+    check_refused("in.off " + arguments + rest, exit_code, phrase);
+  };
+  refuse("--handle z:7..", 1, "--handle z:7..: picks no vertex; the bounding box of the mesh is "
+                              "box:-1,-1,0,1,1,5");
+  refuse("--fix sphere:9,9,9,1 --handle z:..1", 1, "--fix sphere:9,9,9,1: picks no vertex");
+  refuse("--handle z:4.5.. --move 0,0,1 --handle z:4..", 1, "--handle z:4.5..: a later --fix or");
+  refuse("--handle list:104", 1, "there is no vertex 104; they are numbered from 0 to 103");
+  refuse("--handle list:@missing", 1, "missing: there is no such file");
+  refuse("--handle list:@in.off", 1, "in.off, line 1: 'OFF' is not the number of a vertex");
+  refuse("--handle list:-1", 2, "'-1' is not a whole number");
+  refuse("--handle z", 2, "expected a range such as z:90%..");
+  refuse("--handle z:90%", 2, "expected a range");
+  refuse("--handle cube:1", 2, "--handle cube:1: expected box:, sphere:");
+  refuse("--handle box:1,2,3", 2, "expected the numbers x0,y0,z0,x1,y1,z1");
+  refuse("--handle box:1,2,3,4,5,x", 2, "'x' is not a finite number");
+  refuse("--handle near:nan,0,0", 2, "'nan' is not a finite number");
+  refuse("--handle z:0.. --rotate w 90", 2, "--rotate: 'w' is not a finite number");
+  refuse("--handle z:0.. --rotate 0,0,0 90", 2, "has no direction");
+  refuse("--handle z:0.. --rotate z up", 2, "--rotate: 'up' is not a finite number");
+  refuse("--handle z:0.. --move 1,2", 2, "--move: expected the numbers dx,dy,dz");
+  refuse("--handle z:0.. --soft -1", 2, "--soft -1: a weight is not negative");
+  refuse("--handle z:0.. --transform in.def", 2, "leave out --move and --rotate");
+  refuse("--handle z:0.. --selection in.sel", 2, "leave out --handle");
+  refuse("--fix z:0..", 2, "--move is for the --handle before it");
+  refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers x,y,z");
+  refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
+  check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
+  check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
+}
+
 void test_help()
 {
   test_case() = "help";
@@ -428,7 +749,8 @@ void test_help()
   for(const char* option :
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
        "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
-       "--quiet"})
+       "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
+       "--animation", "--view", "--save-selection", "--save-transform"})
     CHECK(help.out.find(option) != std::string::npos);
 }
 
@@ -440,6 +762,9 @@ void test_all()
   test_help();
   test_success();
   test_polygons();
+  test_handles();
+  test_frames();
+  test_picks();
   test_refusals();
 }
 

@@ -68,7 +68,7 @@ void read(const std::string& file)
   if(format == "sel")
     read_selection(file, 4);
   else if(format == "def")
-    read_transform(file);
+    read_transforms(file);
   else if(format == "mesh")
   {
     const Medit_file tetrahedra(file);
