@@ -14,6 +14,7 @@
 
 // Tetrahedra in .mesh files, the ASCII format of Medit.
 
+#include "Source_text.h"
 #include "shape_files.h"
 
 #include <algorithm>
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -52,14 +52,13 @@ public:
   // Throws a std::runtime_error whose message names the file, the line and what is wrong.
   explicit Medit_file(const std::string& file) : m_name(file)
   {
-    std::ifstream in = open_for_reading(file);
-    m_text.assign(std::istreambuf_iterator<char>(in), {});
+    m_source.text = content_of(file);
     const std::map<std::string_view, std::size_t> sections = find_sections();
     const auto find = [&](const char* keyword, const std::string& sentence) {
       const auto section = sections.find(keyword);
       if(section == sections.end())
         throw std::runtime_error(m_name + ": " + sentence);
-      return Words(m_text, section->second);
+      return Words(m_source.text, section->second);
     };
     const std::string no_tetrahedra = "has no tetrahedra; surfaces are read from .off, .obj, .ply "
                                       "and .stl files";
@@ -77,33 +76,21 @@ public:
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
 
   // Writes the file with these points. Unchanged coordinates keep their text.
-  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) const
+  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points)
   {
-    out.precision(std::numeric_limits<double>::max_digits10);
-    Words words(m_text, m_first_vertex);
-    std::size_t written = 0;
     for(std::size_t v = 0; v < points.size(); ++v)
-    {
-      for(int k = 0; k < 3; ++k)
-      {
-        words.next();
-        if(points[v][k] == m_mesh.points[v][k])
-          continue;
-        out << std::string_view(m_text).substr(written, words.begin() - written) << points[v][k];
-        written = words.end();
-      }
-      words.next(); // the reference
-    }
-    out << std::string_view(m_text).substr(written);
+      m_source.replace(m_source.points[v], m_mesh.points[v] - CGAL::ORIGIN,
+                       points[v] - CGAL::ORIGIN);
+    m_source.write(out);
   }
 
 private:
   // Throws a message: `expected`, continued by what is there instead.
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
-    const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
-    const bool is_end = words.begin() == m_text.size();
-    const auto word = std::string_view(m_text).substr(words.begin(), words.end() - words.begin());
+    const auto line = 1 + std::count(m_source.text.begin(), m_source.text.begin() + words.begin(), '\n');
+    const bool is_end = words.begin() == m_source.text.size();
+    const auto word = std::string_view(m_source.text).substr(words.begin(), words.end() - words.begin());
     throw bad_line(m_name, static_cast<std::size_t>(line),
                    expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
   }
@@ -129,9 +116,9 @@ private:
   // they end at the next keyword.
   std::map<std::string_view, std::size_t> find_sections() const
   {
-    Words words(m_text);
+    Words words(m_source.text);
     const std::string_view first = words.next();
-    if(m_text.find('\0') != std::string::npos)
+    if(m_source.text.find('\0') != std::string::npos)
       throw std::runtime_error(m_name + ": is binary; of Medit's formats only the text format "
                                         ".mesh can be read, not .meshb");
     if(first != "MeshVersionFormatted")
@@ -145,7 +132,7 @@ private:
       }
       else if(is_unknown_element(word))
       {
-        Words contents(m_text, words.end());
+        Words contents(m_source.text, words.end());
         if(contents.next() != "0")
           refuse(words, "only tetrahedra with four vertices can be deformed, but there are");
       }
@@ -171,8 +158,8 @@ private:
   {
     char* end = nullptr;
     const bool is_end = words.next().empty();
-    const long long value = std::strtoll(m_text.c_str() + words.begin(), &end, 10); // saturates
-    if(is_end || end != m_text.c_str() + words.end() || value < smallest || value > largest)
+    const long long value = std::strtoll(m_source.text.c_str() + words.begin(), &end, 10); // saturates
+    if(is_end || end != m_source.text.c_str() + words.end() || value < smallest || value > largest)
       refuse(words, "expected " + description() + ", but found");
     return value;
   }
@@ -181,8 +168,8 @@ private:
   {
     char* end = nullptr;
     const bool is_end = words.next().empty();
-    const double value = std::strtod(m_text.c_str() + words.begin(), &end);
-    if(is_end || end != m_text.c_str() + words.end() || !std::isfinite(value))
+    const double value = std::strtod(m_source.text.c_str() + words.begin(), &end);
+    if(is_end || end != m_source.text.c_str() + words.end() || !std::isfinite(value))
       refuse(words, "expected a finite number, a coordinate in " + row.name() + ", but found");
     return value;
   }
@@ -209,7 +196,7 @@ private:
   {
     const std::size_t shortest = 8; // in characters
     items.reserve((std::min)(static_cast<std::size_t>(row.total),
-                             (m_text.size() - words.end()) / shortest));
+                             (m_source.text.size() - words.end()) / shortest));
     for(row.number = 1; row.number <= row.total; ++row.number)
       items.push_back(read_row(row));
     if(const std::string_view word = words.next(); !word.empty() && !is_keyword(word))
@@ -220,8 +207,9 @@ private:
   void read_vertices(Words& words)
   {
     const long long n = read_number(words, "Vertices");
-    m_first_vertex = words.end();
     read_rows(words, {"Vertices", 0, n}, m_mesh.points, [&](const Row& row) {
+      Words place = words;
+      m_source.points.push_back(Source_text::next_triple(place));
       std::array<double, 3> p;
       for(double& coordinate : p)
         coordinate = read_coordinate(words, row);
@@ -249,9 +237,9 @@ private:
     });
   }
 
-  std::string m_name, m_text;
+  std::string m_name;
+  Source_text m_source;
   Tetrahedral_mesh m_mesh;
-  std::size_t m_first_vertex = 0; // the position in the text after the number of vertices
 };
 
 // Writes a new .mesh file with all references 0.

@@ -15,12 +15,14 @@
 // The two kinds of shapes that the command deforms, with a common interface: each is read at
 // construction, deformed through its domain, and written.
 
+#include "Corner_rotation.h"
 #include "Medit_file.h"
 #include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/boost/graph/iterator.h>
 
 #include <array>
 #include <cstddef>
@@ -39,9 +41,15 @@ public:
 
   static constexpr const char* simplices = "faces";
 
-  explicit Surface_file(const std::string& file)
-    : m_format(lower_case_extension(file)), m_mesh(read_mesh(file, m_dropped))
-  {}
+  // For an output of the same format the text of the file is kept.
+  Surface_file(const std::string& file, const std::string& output_format)
+    : m_format(lower_case_extension(file)), m_mesh(read_mesh(file, m_dropped)),
+      m_rest_points(points_of(m_mesh))
+  {
+    if(output_format == m_format)
+      m_source = read_source(file);
+    m_is_kept = m_source.points.size() == m_rest_points.size();
+  }
 
   const Mesh& mesh() const { return m_mesh; }
   std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
@@ -57,6 +65,8 @@ public:
   // what an output of this format does not keep
   std::set<std::string> dropped(const std::string& format) const
   {
+    if(m_is_kept)
+      return {};
     std::set<std::string> result = m_dropped;
     if((format == ".obj" || format == ".stl") && has_colours(m_mesh))
       result.insert("colours");
@@ -67,15 +77,41 @@ public:
     return result;
   }
 
-  void write(Output_file& output, const std::string& format) const
+  void write(Output_file& output, const std::string& format)
   {
-    write_mesh(output, m_mesh, format);
+    if(!m_is_kept)
+      return write_mesh(output, m_mesh, format);
+    for(Mesh::Vertex_index v : m_mesh.vertices())
+      m_source.replace(m_source.points[v], m_rest_points[v] - CGAL::ORIGIN,
+                       m_mesh.point(v) - CGAL::ORIGIN);
+    turn_normals();
+    output.write([this](std::ostream& out) { m_source.write(out); });
   }
 
 private:
+  // Each normal turns with the corners that use it.
+  void turn_normals()
+  {
+    for(const Source_text::Normal& normal : m_source.normals)
+    {
+      Corner_rotation turned(m_mesh, m_rest_points);
+      for(const auto& [face, vertex] : normal.corners)
+        if(const Mesh::Vertex_index v(static_cast<Mesh::size_type>(vertex)); !m_mesh.is_isolated(v))
+          for(Mesh::Halfedge_index h : CGAL::halfedges_around_target(m_mesh.halfedge(v), m_mesh))
+            if(const Mesh::Face_index f = m_mesh.face(h);
+               f != Mesh::null_face() && (!face || *face == std::size_t(f)))
+              turned.insert(h);
+      if(turned.has_moved())
+        m_source.replace(normal.place, normal.value, turned(normal.value));
+    }
+  }
+
   std::string m_format;
   std::set<std::string> m_dropped;
-  Mesh m_mesh;
+  Mesh m_mesh; // deformed
+  std::vector<Kernel::Point_3> m_rest_points;
+  Source_text m_source;
+  bool m_is_kept = false; // the text is written with other coordinates
 };
 
 // Tetrahedra in a .mesh file, the rest of which is kept.
@@ -87,7 +123,9 @@ public:
 
   static constexpr const char* simplices = "tetrahedra";
 
-  explicit Tetrahedra_file(const std::string& file) : m_file(file), m_mesh(m_file.mesh()) {}
+  Tetrahedra_file(const std::string& file, const std::string&)
+    : m_file(file), m_mesh(m_file.mesh())
+  {}
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
   std::size_t number_of_vertices() const { return m_mesh.points.size(); }
@@ -97,7 +135,7 @@ public:
   void check_output(const std::string&, const std::string&) const {}
   std::set<std::string> dropped(const std::string&) const { return {}; }
 
-  void write(Output_file& output, const std::string&) const
+  void write(Output_file& output, const std::string&)
   {
     output.write([this](std::ostream& out) { m_file.write(out, m_mesh.points); });
   }

@@ -382,7 +382,7 @@ void run(const Command_line& line, const std::string& format)
   progress.show("loading " + line.mesh + " ...");
   CGAL::Real_timer load_timer;
   load_timer.start();
-  Shape shape(line.mesh);
+  Shape shape(line.mesh, format);
   const std::vector<Kernel::Point_3> rest_points = points_of(shape.mesh());
   const Task task = make_task(line, rest_points);
   load_timer.stop();

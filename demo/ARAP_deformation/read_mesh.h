@@ -15,6 +15,7 @@
 // Reads surfaces with CGAL. Its readers trust a file: input that would make them crash, or allocate
 // without bound, is refused here first.
 
+#include "Source_text.h"
 #include "check_obj_file.h"
 #include "check_off_file.h"
 #include "check_ply_file.h"
@@ -168,6 +169,26 @@ inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
                                std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
                                "least three");
   return mesh;
+}
+
+// The text of a file that has been read as a mesh, to write it with other points. If it has no
+// places of points, the format does not allow it.
+inline Source_text read_source(const std::string& file)
+{
+  const std::string extension = lower_case_extension(file);
+  Source_text source;
+  if(extension == ".stl") // each point of a mesh is there several times
+    return source;
+  source.text = content_of(file);
+  std::istringstream in(source.text);
+  std::set<std::string> ignored;
+  if(extension == ".off")
+    check_off_file(in, file, ignored, &source);
+  else if(extension == ".obj")
+    check_obj_file(in, file, ignored, &source);
+  else
+    find_places_in_ply_file(in, file, source);
+  return source;
 }
 
 inline Mesh read_mesh(const std::string& file)

@@ -29,6 +29,7 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <iterator>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -109,6 +110,12 @@ inline std::ifstream open_for_reading(const std::string& file)
   if(in.peek() == std::ifstream::traits_type::eof())
     throw std::runtime_error(file + ": is empty");
   return in;
+}
+
+inline std::string content_of(const std::string& file)
+{
+  std::ifstream in = open_for_reading(file);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 inline std::string lower_case_extension(const std::string& file)

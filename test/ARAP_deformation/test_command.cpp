@@ -644,7 +644,7 @@ void test_picks()
   check_picked("sphere:50%,50%,50%,30%", [&](auto, const P& p) {
     return (p - P(0, 0, 2.5)).norm() <= 0.3 * size.norm();
   });
-  check_picked("plane:0,0,2.5,1,0,-1", [&](auto, const P& p) { return p.x() - p.z() + 2.5 >= 0; });
+  check_picked("plane:0,0,2.4,1,0,-1", [&](auto, const P& p) { return p.x() - p.z() + 2.4 >= 0; });
   check_picked("near:0,1.2,100%", [&](auto v, const P&) {
     const auto nearest = std::min_element(
       shape.points.begin(), shape.points.end(), [](const P& p, const P& q) {
