@@ -15,6 +15,7 @@
 #include "Output_file.h"
 #include "Pick.h"
 #include "arguments.h"
+#include "result_quality.h"
 
 #include <CGAL/ARAP_deformation/Options.h>
 
@@ -66,6 +67,8 @@ struct Command_line
   int frames = 1;
   bool is_sequence = false;            // a mesh is written for each frame, not only for the last
   std::vector<double> view;            // azimuth and elevation, or a direction; empty if not given
+  bool has_quality = false;            // self-intersections are looked for
+  std::string color;                   // what is measured at the vertices, or empty
   Weight_choice weights = Weight_choice::safe_cotangent;
   Options options;
 };
@@ -105,6 +108,10 @@ inline boost::program_options::options_description described_options()
      "of the frames: .gif, .mp4 or .webm (needs ffmpeg), .gltf or .glb")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
+    ("quality", "look for self-intersections, too, for the report")
+    ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
+     "colour the picture, and add a property to a .ply file: edge_error, area, volume, angle, "
+     "spike (how far a vertex is from its neighbours)")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
      "draw the shape before and after, fixed red, handles yellow; needs povray")
     ("view", value<std::string>()->value_name("A,E"),
@@ -156,10 +163,21 @@ inline void print_help(std::ostream& out)
          "rotation turns at constant speed, and its stretch is interpolated linearly.\n\n"
          "The report tells status, message, iterations, energy (initial, and after each),\n"
          "estimated_relative_gap to the minimum, edge_length_error (relative root mean\n"
-         "square), inverted_simplices (tetrahedra), unconstrained_components (by their first\n"
-         "vertex; nothing holds them, and they stay), seconds, and more.\n\n"
+         "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
+         "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
+         "first vertex; nothing holds them, and they stay), seconds, and more.\n\n"
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
          "is written, and existing files are unchanged.\n";
+}
+
+// what --color measures
+inline Vertex_measure vertex_measure(const std::string& name)
+{
+  return chosen<Vertex_measure>("color", name, {{"edge_error", Vertex_measure::edge_error},
+                                                {"area", Vertex_measure::size},
+                                                {"volume", Vertex_measure::size},
+                                                {"angle", Vertex_measure::angle},
+                                                {"spike", Vertex_measure::spike}});
 }
 
 // OUT with the number of a frame before its ending
@@ -356,6 +374,10 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.save_transform = values["save-transform"].as<std::string>();
     read_picks(parsed.options, line);
     check_task(line);
+    line.has_quality = values.count("quality") > 0;
+    line.color = values["color"].as<std::string>();
+    if(!line.color.empty())
+      vertex_measure(line.color);
     line.weights = chosen<Weight_choice>(
       "weights", values["weights"].as<std::string>(),
       {{"cotangent", Weight_choice::cotangent},

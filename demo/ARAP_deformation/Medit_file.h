@@ -58,7 +58,7 @@ public:
       const auto section = sections.find(keyword);
       if(section == sections.end())
         throw std::runtime_error(m_name + ": " + sentence);
-      return Words(m_source.text, section->second);
+      return Words(text(), section->second);
     };
     const std::string no_tetrahedra = "has no tetrahedra; surfaces are read from .off, .obj, .ply "
                                       "and .stl files";
@@ -85,12 +85,14 @@ public:
   }
 
 private:
+  const std::string& text() const { return m_source.text; }
+
   // Throws a message: `expected`, continued by what is there instead.
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
-    const auto line = 1 + std::count(m_source.text.begin(), m_source.text.begin() + words.begin(), '\n');
-    const bool is_end = words.begin() == m_source.text.size();
-    const auto word = std::string_view(m_source.text).substr(words.begin(), words.end() - words.begin());
+    const auto line = 1 + std::count(text().begin(), text().begin() + words.begin(), '\n');
+    const bool is_end = words.begin() == text().size();
+    const auto word = std::string_view(text()).substr(words.begin(), words.end() - words.begin());
     throw bad_line(m_name, static_cast<std::size_t>(line),
                    expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
   }
@@ -116,9 +118,9 @@ private:
   // they end at the next keyword.
   std::map<std::string_view, std::size_t> find_sections() const
   {
-    Words words(m_source.text);
+    Words words(text());
     const std::string_view first = words.next();
-    if(m_source.text.find('\0') != std::string::npos)
+    if(text().find('\0') != std::string::npos)
       throw std::runtime_error(m_name + ": is binary; of Medit's formats only the text format "
                                         ".mesh can be read, not .meshb");
     if(first != "MeshVersionFormatted")
@@ -132,7 +134,7 @@ private:
       }
       else if(is_unknown_element(word))
       {
-        Words contents(m_source.text, words.end());
+        Words contents(text(), words.end());
         if(contents.next() != "0")
           refuse(words, "only tetrahedra with four vertices can be deformed, but there are");
       }
@@ -158,8 +160,8 @@ private:
   {
     char* end = nullptr;
     const bool is_end = words.next().empty();
-    const long long value = std::strtoll(m_source.text.c_str() + words.begin(), &end, 10); // saturates
-    if(is_end || end != m_source.text.c_str() + words.end() || value < smallest || value > largest)
+    const long long value = std::strtoll(text().c_str() + words.begin(), &end, 10); // saturates
+    if(is_end || end != text().c_str() + words.end() || value < smallest || value > largest)
       refuse(words, "expected " + description() + ", but found");
     return value;
   }
@@ -168,8 +170,8 @@ private:
   {
     char* end = nullptr;
     const bool is_end = words.next().empty();
-    const double value = std::strtod(m_source.text.c_str() + words.begin(), &end);
-    if(is_end || end != m_source.text.c_str() + words.end() || !std::isfinite(value))
+    const double value = std::strtod(text().c_str() + words.begin(), &end);
+    if(is_end || end != text().c_str() + words.end() || !std::isfinite(value))
       refuse(words, "expected a finite number, a coordinate in " + row.name() + ", but found");
     return value;
   }
@@ -196,7 +198,7 @@ private:
   {
     const std::size_t shortest = 8; // in characters
     items.reserve((std::min)(static_cast<std::size_t>(row.total),
-                             (m_source.text.size() - words.end()) / shortest));
+                             (text().size() - words.end()) / shortest));
     for(row.number = 1; row.number <= row.total; ++row.number)
       items.push_back(read_row(row));
     if(const std::string_view word = words.next(); !word.empty() && !is_keyword(word))

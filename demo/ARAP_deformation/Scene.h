@@ -50,6 +50,7 @@ struct Panel
   std::vector<int> selection;
   std::string caption;
   std::vector<std::array<int, 2>> lines = {}; // thin and pale, from point to point
+  std::vector<double> values = {}; // if given, a number from 0 (pale) to 1 (dark red) per vertex
 };
 
 // The view of all panels of a picture: from the same side and at the same scale.
@@ -157,15 +158,27 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
   out << "mesh2 {\n";
   write_list(out, "vertex_vectors", points, write_vector);
   write_list(out, "normal_vectors", normals, write_vector);
-  out << "texture_list { 3, texture { Fixed } texture { Free } texture { Handle } }\n";
+  const int shades = 100;
+  const auto texture = [&](int v) {
+    return panel.values.empty() ? selection[v] : static_cast<int>(panel.values[v] * shades + 0.5);
+  };
+  if(panel.values.empty())
+    out << "texture_list { 3, texture { Fixed } texture { Free } texture { Handle } }\n";
+  else
+  {
+    out << "texture_list { " << shades + 1;
+    for(int shade = 0; shade <= shades; ++shade)
+      out << ",\ntexture { Shade(" << static_cast<double>(shade) / shades << ") }";
+    out << " }\n";
+  }
   write_list(out, "face_indices", panel.triangles, [&](const auto& t, std::ostream& list) {
     list << '<' << t[0] << ',' << t[1] << ',' << t[2] << '>';
     for(int v : t)
-      list << ',' << selection[v];
+      list << ',' << texture(v);
   });
   out << "}\n";
   for(std::size_t v = 0; v < points.size(); ++v)
-    if(selection[v] != 1 && !is_shown[v])
+    if(selection[v] != 1 && !is_shown[v] && panel.values.empty())
       out << "sphere { " << Pov{points[v]} << ", Ball texture { "
           << (selection[v] == 0 ? "Fixed" : "Handle") << " } }\n";
 }
@@ -213,6 +226,11 @@ inline constexpr const char* stage = R"(
 #declare Fixed = texture { pigment { srgb <0.82, 0.14, 0.12> } finish { Paint } }
 #declare Free = texture { pigment { srgb <0.80, 0.84, 0.90> } finish { Paint } }
 #declare Handle = texture { pigment { srgb <0.98, 0.80, 0.10> } finish { Paint } }
+#declare Shades = color_map { [0 srgb <0.93, 0.94, 0.96>] [0.25 srgb <0.99, 0.85, 0.45>]
+  [0.5 srgb <0.96, 0.55, 0.20>] [0.75 srgb <0.80, 0.15, 0.15>] [1 srgb <0.30, 0, 0.10>] }
+#macro Shade(X)
+  pigment { function { X } color_map { Shades } } finish { Paint }
+#end
 #declare Line_radius = 0.5;
 #declare Line = texture { pigment { srgb <0.18, 0.20, 0.26> } finish { emission 1 diffuse 0 } }
 #declare Pale_line = texture { pigment { srgb <0.50, 0.58, 0.70> } finish { emission 1 diffuse 0 } }

@@ -80,15 +80,45 @@ public:
   void write(Output_file& output, const std::string& format)
   {
     if(!m_is_kept)
+    {
+      if(format == ".ply" && !m_property.empty())
+      {
+        auto map = m_mesh.add_property_map<Mesh::Vertex_index, float>("v:" + m_property).first;
+        for(Mesh::Vertex_index v : m_mesh.vertices())
+          map[v] = static_cast<float>(m_values[v]);
+      }
       return write_mesh(output, m_mesh, format);
+    }
     for(Mesh::Vertex_index v : m_mesh.vertices())
       m_source.replace(m_source.points[v], m_rest_points[v] - CGAL::ORIGIN,
                        m_mesh.point(v) - CGAL::ORIGIN);
     turn_normals();
+    if(format == ".ply" && !m_property.empty())
+      insert_property();
     output.write([this](std::ostream& out) { m_source.write(out); });
   }
 
+  // What is written for each vertex besides its coordinates, if the format is .ply.
+  void set_property(const std::string& name, const std::vector<double>& values)
+  {
+    m_property = name;
+    m_values = values;
+  }
+
 private:
+  void insert_property()
+  {
+    std::string name = m_property;
+    while(m_source.text.substr(0, m_source.text.find("end_header")).find(' ' + name + '\n') !=
+          std::string::npos)
+      name += '_'; // the input has one of this name
+    m_source.insert(m_source.properties_end, "property float " + name + '\n');
+    const bool is_text = m_source.numbers == Source_text::Numbers::text;
+    for(std::size_t v = 0; v < m_values.size(); ++v)
+      m_source.insert(m_source.row_ends[v],
+                      (is_text ? " " : "") + m_source.number(m_values[v], sizeof(float)));
+  }
+
   // Each normal turns with the corners that use it.
   void turn_normals()
   {
@@ -111,6 +141,8 @@ private:
   Mesh m_mesh; // deformed
   std::vector<Kernel::Point_3> m_rest_points;
   Source_text m_source;
+  std::string m_property; // of the vertices, and its values
+  std::vector<double> m_values;
   bool m_is_kept = false; // the text is written with other coordinates
 };
 
@@ -133,6 +165,7 @@ public:
   Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
 
   void check_output(const std::string&, const std::string&) const {}
+  void set_property(const std::string&, const std::vector<double>&) {}
   std::set<std::string> dropped(const std::string&) const { return {}; }
 
   void write(Output_file& output, const std::string&)

@@ -55,6 +55,8 @@ public:
   Numbers numbers = Numbers::text;
   std::vector<Triple> points;  // of the vertices, in their order
   std::vector<Normal> normals;
+  std::size_t properties_end = 0;    // of a .ply file: where more properties of vertices go,
+  std::vector<std::size_t> row_ends; // in the header and for each vertex
 
   // The places of the next three words.
   static Triple next_triple(Words& words)

@@ -19,6 +19,8 @@
 #include "Shape_file.h"
 #include "Task.h"
 #include "mesh_panel.h"
+#include "result_quality.h"
+#include "self_intersections.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
@@ -32,6 +34,7 @@
 #include <unistd.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
@@ -96,6 +99,8 @@ struct Result
   std::vector<Report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
   double edge_length_error = 0;
+  Quality quality;
+  std::optional<std::size_t> self_intersections; // if they were looked for
   double load_seconds = 0;
 };
 
@@ -176,6 +181,14 @@ void write_report(Output_file& file, const Result& result)
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
   json["edge_length_error"] = result.edge_length_error;
+  json["area_change"] = result.quality.area_change;
+  json["volume_change"] = nullptr;
+  if(result.quality.volume_change)
+    json["volume_change"] = *result.quality.volume_change;
+  json["largest_angle_change"] = result.quality.largest_angle_change;
+  json["largest_spike"] = result.quality.largest_spike;
+  if(result.self_intersections)
+    json["self_intersections"] = *result.self_intersections;
   json["inverted_simplices"] = report.inverted_simplices;
   json["unconstrained_components"] = report.unconstrained_components;
   json["seconds"] = {{"load", result.load_seconds}};
@@ -276,6 +289,8 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.final_energy()
             << ", edge length error " << result.edge_length_error << '\n';
+  if(result.self_intersections)
+    out << *result.self_intersections << " pairs of faces intersect\n";
   if(report.inverted_simplices > 0)
     out << report.inverted_simplices << " of " << result.simplices
         << " tetrahedra are inside out\n";
@@ -320,6 +335,43 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   if(is_surface_format(mesh_format) && !is_surface_format(format))
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
                              " can only be written to an .off, .obj, .ply or .stl file");
+}
+
+// the simplices of a shape; polygons are cut as for a picture
+std::vector<std::array<int, 3>> simplices_of(const Mesh& mesh) { return skin(mesh).triangles; }
+
+const std::vector<std::array<int, 4>>& simplices_of(const Tetrahedral_mesh& mesh)
+{
+  return mesh.tetrahedra;
+}
+
+template <typename Shape>
+void measure(const Command_line& line, const Shape& shape,
+             const std::vector<Kernel::Point_3>& rest_points, const Skin& boundary, Result& result)
+{
+  const std::vector<Kernel::Point_3> points = points_of(shape.mesh());
+  std::vector<std::array<int, 3>> triangles = boundary.triangles;
+  for(auto& triangle : triangles)
+    for(int& corner : triangle)
+      corner = static_cast<int>(boundary.vertices[corner]);
+  result.quality = quality(simplices_of(shape.mesh()), triangles, rest_points, points);
+  if(line.has_quality)
+    result.self_intersections = number_of_self_intersections(triangles, points);
+}
+
+// The measures as colours: from 0 to 1 for the largest, which the caption tells.
+void colour(Panel& panel, const std::string& name, const Skin& boundary,
+            const std::vector<double>& values)
+{
+  for(std::size_t v : boundary.vertices)
+    panel.values.push_back(std::abs(values[v]));
+  const double largest = *std::max_element(panel.values.begin(), panel.values.end());
+  for(double& value : panel.values)
+    value = largest > 0 ? value / largest : 0;
+  std::ostringstream caption;
+  caption.precision(2);
+  caption << name << " up to " << largest;
+  panel.caption = caption.str();
 }
 
 // The outputs: opened before the run, so that nothing is computed in vain, and kept only after all
@@ -395,10 +447,10 @@ void run(const Command_line& line, const std::string& format)
   Outputs outputs(line);
   write_task(outputs, task);
 
-  const Skin drawn = outputs.image || outputs.film ? skin(shape.mesh()) : Skin();
+  const Skin boundary = skin(shape.mesh()); // before tetrahedra are inverted
   const auto panel_of = [&](const std::vector<Kernel::Point_3>& points,
                             const std::string& caption) {
-    return panel(drawn, points, task.selection, caption);
+    return panel(boundary, points, task.selection, caption);
   };
   View view = default_view(panel_of(rest_points, "").points);
   if(!line.view.empty())
@@ -412,8 +464,15 @@ void run(const Command_line& line, const std::string& format)
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
+  std::vector<double> color; // of each vertex
   deform(line, domain, task, progress, [&](const Report& report) {
     result.frames.push_back(report);
+    if(!line.color.empty())
+    {
+      color = measure_at_vertices(vertex_measure(line.color), simplices_of(shape.mesh()),
+                                  rest_points, points_of(shape.mesh()));
+      shape.set_property(line.color, color);
+    }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
       shape.write(*file, format);
     if(outputs.film)
@@ -421,12 +480,18 @@ void run(const Command_line& line, const std::string& format)
   });
   result.report = result.frames.back();
   result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
+  if(outputs.report || line.has_quality)
+    measure(line, shape, rest_points, boundary, result);
 
   if(outputs.image)
+  {
+    Panel after = panel_of(points_of(shape.mesh()), "after");
+    if(!color.empty())
+      colour(after, line.color, boundary, color);
     outputs.image->write([&](std::ostream& out) {
-      render({panel_of(rest_points, "before"), panel_of(points_of(shape.mesh()), "after")}, view,
-             out);
+      render({panel_of(rest_points, "before"), after}, view, out);
     });
+  }
   if(outputs.film)
   {
     progress.show("making the film ...");
@@ -448,6 +513,8 @@ void run(const Command_line& line)
 {
   const std::string format = output_format(line.output, line.mesh);
   check_mesh_files(line, format);
+  if(!line.color.empty() && line.image.empty() && format != ".ply")
+    throw std::runtime_error("--color " + line.color + ": needs a .ply file as output, or --image");
   {
     const Delayed_interruption until_folder_is_removed;
     if(!line.image.empty())

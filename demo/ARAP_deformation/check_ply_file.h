@@ -61,7 +61,11 @@ public:
       if(word == "element")
         read_element(words);
       else if(word == "property")
+      {
         read_property(words);
+        if(is_vertex(m_elements.back()))
+          m_properties_end = static_cast<std::size_t>(m_in.tellg());
+      }
       else if(word == "end_header")
         return true;
     }
@@ -135,9 +139,11 @@ public:
     source.numbers = !is_binary() ? Source_text::Numbers::text
                      : m_format == "binary_big_endian" ? Source_text::Numbers::big_endian
                                                        : Source_text::Numbers::little_endian;
+    source.properties_end = m_properties_end;
     for(const Element& element : m_elements)
       for(std::size_t i = 0; i < element.number; ++i)
       {
+        std::size_t end = 0;
         Source_text::Triple point = {}, normal = {};
         std::array<double, 3> direction = {};
         for(const Property& p : element.properties)
@@ -146,8 +152,7 @@ public:
             m_in >> std::ws;
           const auto begin = static_cast<std::size_t>(m_in.tellg());
           const double value = read(p);
-          const std::size_t end = m_in.eof() ? source.text.size()
-                                             : static_cast<std::size_t>(m_in.tellg());
+          end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
           if(is_position(p))
             point[p.name[0] - 'x'] = {begin, end};
           if(is_normal(p))
@@ -159,6 +164,7 @@ public:
         if(!is_vertex(element))
           continue;
         source.points.push_back(point);
+        source.row_ends.push_back(end);
         if(direction != std::array<double, 3>())
           source.normals.push_back(
             {normal, {direction[0], direction[1], direction[2]},
@@ -337,7 +343,7 @@ private:
 
   std::istream& m_in;
   const std::string& m_file;
-  std::size_t m_bytes;
+  std::size_t m_bytes, m_properties_end = 0; // of the vertices, in the header
   std::string m_format = "ascii";
   std::vector<Element> m_elements;
   double m_total = 0; // number of elements

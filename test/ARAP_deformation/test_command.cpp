@@ -741,6 +741,84 @@ void test_picks()
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
 }
 
+// Measures of the result, where they are known.
+void test_quality()
+{
+  const auto report = [](const std::string& file) {
+    return nlohmann::json::parse(content(folder / file));
+  };
+  test_case() = "quality of an affine map of all";
+  write("map.def", "0 -2 0 0\n2 0 0 0\n0 0 2 5\n0 0 0 1\n");
+  CHECK(run("in.off --handle z:0.. --transform map.def -o new.off --report r.json --quality")
+          .exit_code == 0);
+  auto json = report("r.json");
+  CHECK_AT_MOST(std::abs(json["area_change"].get<double>() - 3), 1e-12);
+  CHECK(json["volume_change"].is_null()); // the tube is open
+  CHECK_AT_MOST(json["largest_angle_change"].get<double>(), 1e-5);
+  CHECK_AT_MOST(json["largest_spike"].get<double>(), 1e-12);
+  CHECK(json["self_intersections"] == 0);
+
+  test_case() = "a stretched tetrahedron, closed, as text";
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\n"
+                             "property double y\nproperty double z\n";
+  const std::string header_end = "element face 4\nproperty list uchar int vertex_indices\n"
+                                 "end_header\n";
+  write("corner.ply", header + header_end + corners + faces);
+  write("stretch.def", "1 0 0 0\n0 1 0 0\n0 0 2 0\n0 0 0 1\n");
+  const std::string call = "corner.ply --handle z:0.. --transform stretch.def --report r.json "
+                           "--quality -o ";
+  CHECK(run(call + "new.ply --color edge_error").exit_code == 0);
+  json = report("r.json");
+  const double area = 1.5 + std::sqrt(3.) / 2, stretched = 0.5 + 2 + 1.5;
+  CHECK_AT_MOST(std::abs(json["area_change"].get<double>() - (stretched / area - 1)), 1e-12);
+  CHECK_AT_MOST(std::abs(json["volume_change"].get<double>() - 1), 1e-12);
+  // from 45 to atan(2), and from 60 to the angles of an isosceles triangle with sides sqrt(5)
+  const double degree = std::acos(-1.0) / 180;
+  const double angle = (std::max)(std::atan(2) / degree - 45,
+                                  60 - 2 * std::asin(std::sqrt(0.1)) / degree);
+  CHECK_AT_MOST(std::abs(json["largest_angle_change"].get<double>() - angle), 1e-6);
+  const std::string text = content(folder / "new.ply");
+  const std::string new_header = header + "property float edge_error\n" + header_end;
+  CHECK(text.substr(0, new_header.size()) == new_header);
+  std::istringstream in(text.substr((std::min)(new_header.size(), text.size())));
+  const double d = std::sqrt(5.) - std::sqrt(2.); // of a slanted edge
+  for(const double expected : {std::sqrt(1. / 3), std::sqrt(d * d / 5), std::sqrt(d * d / 5),
+                               std::sqrt((1 + 2 * d * d) / 5)})
+  {
+    double x = 0, y = 0, z = 0, value = 0;
+    CHECK(in >> x >> y >> z >> value);
+    CHECK_AT_MOST(std::abs(value - expected), 1e-7);
+  }
+  CHECK(run(call + "new2.ply --color area").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float area\n") != std::string::npos);
+  CHECK(run("new.ply --handle z:0.. --move 0,0,1 -o new2.ply --color edge_error").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float edge_error_\n") != std::string::npos);
+  CHECK(run("in.off --handle z:..1 --rotate x 90 -o new2.ply --color spike").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float spike\n") != std::string::npos);
+  check_refused(call + "new3.off --color edge_error", 1, "needs a .ply file as output, or --image");
+  check_refused(call + "new3.ply --color red", 2, "use one of edge_error, area, volume, angle");
+
+  test_case() = "one triangle through another";
+  write("two.off", "OFF\n6 2 0\n0 0 0\n2 0 0\n0 2 0\n0 0 1\n2 0 1\n0 2 1\n3 0 1 2\n3 3 4 5\n");
+  for(const auto& [step, pairs] : {std::pair("-0.5", 0), std::pair("-1", 1)})
+  {
+    CHECK(run("two.off --fix list:0,1,2 --handle list:3,4 --move 0,0,1 --handle list:5 --move "
+              "0.5,-1," + std::string(step) + "5 -o new.off --report r.json --quality").exit_code ==
+          0);
+    CHECK(report("r.json")["self_intersections"] == pairs);
+  }
+
+  test_case() = "a spike";
+  write("fan.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 2 3\n"
+                   "3 0 3 4\n3 0 4 1\n");
+  CHECK(run("fan.off --fix list:1,2,3,4 --handle list:0 --move 0,0,1 -o new.off --report r.json")
+          .exit_code == 0);
+  CHECK_AT_MOST(std::abs(report("r.json")["largest_spike"].get<double>() - std::sqrt(0.5)), 1e-12);
+  CHECK(!report("r.json").contains("self_intersections"));
+}
+
 void test_help()
 {
   test_case() = "help";
@@ -750,7 +828,7 @@ void test_help()
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
        "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
        "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
-       "--animation", "--view", "--save-selection", "--save-transform"})
+       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform"})
     CHECK(help.out.find(option) != std::string::npos);
 }
 
@@ -765,6 +843,7 @@ void test_all()
   test_handles();
   test_frames();
   test_picks();
+  test_quality();
   test_refusals();
 }
 

@@ -338,7 +338,8 @@ void test_kept()
     test_case() = file;
     write(file, text);
     const std::string output = "new" + file.substr(file.find('.'));
-    const Run done = run(file + " --fix x:0.. --handle x:..-1 --transform quarter.def -o " + output);
+    const Run done = run(file + " --fix x:0.. --handle x:..-1 --transform quarter.def -o " +
+                         output);
     if(!CHECK(done.exit_code == 0 && done.err.empty()))
       std::cerr << "    " << done.err;
     return content(folder / output);
@@ -355,7 +356,7 @@ void test_kept()
                           "f 3/1/2 -1/2/-1 1/2/2\nl 1 2";
   std::string obj = deformed("kept.obj", start + "v -1.00 0.5 0\nvn 0 0 2\nvn 0 1 0\n" + end);
   const std::size_t turned = start.size() + std::string("v 0 0.5 1\n").size();
-  CHECK(obj.substr(0, turned) == start + "v 0 0.5 1\n"); // the normal of the first face is as it was
+  CHECK(obj.substr(0, turned) == start + "v 0 0.5 1\n"); // the first normal is as it was
   CHECK(obj.size() > turned + end.size() && obj.substr(obj.size() - end.size()) == end);
   std::istringstream normals(obj.substr((std::min)(turned, obj.size())));
   for(const auto& expected : {std::array<double, 3>{2, 0, 0}, {0, 1, 0}})
@@ -730,7 +731,8 @@ std::string make_arguments(Changes& changes, const std::string& mesh, bool is_ch
     {mesh}, {"--selection", "in.sel"}, {"--transform", "in.def"}, {"-o", "out" + kind},
     {"--report=r.json"}, {"--iterations", "5"}, {"--cells", "spokes"}, {"--weights", "uniform"},
     {"--minimizer", "quasi_newton"}, {"--initial_guess", "laplacian"}, {"--threads=1"},
-    {"--quiet"}};
+    {"--quiet"}, {"--frames", "2"}, {"--region", "x:-50%..0.5"}, {"--fix", "near:0,0,1"},
+    {"--save-selection", "new.sel"}, {"--soft", "3"}, {"--quality"}};
   options.resize(4 + changes.below(options.size() - 3));
   for(std::size_t i = options.size(); i > 1; --i)
     std::swap(options[i - 1], options[changes.below(i)]);
