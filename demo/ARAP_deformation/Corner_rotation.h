@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/boost/graph/iterator.h>
 
 #include <cmath>
 #include <utility>
@@ -46,6 +47,23 @@ public:
       if(const double length = std::sqrt(from.squared_length() * to.squared_length()); length > 0)
         for(int k = 0; k < 9; ++k)
           m_covariance[k] += to[k / 3] * from[k % 3] / length;
+  }
+
+  // Inserts the corner of a face at a vertex.
+  void insert(Mesh::Face_index f, Mesh::Vertex_index v)
+  {
+    for(Mesh::Halfedge_index h : CGAL::halfedges_around_face(m_mesh.halfedge(f), m_mesh))
+      if(m_mesh.target(h) == v)
+        insert(h);
+  }
+
+  // Inserts the corners of all faces at a vertex.
+  void insert(Mesh::Vertex_index v)
+  {
+    if(!m_mesh.is_isolated(v))
+      for(Mesh::Halfedge_index h : CGAL::halfedges_around_target(m_mesh.halfedge(v), m_mesh))
+        if(!m_mesh.is_border(h))
+          insert(h);
   }
 
   // whether a corner has another form or direction than before

@@ -17,6 +17,7 @@
 // one animated glTF, which needs no pictures.
 
 #include "Delayed_interruption.h"
+#include "Gltf.h"
 #include "Output_file.h"
 #include "Scene.h"
 #include "shape_files.h"
@@ -24,15 +25,10 @@
 #ifdef CGAL_ARAP_DEMO_WITH_GIFLIB
 #include <gif_lib.h>
 #endif
-#ifdef CGAL_ARAP_DEMO_WITH_TINYGLTF
-#include <tiny_gltf.h>
-#endif
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -52,13 +48,8 @@ public:
     const auto refuse = [&file](const std::string& why) {
       throw std::runtime_error("--animation " + file + ": " + why);
     };
-    if(format == ".gltf" || format == ".glb")
-    {
-#ifndef CGAL_ARAP_DEMO_WITH_TINYGLTF
-      refuse("this arap_deform was built without TinyGLTF (Debian: libtinygltf-dev)");
-#endif
+    if(is_gltf_format(format))
       return;
-    }
     if(format == ".mp4" || format == ".webm")
     {
       const internal::Temporary_folder folder;
@@ -93,10 +84,8 @@ public:
 
   void write(std::ostream& out)
   {
-#ifdef CGAL_ARAP_DEMO_WITH_TINYGLTF
-    if(m_format == ".gltf" || m_format == ".glb")
+    if(is_gltf_format(m_format))
       return write_gltf(out);
-#endif
     const internal::Temporary_folder folder;
     m_view.box = m_box;
     for(std::size_t frame = 0; frame < m_frames.size(); ++frame)
@@ -184,101 +173,35 @@ private:
   }
 #endif
 
-#ifdef CGAL_ARAP_DEMO_WITH_TINYGLTF
   // The shape at rest, a morph target for each frame, and an animation of their weights.
   void write_gltf(std::ostream& out) const
   {
-    tinygltf::Model model;
-    model.asset.version = "2.0";
-    model.asset.generator = "arap_deform";
-    model.buffers.resize(1);
-
-    // Appends numbers to the buffer as an accessor, and returns its index.
-    const auto append = [&model](const auto& values, int type, int width, int target) {
-      using Value = typename std::decay_t<decltype(values)>::value_type;
-      auto& data = model.buffers[0].data;
-      tinygltf::BufferView view;
-      view.buffer = 0;
-      view.byteOffset = data.size();
-      view.byteLength = values.size() * sizeof(Value);
-      view.target = target;
-      const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-      data.insert(data.end(), bytes, bytes + view.byteLength);
-      tinygltf::Accessor accessor;
-      accessor.bufferView = static_cast<int>(model.bufferViews.size());
-      accessor.componentType = std::is_same_v<Value, float> ? TINYGLTF_COMPONENT_TYPE_FLOAT
-                                                            : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-      accessor.type = type;
-      accessor.count = values.size() / width;
-      if(type == TINYGLTF_TYPE_VEC3 || target == 0) // glTF asks for the bounds of these
-        for(int k = 0; k < width; ++k)
-        {
-          accessor.minValues.push_back(values[k]);
-          accessor.maxValues.push_back(values[k]);
-          for(std::size_t i = k; i < values.size(); i += width)
-          {
-            accessor.minValues[k] = (std::min)(accessor.minValues[k], double(values[i]));
-            accessor.maxValues[k] = (std::max)(accessor.maxValues[k], double(values[i]));
-          }
-        }
-      model.bufferViews.push_back(view);
-      model.accessors.push_back(accessor);
-      return static_cast<int>(model.accessors.size() - 1);
-    };
-    const auto append_points = [&](const Points& points, const Points* rest) {
-      std::vector<float> values;
-      for(std::size_t v = 0; v < points.size(); ++v)
-        for(int k = 0; k < 3; ++k)
-          values.push_back(static_cast<float>(points[v][k] - (rest ? (*rest)[v][k] : 0)));
-      return append(values, TINYGLTF_TYPE_VEC3, 3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    };
-
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    std::vector<std::uint32_t> corners;
-    for(const auto& triangle : m_panel.triangles)
-      corners.insert(corners.end(), triangle.begin(), triangle.end());
-    primitive.indices = append(corners, TINYGLTF_TYPE_SCALAR, 1,
-                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.attributes["POSITION"] = append_points(m_frames[0], nullptr);
+    Gltf gltf = make_gltf(m_frames[0], m_panel.triangles);
     const std::size_t n = m_frames.size();
-    std::vector<float> times, weights(n * (n - 1), 0.f);
-    for(std::size_t frame = 0; frame < n; ++frame)
+    std::vector<float> times(n, 0.f), weights(n * (n - 1), 0.f);
+    Gltf::Json targets = Gltf::Json::array();
+    for(std::size_t frame = 1; frame < n; ++frame)
     {
-      times.push_back(static_cast<float>(frame) / frames_per_second);
-      if(frame == 0)
-        continue;
-      primitive.targets.push_back({{"POSITION", append_points(m_frames[frame], &m_frames[0])}});
+      std::vector<float> steps;
+      for(std::size_t v = 0; v < m_frames[0].size(); ++v)
+        for(int k = 0; k < 3; ++k)
+          steps.push_back(static_cast<float>(m_frames[frame][v][k] - m_frames[0][v][k]));
+      targets.push_back({{"POSITION", gltf.append(steps, "VEC3", Gltf::VERTICES)}});
+      times[frame] = static_cast<float>(frame) / frames_per_second;
       weights[frame * (n - 1) + frame - 1] = 1;
     }
-    tinygltf::Mesh mesh;
-    mesh.primitives.push_back(primitive);
-    mesh.weights.assign(n - 1, 0.);
-    model.meshes.push_back(mesh);
-    tinygltf::Node node;
-    node.mesh = 0;
-    model.nodes.push_back(node);
-    tinygltf::Scene scene;
-    scene.nodes.push_back(0);
-    model.scenes.push_back(scene);
-    model.defaultScene = 0;
-
-    tinygltf::Animation animation;
-    tinygltf::AnimationSampler sampler;
-    sampler.input = append(times, TINYGLTF_TYPE_SCALAR, 1, 0);
-    sampler.output = append(weights, TINYGLTF_TYPE_SCALAR, 1, 0);
-    sampler.interpolation = "LINEAR";
-    animation.samplers.push_back(sampler);
-    tinygltf::AnimationChannel channel;
-    channel.sampler = 0;
-    channel.target_node = 0;
-    channel.target_path = "weights";
-    animation.channels.push_back(channel);
-    model.animations.push_back(animation);
-    if(!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, true, m_format == ".glb"))
-      out.setstate(std::ios::failbit);
+    Gltf::Json& json = gltf.json;
+    json["meshes"][0]["primitives"][0]["targets"] = targets;
+    json["meshes"][0]["weights"] = std::vector<double>(n - 1, 0.);
+    const std::size_t input = gltf.append(times, "SCALAR"), output = gltf.append(weights, "SCALAR");
+    json["accessors"][input]["min"] = {times.front()}; // of an input these are required
+    json["accessors"][input]["max"] = {times.back()};
+    Gltf::Json animation;
+    animation["samplers"] = {{{"input", input}, {"output", output}}};
+    animation["channels"] = {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}};
+    json["animations"].push_back(animation);
+    gltf.write(out, m_format == ".glb");
   }
-#endif
 
   std::string m_format;
   View m_view;

@@ -16,13 +16,15 @@
 // construction, deformed through its domain, and written.
 
 #include "Corner_rotation.h"
+#include "Gltf_file.h"
 #include "Medit_file.h"
+#include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/helpers.h>
 
 #include <array>
 #include <cstddef>
@@ -68,9 +70,11 @@ public:
     if(m_is_kept)
       return {};
     std::set<std::string> result = m_dropped;
-    if((format == ".obj" || format == ".stl") && has_colours(m_mesh))
+    if(format != ".off" && format != ".ply" && has_colours(m_mesh))
       result.insert("colours");
-    if(format == ".stl" && m_format != ".stl")
+    if(is_gltf_format(format) && !CGAL::is_triangle_mesh(m_mesh))
+      result.insert("polygons (they are cut into triangles)");
+    if((format == ".stl" || is_gltf_format(format)) && m_format != ".stl")
       result.insert("double precision");
     if(format == ".stl" && has_isolated_vertices(m_mesh))
       result.insert("vertices without a face");
@@ -82,10 +86,12 @@ public:
     if(!m_is_kept)
     {
       if(format == ".ply" && !m_property.empty())
+        set_vertex_property(m_mesh, m_property, m_values);
+      if(is_gltf_format(format))
       {
-        auto map = m_mesh.add_property_map<Mesh::Vertex_index, float>("v:" + m_property).first;
-        for(Mesh::Vertex_index v : m_mesh.vertices())
-          map[v] = static_cast<float>(m_values[v]);
+        const Panel all = panel(m_mesh, std::vector<int>(m_rest_points.size()), "");
+        Gltf gltf = make_gltf(all.points, all.triangles);
+        return output.write([&](std::ostream& out) { gltf.write(out, format == ".glb"); });
       }
       return write_mesh(output, m_mesh, format);
     }
@@ -126,11 +132,10 @@ private:
     {
       Corner_rotation turned(m_mesh, m_rest_points);
       for(const auto& [face, vertex] : normal.corners)
-        if(const Mesh::Vertex_index v(static_cast<Mesh::size_type>(vertex)); !m_mesh.is_isolated(v))
-          for(Mesh::Halfedge_index h : CGAL::halfedges_around_target(m_mesh.halfedge(v), m_mesh))
-            if(const Mesh::Face_index f = m_mesh.face(h);
-               f != Mesh::null_face() && (!face || *face == std::size_t(f)))
-              turned.insert(h);
+        if(const Mesh::Vertex_index v(static_cast<Mesh::size_type>(vertex)); face)
+          turned.insert(Mesh::Face_index(static_cast<Mesh::size_type>(*face)), v);
+        else
+          turned.insert(v);
       if(turned.has_moved())
         m_source.replace(normal.place, normal.value, turned(normal.value));
     }

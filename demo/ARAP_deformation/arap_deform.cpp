@@ -41,6 +41,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -213,9 +214,9 @@ void expect_success(const Command_line& line, const CGAL::ARAP::Outcome& outcome
 }
 
 // Deforms the shape of a domain, each frame from the one before; after_frame(report) follows each.
-template <typename Domain, typename After_frame>
+template <typename Domain>
 void deform(const Command_line& line, const Domain& domain, const Task& task, Progress& progress,
-            const After_frame& after_frame)
+            const std::function<void(const Report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
@@ -324,8 +325,8 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const std::string mesh_format = lower_case_extension(line.mesh);
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
-      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl or "
-                                      ".mesh");
+      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
+                                      ".gltf, .glb or .mesh");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);
@@ -334,7 +335,8 @@ void check_mesh_files(const Command_line& line, const std::string& format)
                              " can only be written to a .mesh file");
   if(is_surface_format(mesh_format) && !is_surface_format(format))
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
-                             " can only be written to an .off, .obj, .ply or .stl file");
+                             " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "
+                             "file");
 }
 
 // the simplices of a shape; polygons are cut as for a picture
@@ -525,6 +527,8 @@ void run(const Command_line& line)
   check_interrupted();
   if(is_tetrahedra_format(format))
     run<Tetrahedra_file>(line, format);
+  else if(is_gltf_format(lower_case_extension(line.mesh)))
+    run<Gltf_file>(line, format);
   else
     run<Surface_file>(line, format);
 }

@@ -138,6 +138,23 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
 
 } // namespace internal
 
+// Throws if the mesh has no faces, or coordinates that are not finite.
+inline void check_mesh(const std::string& file, const Mesh& mesh)
+{
+  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
+    throw std::runtime_error(file + ": has no faces");
+  for(Mesh::Vertex_index v : mesh.vertices())
+    for(int k = 0; k < 3; ++k)
+      if(!std::isfinite(mesh.point(v)[k]))
+        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
+                                 " has a coordinate that is infinite or not a number");
+  for(Mesh::Face_index f : mesh.faces())
+    if(mesh.degree(f) < 3)
+      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
+                               "least three");
+}
+
 // Reads a surface of triangles and polygons; all its coordinates are finite. Inserts what the mesh
 // does not have of the file into `dropped`.
 inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
@@ -156,18 +173,7 @@ inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
     throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
                              lower_case_extension(file) + " files, or has a coordinate that "
                              "is not a finite number");
-  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
-    throw std::runtime_error(file + ": has no faces");
-  for(Mesh::Vertex_index v : mesh.vertices())
-    for(int k = 0; k < 3; ++k)
-      if(!std::isfinite(mesh.point(v)[k]))
-        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
-                                 " has a coordinate that is infinite or not a number");
-  for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) < 3)
-      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
-                               "least three");
+  check_mesh(file, mesh);
   return mesh;
 }
 

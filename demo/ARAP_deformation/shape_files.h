@@ -127,9 +127,15 @@ inline std::string lower_case_extension(const std::string& file)
 }
 
 // Formats of meshes are lower-case extensions.
+inline bool is_gltf_format(const std::string& format)
+{
+  return format == ".gltf" || format == ".glb";
+}
+
 inline bool is_surface_format(const std::string& format)
 {
-  return format == ".off" || format == ".obj" || format == ".ply" || format == ".stl";
+  return format == ".off" || format == ".obj" || format == ".ply" || format == ".stl" ||
+         is_gltf_format(format);
 }
 
 inline bool is_tetrahedra_format(const std::string& format) { return format == ".mesh"; }
@@ -196,13 +202,18 @@ inline std::runtime_error bad_line(const std::string& file, std::size_t number,
   return std::runtime_error(file + ", line " + std::to_string(number) + ": " + what);
 }
 
-// Quotes a word of a file, which may contain anything, for a message.
-inline std::string in_quotes(std::string_view word)
+// The text of a file, which may contain anything, for a message.
+inline std::string printable(std::string_view part)
 {
-  std::string text(word.substr(0, 40));
+  std::string text(part);
   for(char& c : text)
     c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-  return "'" + text + "'";
+  return text;
+}
+
+inline std::string in_quotes(std::string_view word)
+{
+  return "'" + printable(word.substr(0, 40)) + "'";
 }
 
 // Throws if more than white space and comments is left of a file in which `contents` was read.
@@ -325,6 +336,15 @@ inline bool has_isolated_vertices(const Mesh& mesh)
 {
   return std::any_of(mesh.vertices().begin(), mesh.vertices().end(),
                      [&mesh](Mesh::Vertex_index v) { return mesh.is_isolated(v); });
+}
+
+// Sets a property that a .ply file holds.
+inline void set_vertex_property(Mesh& mesh, const std::string& name,
+                                const std::vector<double>& values)
+{
+  auto map = mesh.add_property_map<Mesh::Vertex_index, float>("v:" + name).first;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    map[v] = static_cast<float>(values[v]);
 }
 
 inline void write_mesh(Output_file& file, const Mesh& mesh, const std::string& format = ".off")

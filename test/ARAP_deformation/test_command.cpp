@@ -34,7 +34,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -326,8 +328,8 @@ void test_refusals()
     check_refused(file + rest, 1, phrase);
   };
   mesh("missing.off", "missing.off: there is no such file");
-  mesh(".", "ends in .off, .obj, .ply, .stl or .mesh");
-  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl or .mesh");
+  mesh(".", "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
+  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
   for(const std::string extension : {"off", "obj", "ply", "stl"})
   {
     write("empty." + extension, "");
@@ -608,7 +610,7 @@ void test_frames()
   {
     const auto gltf = nlohmann::json::parse(content(folder / "film.gltf"));
     CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
-    CHECK(gltf["accessors"][1]["count"] == shape.points.size());
+    CHECK(gltf["accessors"][0]["count"] == shape.points.size());
     CHECK(gltf["animations"][0]["channels"][0]["target"]["path"] == "weights");
   }
   const std::string shell_command = command;
@@ -741,6 +743,129 @@ void test_picks()
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
 }
 
+struct Glb
+{
+  nlohmann::json json;
+  std::vector<float> numbers; // in its buffer
+};
+
+Glb read_glb(const std::string& file)
+{
+  const std::string bytes = content(folder / file);
+  std::uint32_t size = 0;
+  CHECK(bytes.size() > 20 && bytes.substr(0, 4) == "glTF");
+  std::memcpy(&size, bytes.data() + 12, 4);
+  Glb result{nlohmann::json::parse(bytes.substr(20, size)), {}};
+  CHECK(bytes.substr(24 + size, 4) == std::string("BIN\0", 4));
+  result.numbers.resize((bytes.size() - 28 - size) / 4);
+  std::memcpy(result.numbers.data(), bytes.data() + 28 + size, 4 * result.numbers.size());
+  return result;
+}
+
+// Two triangles, of two vertices each at their common edge, since their texture coordinates differ
+// there; in a node that is turned, scaled and moved.
+void test_gltf()
+{
+  test_case() = "glTF";
+  using P = Eigen::Vector3d;
+  const std::vector<P> local = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
+  const P normal(0, 0, 1);
+  std::vector<float> numbers;
+  for(const P& p : local)
+    numbers.insert(numbers.end(), {float(p.x()), float(p.y()), float(p.z())});
+  for(std::size_t i = 0; i < local.size(); ++i)
+    numbers.insert(numbers.end(), {0, 0, 1});
+  for(std::size_t i = 0; i < local.size(); ++i)
+    numbers.insert(numbers.end(), {float(i), 0.5f});
+  write("part.bin", std::string(reinterpret_cast<const char*>(numbers.data()),
+                                4 * numbers.size()));
+  auto json = nlohmann::json::parse(R"({
+    "asset": {"version": "2.0", "extras": {"by": "hand"}},
+    "buffers": [{"uri": "part.bin", "byteLength": 192}],
+    "bufferViews": [{"buffer": 0, "byteLength": 144}, {"buffer": 0, "byteOffset": 144,
+                                                       "byteLength": 48}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
+                  {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 6,
+                   "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"}],
+    "materials": [{"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
+                                "material": 0}]}],
+    "nodes": [{"children": [1], "translation": [1, 2, 3]},
+              {"mesh": 0, "rotation": [0.6, 0, 0, 0.8], "scale": [2, 2, 2]}],
+    "scenes": [{"nodes": [0]}]})");
+  write("in.gltf", json.dump());
+  CHECK(run("in.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o out.glb --quiet").exit_code == 0);
+  const Glb glb = read_glb("out.glb");
+  const Eigen::Affine3d to_scene = Eigen::Translation3d(1, 2, 3) *
+                                   Eigen::Quaterniond(0.8, 0.6, 0, 0) * Eigen::Scaling(2.);
+  const Eigen::Affine3d turn =
+    Eigen::Translation3d(0, 1, 0) *
+    Eigen::AngleAxisd(50 * std::acos(-1.0) / 180, P(1, 2, 3).normalized()) *
+    Eigen::Translation3d(0, -1, 0);
+  const Eigen::Affine3d expected = to_scene.inverse() * turn * to_scene;
+  for(std::size_t i = 0; i < 6; ++i)
+    for(int k = 0; k < 3; ++k)
+    {
+      CHECK_AT_MOST(std::abs(glb.numbers[3 * i + k] - (expected * local[i])[k]), 1e-6);
+      CHECK_AT_MOST(std::abs(glb.numbers[18 + 3 * i + k] - (expected.linear() * normal)[k]), 1e-6);
+    }
+  for(std::size_t i = 36; i < numbers.size(); ++i)
+    CHECK(glb.numbers[i] == numbers[i]);
+  auto rest = glb.json;
+  for(const char* bound : {"min", "max"})
+  {
+    CHECK(rest["accessors"][0][bound].size() == 3);
+    rest["accessors"][0].erase(bound);
+  }
+  rest["buffers"] = json["buffers"];
+  CHECK(rest == json); // all else is kept
+
+  test_case() = "glTF to other formats and back";
+  const std::string stay = " --handle x:-99.. --move 0,0,0 --quiet -o ";
+  CHECK(run("out.glb" + stay + "out.gltf").exit_code == 0);
+  CHECK(run("out.gltf" + stay + "out2.glb").exit_code == 0);
+  CHECK(content(folder / "out2.glb") == content(folder / "out.glb"));
+  CHECK(run("in.gltf" + stay + "out.off").exit_code == 0);
+  const auto points = read_points("out.off");
+  CHECK(points.size() == 4); // the seam is closed
+  CHECK_AT_MOST((points[1] - to_scene * local[1]).norm(), 1e-12);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.off --quiet").exit_code == 0);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.glb --quiet").exit_code == 0);
+  CHECK(run("tube.glb" + stay + "tube2.off").exit_code == 0);
+  const auto tube = read_points("tube.off"), tube2 = read_points("tube2.off");
+  CHECK(tube.size() == tube2.size());
+  for(std::size_t v = 0; v < tube.size() && v < tube2.size(); ++v)
+    CHECK_AT_MOST((tube[v] - tube2[v]).norm(), 1e-6);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.glb").err ==
+        "note: tube.glb does not keep: double precision\n");
+
+  write("precious.off", "precious");
+  const auto refuse = [&](const std::string& pointer, const nlohmann::json& value,
+                          const std::string& phrase) {
+    auto bad = json;
+    bad[nlohmann::json::json_pointer(pointer)] = value;
+    write("bad.gltf", bad.dump());
+    check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
+  };
+  refuse("/nodes/1/skin", 0, "the node 1 has a skin");
+  refuse("/nodes/0/children/0", 0, "the node 0 is there twice");
+  refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
+  refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
+  refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
+  refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
+  refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
+  refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
+  refuse("/accessors/0/count", 7000, "has an accessor that does not fit into its buffer");
+  refuse("/accessors/0/count", -1, "has an accessor that does not fit into its buffer");
+  refuse("/accessors/0/componentType", 5123, "has positions or normals that are quantized");
+  refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
+  refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");
+  refuse("/buffers/0/uri", "data:;base64,=*=", "has a buffer that is not in base64");
+  write("bad.glb", content(folder / "out.glb").substr(0, 300));
+  check_refused("bad.glb" + stay + "precious.off", 1, "bad.glb: ");
+}
+
 // Measures of the result, where they are known.
 void test_quality()
 {
@@ -843,6 +968,7 @@ void test_all()
   test_handles();
   test_frames();
   test_picks();
+  test_gltf();
   test_quality();
   test_refusals();
 }
@@ -1227,7 +1353,7 @@ void test_refusals()
   check_refused(good_call + "-o out.off", 1,
                 "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
                 "file");
-  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl or .mesh");
+  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
   write("five.sel", "0\n1\n1\n2\n1\n");
   check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,
                 "has 5 statuses, but the mesh has 4 vertices");

@@ -699,7 +699,7 @@ Files make_files()
                  "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"}};
   for(const auto& [name, text] : files)
     write(name, text);
-  for(const std::string name : {"in.obj", "in.ply", "in.stl"})
+  for(const std::string name : {"in.obj", "in.ply", "in.stl", "in.gltf", "in.glb"})
   {
     test_case() = name;
     CHECK(run("in.off --selection in.sel --transform in.def --iterations 1 -o " + name).exit_code ==
@@ -785,7 +785,8 @@ void test_all(int runs, unsigned int seed)
   limit_command();
   const Files good = make_files();
   const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
-                                           "text.ply", "in.stl", "text.stl", "in.mesh"};
+                                           "text.ply", "in.stl", "text.stl", "in.mesh",
+                                           "in.gltf", "in.glb"};
   std::map<int, int> exit_codes;
   for(int i = 0; i < runs; ++i)
   {
