@@ -60,9 +60,9 @@ struct View
   Vector up{0, 0, 1};        // also the normal of the ground
   int width = 480;           // of one panel, in pixels
   int height = 640;
-  std::optional<CGAL::Bbox_3> box = {}; // what each panel shows; by default its own points
   bool show_edges = false;   // draw the edges of the triangles as thin lines
   bool show_ground = true;   // let the shapes cast a shadow on the ground under them
+  std::optional<CGAL::Bbox_3> box = {}; // what each panel shows; by default its own points
 };
 
 // A view of the broad side of the shape, slightly from the right and above. Up is the longest axis

@@ -371,7 +371,7 @@ void colour(Panel& panel, const std::string& name, const Skin& boundary,
   for(double& value : panel.values)
     value = largest > 0 ? value / largest : 0;
   std::ostringstream caption;
-  caption.precision(2);
+  caption.precision(3);
   caption << name << " up to " << largest;
   panel.caption = caption.str();
 }
