@@ -101,7 +101,7 @@ inline boost::program_options::options_description described_options()
      "write the matrices of the handles at the end");
   output.add_options()
     ("output,o", value<std::string>()->value_name("OUT")->required(),
-     "the deformed mesh: .mesh if MESH is a .mesh file, else one of the others")
+     "the deformed mesh; for tetrahedra .mesh or the format of MESH")
     ("frames", value<std::string>()->value_name("N"),
      "write OUT-0001 to OUT-N, the way to the end in N frames, each from the one before")
     ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
@@ -148,8 +148,8 @@ inline void print_help(std::ostream& out)
          "holds the lowest twentieth of the shape, turns the top, and lets the rest follow\n"
          "so that every small part of it only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
-         "in a .mesh file (Medit, text). OUT is of the same kind; a pipe gets the format of\n"
-         "MESH. A note says what OUT does not keep of MESH.\n\n"
+         "in a .mesh (Medit), .msh (Gmsh) or .vtk file, as text. OUT is of the same kind; a\n"
+         "pipe gets the format of MESH. A note says what OUT does not keep of MESH.\n\n"
          "WHAT picks vertices; later options win. It is one of\n"
          "  z:90%..  y:..0.2  x:-1..1          between two x, y or z, or beyond one\n"
          "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R\n"

@@ -17,7 +17,9 @@
 
 #include "Corner_rotation.h"
 #include "Gltf_file.h"
+#include "Gmsh_file.h"
 #include "Medit_file.h"
+#include "Vtk_file.h"
 #include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
@@ -28,6 +30,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <ostream>
 #include <set>
 #include <string>
@@ -151,7 +154,7 @@ private:
   bool m_is_kept = false; // the text is written with other coordinates
 };
 
-// Tetrahedra in a .mesh file, the rest of which is kept.
+// Tetrahedra in a .mesh, .msh or .vtk file, the rest of which is kept.
 class Tetrahedra_file
 {
 public:
@@ -161,7 +164,7 @@ public:
   static constexpr const char* simplices = "tetrahedra";
 
   Tetrahedra_file(const std::string& file, const std::string&)
-    : m_file(file), m_mesh(m_file.mesh())
+    : m_format(lower_case_extension(file)), m_file(read(file)), m_mesh(m_file->mesh())
   {}
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
@@ -171,15 +174,34 @@ public:
 
   void check_output(const std::string&, const std::string&) const {}
   void set_property(const std::string&, const std::vector<double>&) {}
-  std::set<std::string> dropped(const std::string&) const { return {}; }
 
-  void write(Output_file& output, const std::string&)
+  std::set<std::string> dropped(const std::string& format) const
   {
-    output.write([this](std::ostream& out) { m_file.write(out, m_mesh.points); });
+    return format == m_format ? std::set<std::string>()
+                              : std::set<std::string>{"all but points and tetrahedra"};
+  }
+
+  void write(Output_file& output, const std::string& format)
+  {
+    if(format == m_format)
+      output.write([this](std::ostream& out) { m_file->write(out, m_mesh.points); });
+    else
+      write_mesh(output, m_mesh);
   }
 
 private:
-  Medit_file m_file;
+  static std::unique_ptr<Tetrahedra_text> read(const std::string& file)
+  {
+    const std::string format = lower_case_extension(file);
+    if(format == ".msh")
+      return std::make_unique<Gmsh_file>(file);
+    if(format == ".vtk")
+      return std::make_unique<Vtk_file>(file);
+    return std::make_unique<Medit_file>(file);
+  }
+
+  std::string m_format;
+  std::unique_ptr<Tetrahedra_text> m_file;
   Tetrahedral_mesh m_mesh; // deformed
 };
 

@@ -326,13 +326,14 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
       throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
-                                      ".gltf, .glb or .mesh");
+                                      ".gltf, .glb, .mesh, .msh or .vtk");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);
-  if(is_tetrahedra_format(mesh_format) && !is_tetrahedra_format(format))
+  if(is_tetrahedra_format(mesh_format) && format != mesh_format && format != ".mesh")
     throw std::runtime_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
-                             " can only be written to a .mesh file");
+                             " can only be written to a .mesh file" +
+                             (mesh_format == ".mesh" ? "" : ", or to a " + mesh_format + " file"));
   if(is_surface_format(mesh_format) && !is_surface_format(format))
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
                              " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "

@@ -138,7 +138,10 @@ inline bool is_surface_format(const std::string& format)
          is_gltf_format(format);
 }
 
-inline bool is_tetrahedra_format(const std::string& format) { return format == ".mesh"; }
+inline bool is_tetrahedra_format(const std::string& format)
+{
+  return format == ".mesh" || format == ".msh" || format == ".vtk";
+}
 
 inline bool is_mesh_format(const std::string& format)
 {

@@ -328,8 +328,8 @@ void test_refusals()
     check_refused(file + rest, 1, phrase);
   };
   mesh("missing.off", "missing.off: there is no such file");
-  mesh(".", "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
-  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
+  mesh(".", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
+  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
   for(const std::string extension : {"off", "obj", "ply", "stl"})
   {
     write("empty." + extension, "");
@@ -1204,6 +1204,132 @@ void test_text()
   CHECK(content(folder / "SELF.MESH") + end == moved);
 }
 
+// `good` with the first `from` replaced by `to`
+std::string replaced(const std::string& good, const std::string& from, const std::string& to)
+{
+  const std::size_t place = good.find(from);
+  CHECK(place != std::string::npos);
+  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
+}
+
+// The same tetrahedra in the formats of Gmsh and VTK, with all that may be around them.
+void test_other_formats()
+{
+  const Task task = make_task();
+  write_task(task);
+  write("in.mesh", mesh_file(shape.points));
+  const std::string rest = " --selection in.sel --transform in.def --iterations 5 --tolerance 0 "
+                           "--quiet -o ";
+  CHECK(run("in.mesh" + rest + "out.mesh").exit_code == 0);
+  const std::vector<Eigen::Vector3d> expected = read_points("out.mesh");
+  const std::size_t n = shape.points.size(), m = shape.tetrahedra.size();
+  using Points = std::vector<Eigen::Vector3d>;
+  const auto cells = [m](const std::string& start, const std::string& end, std::size_t first) {
+    std::string text;
+    for(std::size_t i = 0; i < m; ++i)
+    {
+      text += start == "#" ? std::to_string(i + 7) + ' ' : start;
+      for(std::size_t v : shape.tetrahedra[i])
+        text += std::to_string(first + v) + ' ';
+      text += end;
+    }
+    return text;
+  };
+
+  const auto msh2 = [&](const Points& points) {
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"$Nodes\"\n"
+                       "$EndPhysicalNames\n$Nodes\n" + std::to_string(n) + '\n';
+    for(std::size_t v = 0; v < n; ++v)
+      text += std::to_string(v + 100) + ' ' + row(points[v]) + '\n';
+    text += "$EndNodes\n$Elements\n" + std::to_string(m + 1) + "\n1 2 2 1 -3 100 101 102\n";
+    return text + cells("5 4 3 1 2 9 ", "\n", 100) + "$EndElements\n$NodeData\n1 2 3\n";
+  };
+  const auto msh4 = [&](const Points& points) {
+    std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 0\n$EndEntities\n"
+                       "$Nodes\n2 " + std::to_string(n) + " 1 " + std::to_string(n) + "\n1 -4 1 1\n"
+                       "1\n" + row(points[0]) + " 0.5\n3 1 0 " + std::to_string(n - 1) + '\n';
+    for(std::size_t v = 1; v < n; ++v)
+      text += std::to_string(v + 1) + '\n';
+    for(std::size_t v = 1; v < n; ++v)
+      text += row(points[v]) + '\n';
+    text += "$EndNodes\n$Elements\n2 " + std::to_string(m + 1) + " 1 9\n2 1 2 1\n5 1 2 3\n3 1 4 " +
+            std::to_string(m) + '\n';
+    return text + cells("#", "\n", 1) + "$EndElements\n";
+  };
+  const auto vtk = [&](const std::string& version, const Points& points) {
+    std::string text = "# vtk DataFile Version " + version + "\nPOINTS of a title\nASCII\nDATASET "
+                       "UNSTRUCTURED_GRID\nPOINTS " + std::to_string(n) + " double\n";
+    for(const auto& p : points)
+      text += row(p) + "  ";
+    if(version == "3.0")
+      text += "\n\nCELLS " + std::to_string(m + 1) + ' ' + std::to_string(5 * m + 4) + "\n3 0 1 2\n" +
+              cells("4 ", "\n", 0);
+    else
+    {
+      text += "\nMETADATA\nINFORMATION 0\n\nCELLS " + std::to_string(m + 2) + ' ' +
+              std::to_string(4 * m + 3) + "\nOFFSETS vtktypeint64\n0 3 ";
+      for(std::size_t i = 1; i <= m; ++i)
+        text += std::to_string(3 + 4 * i) + ' ';
+      text += "\nCONNECTIVITY vtktypeint64\n0 1 2 " + cells("", "", 0);
+    }
+    text += "\nCELL_TYPES " + std::to_string(m + 1) + "\n5\n";
+    for(std::size_t i = 0; i < m; ++i)
+      text += "10\n";
+    return text + "POINT_DATA 1\nSCALARS a float\n";
+  };
+  const auto check_same = [&](const std::string& name, const std::string& file, const auto& text) {
+    test_case() = name;
+    write("in." + file, text(shape.points));
+    const Run done = run("in." + file + rest + "out." + file);
+    if(!CHECK(done.exit_code == 0))
+      std::cerr << "    " << done.err;
+    CHECK(content(folder / ("out." + file)) == text(expected));
+    CHECK(run("in." + file + rest + "other.mesh").exit_code == 0);
+    const std::string other = content(folder / "other.mesh");
+    CHECK(other.find("Vertices " + std::to_string(n) + '\n' + row(expected[0]) + " 0\n") !=
+          std::string::npos);
+    write("precious.off", "precious");
+    check_refused("in." + file + rest + "new.off", 1, "can only be written to a .mesh file, or to a");
+  };
+  check_same("msh 2.2", "msh", msh2);
+  check_same("msh 4.1", "msh", msh4);
+  check_same("vtk 3.0", "vtk", [&](const Points& points) { return vtk("3.0", points); });
+  check_same("vtk 5.1", "vtk", [&](const Points& points) { return vtk("5.1", points); });
+
+  const auto refuse = [&](const std::string& file, const std::string& text,
+                          const std::string& phrase) {
+    write("bad." + file, text);
+    const bool is_start = phrase[0] == ':' || phrase[0] == ',';
+    check_refused("bad." + file + rest + "out2." + file, 1,
+                  (is_start ? "bad." + file : "") + phrase);
+  };
+  const std::string good = msh2(shape.points), good4 = msh4(shape.points),
+                    grid = vtk("5.1", shape.points);
+  refuse("msh", "OFF\n", ", line 1: a .msh file starts with '$MeshFormat', but this with 'OFF'");
+  refuse("msh", replaced(good, "2.2 0", "4 0"), ", line 2: only the versions 2.2 and 4.1");
+  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary; save it as text");
+  refuse("msh", replaced(good, "\n$Nodes\n", "\n$Node\n"), ": has no $Nodes");
+  refuse("msh", replaced(good, "\n101 ", "\n100 "), ", line 11: a node has the same number as");
+  refuse("msh", replaced(good, "100 101 102", "100 101 7"), ", line 58: there is no node '7'");
+  refuse("msh", replaced(good, "\n5 4 3", "\n5 5 3"), ", line 59: only tetrahedra with four vertices can be "
+                                                   "deformed, but there are elements of the type 5, "
+                                                   "after '9'");
+  refuse("msh", replaced(good4, "3 1 4 ", "3 1 11 "), ", line 107: only tetrahedra with four vertices can "
+                                                     "be deformed, but there are elements of the "
+                                                     "type 11, after '7'");
+  refuse("msh", replaced(good4, "3 1 4 ", "3 1 4 9"), ", line 187: expected an integer from 0, but found ");
+  for(std::size_t size = 100; size < good.find("$EndElements") - 20; size += 97)
+    refuse("msh", good.substr(0, size), "");
+  refuse("vtk", "vtk\n", ": does not start with '# vtk DataFile'");
+  refuse("vtk", replaced(grid, "ASCII", "BINARY"), ", line 3: only ASCII files can be read, but");
+  refuse("vtk", replaced(grid, "UNSTRUCTURED_GRID", "POLYDATA"), ", line 4: only an UNSTRUCTURED");
+  refuse("vtk", replaced(grid, "\n10\n", "\n12\n"), "a cell of the type 12 with 4 vertices, after");
+  refuse("vtk", replaced(grid, "0 1 2 ", "0 1 99999 "), "but found '99999'");
+  refuse("vtk", replaced(grid, "CELL_TYPES ", "CELL_TYPES 1"), "CELL_TYPES, but found");
+  for(std::size_t size = 60; size < grid.find("CELL_TYPES"); size += 97)
+    refuse("vtk", grid.substr(0, size), "");
+}
+
 void test_rigid_motion()
 {
   test_case() = "the boundary moves rigidly";
@@ -1265,14 +1391,6 @@ void test_inside_out()
   }
   else
     std::cout << "NOTICE: povray is not installed; no picture was tested" << std::endl;
-}
-
-// `good` with the first `from` replaced by `to`
-std::string replaced(const std::string& good, const std::string& from, const std::string& to)
-{
-  const std::size_t place = good.find(from);
-  CHECK(place != std::string::npos);
-  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
 }
 
 void test_refusals()
@@ -1353,7 +1471,7 @@ void test_refusals()
   check_refused(good_call + "-o out.off", 1,
                 "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
                 "file");
-  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl, .gltf, .glb or");
+  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
   write("five.sel", "0\n1\n1\n2\n1\n");
   check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,
                 "has 5 statuses, but the mesh has 4 vertices");
@@ -1365,6 +1483,7 @@ void test_all()
 {
   test_choices();
   test_text();
+  test_other_formats();
   test_rigid_motion();
   test_inside_out();
   test_refusals();

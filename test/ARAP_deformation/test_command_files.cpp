@@ -689,6 +689,12 @@ Files make_files()
                      "3 0 1 2 3\n3 0 2 3 4\n"},
     {"in.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
                 "0 0 1 0\n1 1 1 0\n2 1 1 0\nTetrahedra 3\n1 2 3 4 0\n2 3 4 5 1\n2 4 5 6 2\nEnd\n"},
+    {"in.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 6 1 6\n3 1 0 6\n1\n2\n3\n4\n5\n6\n"
+               "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n2 1 1\n$EndNodes\n$Elements\n1 3 1 3\n3 1 4 3\n"
+               "1 1 2 3 4\n2 2 3 4 5\n3 2 4 5 6\n$EndElements\n"},
+    {"in.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
+               "0 0 0 1 0 0 0 1 0 0 0 1 1 1 1 2 1 1\nCELLS 3 15\n4 0 1 2 3\n4 1 2 3 4\n4 1 3 4 5\n"
+               "CELL_TYPES 3\n10\n10\n10\n"},
     {"in.sel", "0\n0\n1\n1\n1\n2 # the last\n"},
     {"in.def", "1 0 0 0.1\n0 1 0 0.2\n0 0 1 0\n0 0 0 1\n"},
     {"text.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty double y\n"
@@ -786,7 +792,7 @@ void test_all(int runs, unsigned int seed)
   const Files good = make_files();
   const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
                                            "text.ply", "in.stl", "text.stl", "in.mesh",
-                                           "in.gltf", "in.glb"};
+                                           "in.gltf", "in.glb", "in.msh", "in.vtk"};
   std::map<int, int> exit_codes;
   for(int i = 0; i < runs; ++i)
   {
