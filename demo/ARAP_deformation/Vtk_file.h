@@ -102,8 +102,8 @@ private:
     static const std::set<long long> flat = {1, 2, 3, 4, 5, 6, 7, 8, 9}; // or lines, or points
     std::array<int, 4> vertices = {};
     if((type == tetrahedron && size != 4) || (type != tetrahedron && flat.count(type) == 0))
-      refuse(words, "only tetrahedra with four vertices can be deformed, but there is a cell of the "
-                    "type " + std::to_string(type) + " with " + std::to_string(size) +
+      refuse(words, "only tetrahedra with four vertices can be deformed, but there is a cell of "
+                    "the type " + std::to_string(type) + " with " + std::to_string(size) +
                     " vertices, after");
     for(long long k = 0; k < size; ++k)
     {
