@@ -13,149 +13,192 @@
 #define CGAL_ARAP_DEFORMATION_DEMO_COMMAND_LINE_H
 
 #include "Output_file.h"
+#include "Pick.h"
+#include "arguments.h"
+#include "result_quality.h"
 
 #include <CGAL/ARAP_deformation/Options.h>
 
 #include <boost/lexical_cast.hpp>
-#include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <boost/program_options.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
-#include <limits>
+#include <optional>
 #include <ostream>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
 
-// an error in the command line; the message names the option
-struct Usage_error : std::runtime_error
+enum class Weight_choice { safe_cotangent, cotangent, clamped_cotangent, uniform };
+
+// --move or --rotate
+struct Motion_step
 {
-  using std::runtime_error::runtime_error;
+  bool is_rotation;
+  Measures place; // of a move, its vector; of a rotation, its centre, empty for that of the handle
+  std::array<double, 3> axis = {};
+  double angle = 0; // in degrees
 };
 
-enum class Weight_choice { safe_cotangent, cotangent, clamped_cotangent, uniform };
+// what the options after a --handle say of it
+struct Handle_options
+{
+  std::vector<Motion_step> steps;
+  std::optional<double> weight;
+};
 
 struct Command_line
 {
   bool is_help = false;
   bool is_quiet = false;
-  std::string mesh, selection, transform, output; // files
-  std::string report, image;                      // files, empty if not asked for
+  std::string mesh, selection, output; // files; there may be no selection
+  std::vector<std::string> transforms; // files, one for each key frame
+  // files, empty if not asked for
+  std::string report, image, animation, save_selection, save_transform;
+  std::vector<std::pair<int, Pick>> picks; // with the status; later ones win
+  std::vector<Pick> region;
+  std::vector<Handle_options> handles; // of each --handle
+  Handle_options all_handles;          // where there is none
+  int frames = 1;
+  bool is_sequence = false;            // a mesh is written for each frame, not only for the last
+  std::vector<double> view;            // azimuth and elevation, or a direction; empty if not given
+  bool has_quality = false;            // self-intersections are looked for
+  std::string color;                   // what is measured at the vertices, or empty
   Weight_choice weights = Weight_choice::safe_cotangent;
   Options options;
 };
-
-// the value with the given name
-template <typename Value>
-Value chosen(const std::string& option, const std::string& name,
-             const std::vector<std::pair<std::string, Value>>& choices)
-{
-  std::string names;
-  for(const auto& [choice, value] : choices)
-  {
-    if(choice == name)
-      return value;
-    names += (names.empty() ? "" : ", ") + choice;
-  }
-  throw Usage_error("--" + option + " '" + name + "' is not known; use one of " + names);
-}
-
-// the value of an option that is a number
-template <typename Number>
-Number number(const std::string& option, const std::string& text)
-{
-  Number value = 0;
-  const bool is_number = boost::conversion::try_lexical_convert(text, value);
-  if(std::is_integral_v<Number> && (!is_number || value < 0))
-    throw Usage_error("--" + option + " '" + text + "' is not a whole number from 0 to " +
-                      std::to_string((std::numeric_limits<Number>::max)()));
-  if(!is_number)
-    throw Usage_error("--" + option + " '" + text + "' is not a number");
-  return value;
-}
 
 inline boost::program_options::options_description described_options()
 {
   using boost::program_options::value;
   const Options defaults;
-  boost::program_options::options_description input("Input and output"), run("The deformation"),
-    other("Other");
-  input.add_options()
-    ("selection", value<std::string>()->value_name("S.sel")->required(),
-     "one status per line and vertex: 0 fixed, 1 free, 2 handle; # starts a comment")
-    ("transform", value<std::string>()->value_name("T.def")->required(),
-     "4 x 4 affine matrix, row by row, applied to the handle vertices")
+  boost::program_options::options_description task("What is held and moved"), output("Output"),
+    run("The deformation"), other("Other");
+  // an option that picks or moves vertices: what it says depends on those before it
+  const auto in_order = [] { return value<std::vector<std::string>>()->composing()->multitoken(); };
+  task.add_options()
+    ("fix", in_order()->value_name("WHAT"), "these vertices stay")
+    ("handle", in_order()->value_name("WHAT"),
+     "these are a handle, for the next three options; each --handle is a new one")
+    ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
+    ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
+     "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
+    ("soft", in_order()->value_name("WEIGHT"), "its targets pull with this weight")
+    ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
+    ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
+     "instead: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a comment")
+    ("transform", value<std::vector<std::string>>()->composing()->value_name("T.def"),
+     "instead of moves: a 4 x 4 matrix, row by row, for each handle or one for all; given "
+     "several times: key frames")
+    ("save-selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
+     "write the selection that was picked")
+    ("save-transform", value<std::string>()->default_value("", "")->value_name("T.def"),
+     "write the matrices of the handles at the end");
+  output.add_options()
     ("output,o", value<std::string>()->value_name("OUT")->required(),
-     "the deformed mesh: .mesh if MESH is a .mesh file, else .off, .obj, .ply or .stl")
+     "the deformed mesh; for tetrahedra .mesh or the format of MESH")
+    ("frames", value<std::string>()->value_name("N"),
+     "write OUT-0001 to OUT-N, the way to the end in N frames, each from the one before")
+    ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
+     "of the frames: .gif, .mp4 or .webm (needs ffmpeg), .gltf or .glb")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
+    ("quality", "look for self-intersections, too, for the report")
+    ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
+     "colour the picture, and add a property to a .ply file: edge_error, area, volume, angle, "
+     "spike (how far a vertex is from its neighbours)")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
-     "draw the shape (the boundary of a volume) before and after, fixed vertices red, handles "
-     "yellow; needs the program povray");
+     "draw the shape before and after, fixed red, handles yellow; needs povray")
+    ("view", value<std::string>()->value_name("A,E"),
+     "azimuth and elevation of the eye in degrees, or its direction X,Y,Z");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
      "which edges share a rotation: spokes, spokes_and_rims, elements")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
-     "cotangent, clamped_cotangent, uniform, or safe_cotangent: clamped for spokes, unmodified "
-     "for the other cells. With cotangent and spokes the energy can be negative and the shape "
-     "distorted, especially with tetrahedra")
+     "cotangent (with spokes the energy can be negative), clamped_cotangent, uniform, or "
+     "safe_cotangent: clamped for spokes only")
     ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
-     "local_global, the iteration of the paper; quasi_newton, which needs many times fewer "
-     "iterations to the minimum; or automatic: quasi_newton unless the tolerance is 0")
+     "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
+     "quasi_newton unless the tolerance is 0")
     ("initial_guess", value<std::string>()->default_value("previous")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), laplacian")
     ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<std::string>()->value_name("T")
        ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
-     "stop when the estimated relative gap of the energy to its minimum is at most T; 0: run all "
-     "N iterations")
+     "stop when the estimated relative gap to the minimum is at most T; 0: run all N")
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
-     "use at most N threads; 0: one per processor. One if built without TBB. Does not change the "
-     "result");
+     "use at most N threads; 0: one per processor");
   other.add_options()
     ("quiet", "print only errors: no summary, no notes, no progress")
     ("help,h", "print this and exit");
-  return input.add(run).add(other);
+  return task.add(output).add(run).add(other);
 }
 
 inline void print_help(std::ostream& out)
 {
-  out << "usage: arap_deform MESH --selection S.sel --transform T.def -o OUT [options]\n\n"
-         "Deforms a surface or a volume as rigidly as possible: handle vertices are\n"
-         "transformed, fixed vertices stay, and free vertices follow so that every small\n"
-         "part of the shape only rotates (Sorkine and Alexa 2007).\n\n"
-         "MESH is a surface of triangles or polygons in an .off, .obj, .ply or .stl file,\n"
-         "or a volume of tetrahedra in a .mesh file (Medit, text). OUT is of the same kind.\n"
-         "A pipe or a device whose name does not tell the format, such as /dev/stdout, gets\n"
-         "the format of MESH.\n\n"
-         "In a .mesh file only the coordinates change: references, comments and all\n"
-         "sections are kept. For a surface, OUT has the points and the faces, and the\n"
-         "colours of an .off file if OUT is an .off or .ply file. Everything else in MESH,\n"
-         "such as normals, texture coordinates, materials and comments, is dropped; a note\n"
-         "says what, except for comments. .ply and .stl files are written in binary.\n\n"
-         "S.sel lists the vertices in the order of MESH (.stl: of their first appearance).\n"
-         "Messages count them from 0. Free vertices without a face or tetrahedron stay\n"
-         "where they are.\n\n"
+  out << "usage: arap_deform MESH -o OUT --handle WHAT --rotate AXIS ANGLE ... [options]\n\n"
+         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. --rotate y 60\n\n"
+         "holds the lowest twentieth of the shape, turns the top, and lets the rest follow\n"
+         "so that every small part of it only rotates (Sorkine and Alexa 2007).\n\n"
+         "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
+         "in a .mesh (Medit), .msh (Gmsh) or .vtk file, as text. OUT is of the same kind; a\n"
+         "pipe gets the format of MESH. A note says what OUT does not keep of MESH.\n\n"
+         "WHAT picks vertices; later options win. It is one of\n"
+         "  z:90%..  y:..0.2  x:-1..1          between two x, y or z, or beyond one\n"
+         "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R\n"
+         "  plane:X,Y,Z,NX,NY,NZ               the side to which the normal N points\n"
+         "  near:X,Y,Z                         the nearest vertex\n"
+         "  list:0,7,12  list:@FILE            numbers of vertices, from 0\n"
+         "A coordinate N% goes from 0% to 100% of the bounding box; a length N% is of its\n"
+         "diagonal.\n\n"
       << described_options()
-      << "\nThe report has the fields status, message, vertices, simplices (faces or\n"
-         "tetrahedra), free_vertices, iterations, energy (one number for the initial guess\n"
-         "and one after each iteration), estimated_relative_gap (to the minimum, null if\n"
-         "unknown), edge_length_error (relative root mean square), inverted_simplices (the\n"
-         "number of inverted tetrahedra; 0 for a surface), unconstrained_components (the\n"
-         "first vertex of each component without a path of edges of non-zero weight to a\n"
-         "fixed or handle vertex; these components stay where they are), seconds (load,\n"
-         "preprocess, deform) and peak_memory_bytes.\n\n"
+      << "\nBetween key frames the centre of a handle moves along a straight line, its\n"
+         "rotation turns at constant speed, and its stretch is interpolated linearly.\n\n"
+         "The report tells status, message, iterations, energy (initial, and after each),\n"
+         "estimated_relative_gap to the minimum, edge_length_error (relative root mean\n"
+         "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
+         "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
+         "first vertex; nothing holds them, and they stay), seconds, and more.\n\n"
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
-         "is written, and existing files are unchanged. Outputs that are not regular\n"
-         "files, such as pipes, are written to directly, /dev/stdout and the like as the\n"
-         "shell has opened them. The summary goes to the standard output, or to the\n"
-         "standard error if the standard output is OUT or PICTURE.png.\n";
+         "is written, and existing files are unchanged.\n";
+}
+
+// what --color measures
+inline Vertex_measure vertex_measure(const std::string& name)
+{
+  return chosen<Vertex_measure>("color", name, {{"edge_error", Vertex_measure::edge_error},
+                                                {"area", Vertex_measure::size},
+                                                {"volume", Vertex_measure::size},
+                                                {"angle", Vertex_measure::angle},
+                                                {"spike", Vertex_measure::spike}});
+}
+
+// OUT with the number of a frame before its ending
+inline std::string frame_file(const std::string& output, int frame)
+{
+  const std::string digits = std::to_string(frame);
+  const std::filesystem::path path(output);
+  return (path.parent_path() / (path.stem().string() + '-' +
+                                std::string(4 - (std::min)(digits.size(), std::size_t(4)), '0') +
+                                digits + path.extension().string())).string();
+}
+
+// the meshes that are written
+inline std::vector<std::string> mesh_files(const Command_line& line)
+{
+  if(!line.is_sequence)
+    return {line.output};
+  std::vector<std::string> files;
+  for(int frame = 1; frame <= line.frames; ++frame)
+    files.push_back(frame_file(line.output, frame));
+  return files;
 }
 
 // Outputs must be different files and must not be inputs; only the mesh may be deformed in place.
@@ -165,14 +208,128 @@ inline void check_outputs(const Command_line& line)
     if(!a.empty() && !b.empty() && is_same_file(a, b))
       throw Usage_error("the file " + a + " is given for two things");
   };
-  for(const std::string& output : {line.output, line.report, line.image})
-    for(const std::string& input : {line.selection, line.transform})
+  std::vector<std::string> outputs = mesh_files(line), inputs = line.transforms;
+  inputs.push_back(line.selection);
+  if(line.is_sequence)
+    for(const std::string& output : outputs)
+      check(output, line.mesh);
+  for(const std::string& other : {line.report, line.image, line.animation, line.save_selection,
+                                  line.save_transform})
+  {
+    check(other, line.mesh);
+    for(const std::string& output : outputs)
+      check(output, other);
+    outputs.push_back(other);
+  }
+  for(const std::string& output : outputs)
+    for(const std::string& input : inputs)
       check(output, input);
-  check(line.report, line.mesh);
-  check(line.image, line.mesh);
-  check(line.output, line.report);
-  check(line.output, line.image);
-  check(line.report, line.image);
+}
+
+// Reads --rotate AXIS ANGLE [X,Y,Z] as one option, however the next arguments look.
+inline std::vector<boost::program_options::option> parse_rotate(std::vector<std::string>& arguments)
+{
+  if(arguments.empty() || arguments[0] != "--rotate")
+    return {};
+  const bool has_centre = arguments.size() > 3 && split(arguments[3]).size() == 3;
+  const std::size_t n = (std::min)(arguments.size(), std::size_t(has_centre ? 4 : 3));
+  if(n < 3)
+    throw Usage_error("--rotate: expected AXIS ANGLE, such as z 90");
+  boost::program_options::option result(
+    "rotate", std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
+  arguments.erase(arguments.begin(), arguments.begin() + n);
+  return {result};
+}
+
+inline Motion_step rotation_step(const std::vector<std::string>& values)
+{
+  Motion_step step{true, {}};
+  const std::string& axis = values[0];
+  if(axis == "x" || axis == "y" || axis == "z")
+    step.axis[axis[0] - 'x'] = 1;
+  else
+  {
+    const std::vector<double> v = numbers("--rotate", axis, "x,y,z");
+    std::copy(v.begin(), v.end(), step.axis.begin());
+    if(step.axis == std::array<double, 3>())
+      throw Usage_error("--rotate: the axis 0,0,0 has no direction");
+  }
+  step.angle = numbers("--rotate", values[1], "angle")[0];
+  if(values.size() > 2)
+    step.place = measures("--rotate", values[2], "x,y,z");
+  return step;
+}
+
+// Reads the options that pick or move vertices, in their order.
+inline void read_picks(const std::vector<boost::program_options::option>& given, Command_line& line)
+{
+  for(const auto& option : given)
+  {
+    const std::string& name = option.string_key;
+    if(option.value.empty())
+      continue;
+    if(const std::string& value = option.value[0]; name == "fix")
+      line.picks.emplace_back(FIXED, Pick(name, value));
+    else if(name == "region")
+      line.region.emplace_back(name, value);
+    else if(name == "handle")
+    {
+      line.picks.emplace_back(static_cast<int>(HANDLE + line.handles.size()), Pick(name, value));
+      line.handles.emplace_back();
+    }
+    else if(name == "move" || name == "rotate" || name == "soft")
+    {
+      if(line.handles.empty() && line.selection.empty())
+        throw Usage_error("--" + name + " is for the --handle before it, but there is none");
+      Handle_options& handle = line.handles.empty() ? line.all_handles : line.handles.back();
+      if(name == "soft")
+        handle.weight = numbers("--soft", value, "weight")[0];
+      else
+        handle.steps.push_back(name == "rotate" ? rotation_step(option.value)
+                                                : Motion_step{false, measures("--move", value,
+                                                                              "dx,dy,dz")});
+      if(name == "soft" && *handle.weight < 0)
+        throw Usage_error("--soft " + value + ": a weight is not negative");
+    }
+  }
+}
+
+// Throws if it is not said once what is held, and once how it moves.
+inline void check_task(const Command_line& line)
+{
+  if(line.selection.empty() && line.handles.empty())
+    throw Usage_error("nothing moves: give a --handle, or a --selection");
+  if(!line.selection.empty() && !line.handles.empty())
+    throw Usage_error("--selection already tells the handles; leave out --handle");
+  bool has_steps = !line.all_handles.steps.empty();
+  for(const Handle_options& handle : line.handles)
+    has_steps = has_steps || !handle.steps.empty();
+  if(has_steps && !line.transforms.empty())
+    throw Usage_error("--transform already tells how handles move; leave out --move and --rotate");
+  if(!has_steps && line.transforms.empty())
+    throw Usage_error("nothing moves: give --move, --rotate or --transform");
+}
+
+// Reads --frames, --animation and --view.
+inline void read_frames(const boost::program_options::variables_map& values, Command_line& line)
+{
+  const int keys = static_cast<int>((std::max)(line.transforms.size(), std::size_t(1)));
+  line.frames = values.count("frames") ? number<int>("frames", values["frames"].as<std::string>())
+                : line.animation.empty() ? keys : 24 * keys;
+  line.is_sequence = values.count("frames") || (keys > 1 && line.animation.empty());
+  if(line.frames < keys || line.frames > 9999)
+    throw Usage_error("--frames " + std::to_string(line.frames) + ": there is at least one for "
+                      "each --transform, and at most 9999");
+  if(line.is_sequence && is_written_directly(line.output))
+    throw Usage_error("--output " + line.output + ": frames need a file each");
+  if(values.count("view"))
+  {
+    const std::string text = values["view"].as<std::string>();
+    const bool is_direction = split(text).size() != 2;
+    line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
+    if(is_direction && line.view == std::vector<double>(3, 0))
+      throw Usage_error("--view 0,0,0 is no direction");
+  }
 }
 
 inline Command_line parse_command_line(int argc, char** argv)
@@ -183,12 +340,13 @@ inline Command_line parse_command_line(int argc, char** argv)
   po::variables_map values;
   try
   {
-    po::store(po::command_line_parser(argc, argv)
-                .options(all)
-                .positional(po::positional_options_description().add("mesh", 1))
-                .style(po::command_line_style::default_style &
-                       ~po::command_line_style::allow_guessing)
-                .run(), values);
+    const auto parsed = po::command_line_parser(argc, argv)
+      .options(all)
+      .positional(po::positional_options_description().add("mesh", 1))
+      .extra_style_parser(parse_rotate)
+      .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
+      .run();
+    po::store(parsed, values);
     Command_line line;
     line.is_help = values.count("help") > 0;
     if(line.is_help)
@@ -199,13 +357,27 @@ inline Command_line parse_command_line(int argc, char** argv)
 
     line.is_quiet = values.count("quiet") > 0;
     line.mesh = values["mesh"].as<std::string>();
-    line.selection = values["selection"].as<std::string>();
-    line.transform = values["transform"].as<std::string>();
     line.output = values["output"].as<std::string>();
-    if(line.mesh.empty() || line.selection.empty() || line.transform.empty() || line.output.empty())
+    line.selection = values["selection"].as<std::string>();
+    if(values.count("transform"))
+      line.transforms = values["transform"].as<std::vector<std::string>>();
+    std::vector<std::string> names = line.transforms;
+    names.insert(names.end(), {line.mesh, line.output});
+    if(!values["selection"].defaulted())
+      names.push_back(line.selection);
+    if(std::count(names.begin(), names.end(), std::string()) > 0)
       throw Usage_error("the name of a file is empty");
     line.report = values["report"].as<std::string>();
     line.image = values["image"].as<std::string>();
+    line.animation = values["animation"].as<std::string>();
+    line.save_selection = values["save-selection"].as<std::string>();
+    line.save_transform = values["save-transform"].as<std::string>();
+    read_picks(parsed.options, line);
+    check_task(line);
+    line.has_quality = values.count("quality") > 0;
+    line.color = values["color"].as<std::string>();
+    if(!line.color.empty())
+      vertex_measure(line.color);
     line.weights = chosen<Weight_choice>(
       "weights", values["weights"].as<std::string>(),
       {{"cotangent", Weight_choice::cotangent},
@@ -234,6 +406,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
        !is_written_directly(line.image))
       throw Usage_error("--image " + line.image + ": the picture must be a .png file");
+    read_frames(values, line);
     check_outputs(line);
     return line;
   }

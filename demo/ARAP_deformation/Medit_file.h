@@ -14,52 +14,33 @@
 
 // Tetrahedra in .mesh files, the ASCII format of Medit.
 
+#include "Tetrahedra_text.h"
 #include "shape_files.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace CGAL::ARAP::demo {
 
-struct Tetrahedral_mesh
-{
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::array<int, 4>> tetrahedra; // indices into `points`
-};
-
-inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mesh)
-{
-  return mesh.points;
-}
-
-// The tetrahedra of a .mesh file, and its text: it is written with new coordinates, and otherwise
-// unchanged to the byte, with all its references, comments and sections.
-class Medit_file
+class Medit_file : public Tetrahedra_text
 {
 public:
-  // Throws a std::runtime_error whose message names the file, the line and what is wrong.
-  explicit Medit_file(const std::string& file) : m_name(file)
+  explicit Medit_file(const std::string& file) : Tetrahedra_text(file)
   {
-    std::ifstream in = open_for_reading(file);
-    m_text.assign(std::istreambuf_iterator<char>(in), {});
     const std::map<std::string_view, std::size_t> sections = find_sections();
     const auto find = [&](const char* keyword, const std::string& sentence) {
       const auto section = sections.find(keyword);
       if(section == sections.end())
         throw std::runtime_error(m_name + ": " + sentence);
-      return Words(m_text, section->second);
+      return Words(text(), section->second);
     };
     const std::string no_tetrahedra = "has no tetrahedra; surfaces are read from .off, .obj, .ply "
                                       "and .stl files";
@@ -74,40 +55,7 @@ public:
       throw std::runtime_error(m_name + ": " + no_tetrahedra);
   }
 
-  const Tetrahedral_mesh& mesh() const { return m_mesh; }
-
-  // Writes the file with these points. Unchanged coordinates keep their text.
-  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) const
-  {
-    out.precision(std::numeric_limits<double>::max_digits10);
-    Words words(m_text, m_first_vertex);
-    std::size_t written = 0;
-    for(std::size_t v = 0; v < points.size(); ++v)
-    {
-      for(int k = 0; k < 3; ++k)
-      {
-        words.next();
-        if(points[v][k] == m_mesh.points[v][k])
-          continue;
-        out << std::string_view(m_text).substr(written, words.begin() - written) << points[v][k];
-        written = words.end();
-      }
-      words.next(); // the reference
-    }
-    out << std::string_view(m_text).substr(written);
-  }
-
 private:
-  // Throws a message: `expected`, continued by what is there instead.
-  [[noreturn]] void refuse(const Words& words, const std::string& expected) const
-  {
-    const auto line = 1 + std::count(m_text.begin(), m_text.begin() + words.begin(), '\n');
-    const bool is_end = words.begin() == m_text.size();
-    const auto word = std::string_view(m_text).substr(words.begin(), words.end() - words.begin());
-    throw bad_line(m_name, static_cast<std::size_t>(line),
-                   expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
-  }
-
   static bool is_keyword(std::string_view word)
   {
     return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0]));
@@ -129,9 +77,9 @@ private:
   // they end at the next keyword.
   std::map<std::string_view, std::size_t> find_sections() const
   {
-    Words words(m_text);
+    Words words(text());
     const std::string_view first = words.next();
-    if(m_text.find('\0') != std::string::npos)
+    if(text().find('\0') != std::string::npos)
       throw std::runtime_error(m_name + ": is binary; of Medit's formats only the text format "
                                         ".mesh can be read, not .meshb");
     if(first != "MeshVersionFormatted")
@@ -145,7 +93,7 @@ private:
       }
       else if(is_unknown_element(word))
       {
-        Words contents(m_text, words.end());
+        Words contents(text(), words.end());
         if(contents.next() != "0")
           refuse(words, "only tetrahedra with four vertices can be deformed, but there are");
       }
@@ -164,29 +112,6 @@ private:
     }
   };
 
-  // Reads an integer from `smallest` to `largest`; description() tells what is expected.
-  template <typename Description>
-  long long read_integer(Words& words, long long smallest, long long largest,
-                         const Description& description) const
-  {
-    char* end = nullptr;
-    const bool is_end = words.next().empty();
-    const long long value = std::strtoll(m_text.c_str() + words.begin(), &end, 10); // saturates
-    if(is_end || end != m_text.c_str() + words.end() || value < smallest || value > largest)
-      refuse(words, "expected " + description() + ", but found");
-    return value;
-  }
-
-  double read_coordinate(Words& words, const Row& row) const
-  {
-    char* end = nullptr;
-    const bool is_end = words.next().empty();
-    const double value = std::strtod(m_text.c_str() + words.begin(), &end);
-    if(is_end || end != m_text.c_str() + words.end() || !std::isfinite(value))
-      refuse(words, "expected a finite number, a coordinate in " + row.name() + ", but found");
-    return value;
-  }
-
   void read_reference(Words& words, const Row& row) const
   {
     read_integer(words, (std::numeric_limits<long long>::min)(),
@@ -202,16 +127,12 @@ private:
     });
   }
 
-  // Calls read_row(row), which returns an item, for each row of a section. Allocates no more than
-  // the file has room for, whatever it announces.
-  template <typename Items, typename Read_row>
-  void read_rows(Words& words, Row row, Items& items, const Read_row& read_row) const
+  // Calls read_row(row) for each row of a section.
+  template <typename Read_row>
+  void read_rows(Words& words, Row row, const Read_row& read_row) const
   {
-    const std::size_t shortest = 8; // in characters
-    items.reserve((std::min)(static_cast<std::size_t>(row.total),
-                             (m_text.size() - words.end()) / shortest));
     for(row.number = 1; row.number <= row.total; ++row.number)
-      items.push_back(read_row(row));
+      read_row(row);
     if(const std::string_view word = words.next(); !word.empty() && !is_keyword(word))
       refuse(words, "expected the next section after " + std::to_string(row.total) + ' ' +
                       row.section + ", but found");
@@ -220,13 +141,9 @@ private:
   void read_vertices(Words& words)
   {
     const long long n = read_number(words, "Vertices");
-    m_first_vertex = words.end();
-    read_rows(words, {"Vertices", 0, n}, m_mesh.points, [&](const Row& row) {
-      std::array<double, 3> p;
-      for(double& coordinate : p)
-        coordinate = read_coordinate(words, row);
+    read_rows(words, {"Vertices", 0, n}, [&](const Row& row) {
+      read_point(words, [&row] { return row.name(); });
       read_reference(words, row);
-      return Kernel::Point_3(p[0], p[1], p[2]);
     });
   }
 
@@ -234,7 +151,7 @@ private:
   {
     const auto largest = static_cast<long long>(m_mesh.points.size());
     const long long n = read_number(words, "Tetrahedra");
-    read_rows(words, {"Tetrahedra", 0, n}, m_mesh.tetrahedra, [&](const Row& row) {
+    read_rows(words, {"Tetrahedra", 0, n}, [&](const Row& row) {
       std::array<int, 4> corners;
       for(auto corner = corners.begin(); corner != corners.end(); ++corner)
       {
@@ -245,13 +162,9 @@ private:
           refuse(words, row.name() + " has twice the vertex");
       }
       read_reference(words, row);
-      return corners;
+      m_mesh.tetrahedra.push_back(corners);
     });
   }
-
-  std::string m_name, m_text;
-  Tetrahedral_mesh m_mesh;
-  std::size_t m_first_vertex = 0; // the position in the text after the number of vertices
 };
 
 // Writes a new .mesh file with all references 0.

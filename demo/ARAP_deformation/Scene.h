@@ -17,6 +17,7 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/number_type_config.h>
 
 #include <algorithm>
 #include <array>
@@ -25,8 +26,9 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <random>
+#include <optional>
 #include <ostream>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -48,6 +50,7 @@ struct Panel
   std::vector<int> selection;
   std::string caption;
   std::vector<std::array<int, 2>> lines = {}; // thin and pale, from point to point
+  std::vector<double> values = {}; // if given, a number from 0 (pale) to 1 (dark red) per vertex
 };
 
 // The view of all panels of a picture: from the same side and at the same scale.
@@ -59,6 +62,7 @@ struct View
   int height = 640;
   bool show_edges = false;   // draw the edges of the triangles as thin lines
   bool show_ground = true;   // let the shapes cast a shadow on the ground under them
+  std::optional<CGAL::Bbox_3> box = {}; // what each panel shows; by default its own points
 };
 
 // A view of the broad side of the shape, slightly from the right and above. Up is the longest axis
@@ -88,6 +92,27 @@ inline View default_view(const Points& points)
   view.up = Vector(upwards[0], upwards[1], upwards[2]);
   if(!is_long)
     view.width = view.height;
+  return view;
+}
+
+// A view from elsewhere: from a direction, or from an azimuth and an elevation in degrees; the
+// azimuth is that of a right-handed system whose last axis is upwards, so from x to y if that is z.
+inline View turned(View view, const std::vector<double>& from)
+{
+  const int up = view.up.x() != 0 ? 0 : view.up.y() != 0 ? 1 : 2;
+  std::array<double, 3> direction;
+  if(from.size() == 2)
+  {
+    const double azimuth = from[0] * CGAL_PI / 180, elevation = from[1] * CGAL_PI / 180;
+    direction[(up + 1) % 3] = std::cos(azimuth) * std::cos(elevation);
+    direction[(up + 2) % 3] = std::sin(azimuth) * std::cos(elevation);
+    direction[up] = std::sin(elevation);
+  }
+  else
+    std::copy(from.begin(), from.end(), direction.begin());
+  view.from = Vector(direction[0], direction[1], direction[2]);
+  if(CGAL::cross_product(view.up, view.from) == Vector(0, 0, 0)) // along the old one
+    view.up = Vector(up == 2, up == 0, up == 1);
   return view;
 }
 
@@ -133,15 +158,27 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
   out << "mesh2 {\n";
   write_list(out, "vertex_vectors", points, write_vector);
   write_list(out, "normal_vectors", normals, write_vector);
-  out << "texture_list { 3, texture { Fixed } texture { Free } texture { Handle } }\n";
+  const int shades = 100;
+  const auto texture = [&](int v) {
+    return panel.values.empty() ? selection[v] : static_cast<int>(panel.values[v] * shades + 0.5);
+  };
+  if(panel.values.empty())
+    out << "texture_list { 3, texture { Fixed } texture { Free } texture { Handle } }\n";
+  else
+  {
+    out << "texture_list { " << shades + 1;
+    for(int shade = 0; shade <= shades; ++shade)
+      out << ",\ntexture { Shade(" << static_cast<double>(shade) / shades << ") }";
+    out << " }\n";
+  }
   write_list(out, "face_indices", panel.triangles, [&](const auto& t, std::ostream& list) {
     list << '<' << t[0] << ',' << t[1] << ',' << t[2] << '>';
     for(int v : t)
-      list << ',' << selection[v];
+      list << ',' << texture(v);
   });
   out << "}\n";
   for(std::size_t v = 0; v < points.size(); ++v)
-    if(selection[v] != 1 && !is_shown[v])
+    if(selection[v] != 1 && !is_shown[v] && panel.values.empty())
       out << "sphere { " << Pov{points[v]} << ", Ball texture { "
           << (selection[v] == 0 ? "Fixed" : "Handle") << " } }\n";
 }
@@ -189,6 +226,11 @@ inline constexpr const char* stage = R"(
 #declare Fixed = texture { pigment { srgb <0.82, 0.14, 0.12> } finish { Paint } }
 #declare Free = texture { pigment { srgb <0.80, 0.84, 0.90> } finish { Paint } }
 #declare Handle = texture { pigment { srgb <0.98, 0.80, 0.10> } finish { Paint } }
+#declare Shades = color_map { [0 srgb <0.93, 0.94, 0.96>] [0.25 srgb <0.99, 0.85, 0.45>]
+  [0.5 srgb <0.96, 0.55, 0.20>] [0.75 srgb <0.80, 0.15, 0.15>] [1 srgb <0.30, 0, 0.10>] }
+#macro Shade(X)
+  pigment { function { X } color_map { Shades } } finish { Paint }
+#end
 #declare Line_radius = 0.5;
 #declare Line = texture { pigment { srgb <0.18, 0.20, 0.26> } finish { emission 1 diffuse 0 } }
 #declare Pale_line = texture { pigment { srgb <0.50, 0.58, 0.70> } finish { emission 1 diffuse 0 } }
@@ -237,12 +279,12 @@ struct Temporary_folder
   }
 };
 
-// Runs POV-Ray in the folder, where its files and messages go, and returns its exit code. No name
+// Runs a program in the folder, where its files and messages go, and returns its exit code. No name
 // chosen by a user reaches the shell, and the name of the folder is quoted.
-inline int run_povray(const Temporary_folder& folder, const std::string& options)
+inline int run_program(const Temporary_folder& folder, const std::string& call)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
-  return std::system(("cd \"" + path + "\" && povray " + options + " > messages 2>&1").c_str());
+  return std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
 }
 
 // The messages of POV-Ray after its last headline, which tell why it stopped.
@@ -277,6 +319,13 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
     for(const auto& [x, y, z] : panels[k].points) {
       seen[k].push_back(eye(Vector(x, y, z)));
       boxes[k] += (CGAL::ORIGIN + seen[k].back()).bbox();
+    }
+    for(int corner = 0; corner < 8 && view.box; ++corner) {
+      const auto end = [&](int axis) {
+        return corner >> axis & 1 ? view.box->max(axis) : view.box->min(axis);
+      };
+      const auto place = (CGAL::ORIGIN + eye(Vector(end(0), end(1), end(2)))).bbox();
+      boxes[k] = corner == 0 ? place : boxes[k] + place;
     }
     all += boxes[k];
     widest = (std::max)(widest, boxes[k].x_span());
@@ -324,19 +373,20 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
 inline void check_renderer()
 {
   const internal::Temporary_folder folder;
-  if(internal::run_povray(folder, "--version") != 0)
+  if(internal::run_program(folder, "povray --version") != 0)
     throw std::runtime_error("pictures need POV-Ray, but its program povray was not found");
 }
 
-// Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
-// fails.
-inline void render(const std::vector<Panel>& panels, const View& view, std::ostream& out)
+namespace internal {
+
+// Draws the panels in a row as a file of the folder. The format is one of POV-Ray: N is PNG, P PPM.
+inline void draw(const Temporary_folder& folder, const std::vector<Panel>& panels, const View& view,
+                 const std::string& picture, char format)
 {
   for(const Panel& panel : panels)
     for(const auto& [x, y, z] : panel.points)
       if(!std::isfinite(x + y + z))
         throw std::runtime_error("a shape whose coordinates are not finite cannot be drawn");
-  const internal::Temporary_folder folder;
   std::ofstream scene(folder.path / "scene.pov");
   write_scene(scene, panels, view);
   scene.close();
@@ -344,10 +394,20 @@ inline void render(const std::vector<Panel>& panels, const View& view, std::ostr
     throw std::runtime_error("the scene of the picture could not be written to " +
                              folder.path.string());
   const std::string width = std::to_string(view.width * panels.size());
-  if(internal::run_povray(folder, "+Iscene.pov +Opicture.png +FN +W" + width + " +H" +
-                                    std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
+  if(run_program(folder, "povray +Iscene.pov +O" + picture + " +F" + format + " +W" + width +
+                           " +H" + std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
     throw std::runtime_error("POV-Ray could not draw the picture:" +
-                             internal::last_messages(folder.path / "messages"));
+                             last_messages(folder.path / "messages"));
+}
+
+} // namespace internal
+
+// Draws the panels in a row and writes them to a stream as PNG. Throws a std::runtime_error if that
+// fails.
+inline void render(const std::vector<Panel>& panels, const View& view, std::ostream& out)
+{
+  const internal::Temporary_folder folder;
+  internal::draw(folder, panels, view, "picture.png", 'N');
   out << std::ifstream(folder.path / "picture.png", std::ios::binary).rdbuf();
 }
 

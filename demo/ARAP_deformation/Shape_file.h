@@ -15,15 +15,22 @@
 // The two kinds of shapes that the command deforms, with a common interface: each is read at
 // construction, deformed through its domain, and written.
 
+#include "Corner_rotation.h"
+#include "Gltf_file.h"
+#include "Gmsh_file.h"
 #include "Medit_file.h"
+#include "Vtk_file.h"
+#include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/boost/graph/helpers.h>
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <ostream>
 #include <set>
 #include <string>
@@ -39,9 +46,15 @@ public:
 
   static constexpr const char* simplices = "faces";
 
-  explicit Surface_file(const std::string& file)
-    : m_format(lower_case_extension(file)), m_mesh(read_mesh(file, m_dropped))
-  {}
+  // For an output of the same format the text of the file is kept.
+  Surface_file(const std::string& file, const std::string& output_format)
+    : m_format(lower_case_extension(file)), m_mesh(read_mesh(file, m_dropped)),
+      m_rest_points(points_of(m_mesh))
+  {
+    if(output_format == m_format)
+      m_source = read_source(file);
+    m_is_kept = m_source.points.size() == m_rest_points.size();
+  }
 
   const Mesh& mesh() const { return m_mesh; }
   std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
@@ -57,28 +70,91 @@ public:
   // what an output of this format does not keep
   std::set<std::string> dropped(const std::string& format) const
   {
+    if(m_is_kept)
+      return {};
     std::set<std::string> result = m_dropped;
-    if((format == ".obj" || format == ".stl") && has_colours(m_mesh))
+    if(format != ".off" && format != ".ply" && has_colours(m_mesh))
       result.insert("colours");
-    if(format == ".stl" && m_format != ".stl")
+    if(is_gltf_format(format) && !CGAL::is_triangle_mesh(m_mesh))
+      result.insert("polygons (they are cut into triangles)");
+    if((format == ".stl" || is_gltf_format(format)) && m_format != ".stl")
       result.insert("double precision");
     if(format == ".stl" && has_isolated_vertices(m_mesh))
       result.insert("vertices without a face");
     return result;
   }
 
-  void write(Output_file& output, const std::string& format) const
+  void write(Output_file& output, const std::string& format)
   {
-    write_mesh(output, m_mesh, format);
+    if(!m_is_kept)
+    {
+      if(format == ".ply" && !m_property.empty())
+        set_vertex_property(m_mesh, m_property, m_values);
+      if(is_gltf_format(format))
+      {
+        const Panel all = panel(m_mesh, std::vector<int>(m_rest_points.size()), "");
+        Gltf gltf = make_gltf(all.points, all.triangles);
+        return output.write([&](std::ostream& out) { gltf.write(out, format == ".glb"); });
+      }
+      return write_mesh(output, m_mesh, format);
+    }
+    for(Mesh::Vertex_index v : m_mesh.vertices())
+      m_source.replace(m_source.points[v], m_rest_points[v] - CGAL::ORIGIN,
+                       m_mesh.point(v) - CGAL::ORIGIN);
+    turn_normals();
+    if(format == ".ply" && !m_property.empty())
+      insert_property();
+    output.write([this](std::ostream& out) { m_source.write(out); });
+  }
+
+  // What is written for each vertex besides its coordinates, if the format is .ply.
+  void set_property(const std::string& name, const std::vector<double>& values)
+  {
+    m_property = name;
+    m_values = values;
   }
 
 private:
+  void insert_property()
+  {
+    std::string name = m_property;
+    while(m_source.text.substr(0, m_source.text.find("end_header")).find(' ' + name + '\n') !=
+          std::string::npos)
+      name += '_'; // the input has one of this name
+    m_source.insert(m_source.properties_end, "property float " + name + '\n');
+    const bool is_text = m_source.numbers == Source_text::Numbers::text;
+    for(std::size_t v = 0; v < m_values.size(); ++v)
+      m_source.insert(m_source.row_ends[v],
+                      (is_text ? " " : "") + m_source.number(m_values[v], sizeof(float)));
+  }
+
+  // Each normal turns with the corners that use it.
+  void turn_normals()
+  {
+    for(const Source_text::Normal& normal : m_source.normals)
+    {
+      Corner_rotation turned(m_mesh, m_rest_points);
+      for(const auto& [face, vertex] : normal.corners)
+        if(const Mesh::Vertex_index v(static_cast<Mesh::size_type>(vertex)); face)
+          turned.insert(Mesh::Face_index(static_cast<Mesh::size_type>(*face)), v);
+        else
+          turned.insert(v);
+      if(turned.has_moved())
+        m_source.replace(normal.place, normal.value, turned(normal.value));
+    }
+  }
+
   std::string m_format;
   std::set<std::string> m_dropped;
-  Mesh m_mesh;
+  Mesh m_mesh; // deformed
+  std::vector<Kernel::Point_3> m_rest_points;
+  Source_text m_source;
+  std::string m_property; // of the vertices, and its values
+  std::vector<double> m_values;
+  bool m_is_kept = false; // the text is written with other coordinates
 };
 
-// Tetrahedra in a .mesh file, the rest of which is kept.
+// Tetrahedra in a .mesh, .msh or .vtk file, the rest of which is kept.
 class Tetrahedra_file
 {
 public:
@@ -87,7 +163,9 @@ public:
 
   static constexpr const char* simplices = "tetrahedra";
 
-  explicit Tetrahedra_file(const std::string& file) : m_file(file), m_mesh(m_file.mesh()) {}
+  Tetrahedra_file(const std::string& file, const std::string&)
+    : m_format(lower_case_extension(file)), m_file(read(file)), m_mesh(m_file->mesh())
+  {}
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
   std::size_t number_of_vertices() const { return m_mesh.points.size(); }
@@ -95,15 +173,35 @@ public:
   Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
 
   void check_output(const std::string&, const std::string&) const {}
-  std::set<std::string> dropped(const std::string&) const { return {}; }
+  void set_property(const std::string&, const std::vector<double>&) {}
 
-  void write(Output_file& output, const std::string&) const
+  std::set<std::string> dropped(const std::string& format) const
   {
-    output.write([this](std::ostream& out) { m_file.write(out, m_mesh.points); });
+    return format == m_format ? std::set<std::string>()
+                              : std::set<std::string>{"all but points and tetrahedra"};
+  }
+
+  void write(Output_file& output, const std::string& format)
+  {
+    if(format == m_format)
+      output.write([this](std::ostream& out) { m_file->write(out, m_mesh.points); });
+    else
+      write_mesh(output, m_mesh);
   }
 
 private:
-  Medit_file m_file;
+  static std::unique_ptr<Tetrahedra_text> read(const std::string& file)
+  {
+    const std::string format = lower_case_extension(file);
+    if(format == ".msh")
+      return std::make_unique<Gmsh_file>(file);
+    if(format == ".vtk")
+      return std::make_unique<Vtk_file>(file);
+    return std::make_unique<Medit_file>(file);
+  }
+
+  std::string m_format;
+  std::unique_ptr<Tetrahedra_text> m_file;
   Tetrahedral_mesh m_mesh; // deformed
 };
 

@@ -13,10 +13,14 @@
 
 #include "Command_line.h"
 #include "Delayed_interruption.h"
+#include "Film.h"
 #include "Output_file.h"
 #include "Scene.h"
 #include "Shape_file.h"
+#include "Task.h"
 #include "mesh_panel.h"
+#include "result_quality.h"
+#include "self_intersections.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
@@ -30,14 +34,17 @@
 #include <unistd.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <ostream>
@@ -89,9 +96,12 @@ using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Chosen_weight>;
 // the report of the deformation, and what the command adds to it
 struct Result
 {
-  Report report;
+  Report report;             // of the last frame
+  std::vector<Report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
   double edge_length_error = 0;
+  Quality quality;
+  std::optional<std::size_t> self_intersections; // if they were looked for
   double load_seconds = 0;
 };
 
@@ -151,6 +161,12 @@ std::optional<long long> peak_memory_bytes()
   return std::nullopt;
 }
 
+nlohmann::ordered_json seconds(const Report& report)
+{
+  return {{"preprocess", report.seconds.preprocess},
+          {"deform", report.seconds.total - report.seconds.preprocess}};
+}
+
 void write_report(Output_file& file, const Result& result)
 {
   const Report& report = result.report;
@@ -166,49 +182,86 @@ void write_report(Output_file& file, const Result& result)
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
   json["edge_length_error"] = result.edge_length_error;
+  json["area_change"] = result.quality.area_change;
+  json["volume_change"] = nullptr;
+  if(result.quality.volume_change)
+    json["volume_change"] = *result.quality.volume_change;
+  json["largest_angle_change"] = result.quality.largest_angle_change;
+  json["largest_spike"] = result.quality.largest_spike;
+  if(result.self_intersections)
+    json["self_intersections"] = *result.self_intersections;
   json["inverted_simplices"] = report.inverted_simplices;
   json["unconstrained_components"] = report.unconstrained_components;
-  json["seconds"] = {{"load", result.load_seconds},
-                     {"preprocess", report.seconds.preprocess},
-                     {"deform", report.seconds.total - report.seconds.preprocess}};
+  json["seconds"] = {{"load", result.load_seconds}};
+  json["seconds"].update(seconds(report));
   json["peak_memory_bytes"] = nullptr;
   if(const auto bytes = peak_memory_bytes())
     json["peak_memory_bytes"] = *bytes;
+  if(result.frames.size() > 1)
+    for(const Report& frame : result.frames)
+      json["frames"].push_back({{"iterations", frame.iterations},
+                                {"energy", {frame.energy.front(), frame.final_energy()}},
+                                {"factorized", frame.stages.factor},
+                                {"seconds", seconds(frame)}});
   file.write([&json](std::ostream& out) { out << std::setw(2) << json << '\n'; });
 }
 
-// Deforms the shape of a domain.
+void expect_success(const Command_line& line, const CGAL::ARAP::Outcome& outcome)
+{
+  check_interrupted();
+  if(!outcome)
+    throw std::runtime_error(line.mesh + ": " + outcome.message);
+}
+
+// Deforms the shape of a domain, each frame from the one before; after_frame(report) follows each.
 template <typename Domain>
-Report deform(const Command_line& line, const Domain& domain, const std::vector<int>& selection,
-              const Transform& transform, Progress& progress)
+void deform(const Command_line& line, const Domain& domain, const Task& task, Progress& progress,
+            const std::function<void(const Report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
-  Report report;
-  static_cast<CGAL::ARAP::Outcome&>(report) = deformation.set_options(line.options);
-  if(!report)
-    return report;
-  insert_selection(deformation, selection, transform);
-
-  progress.show("preprocessing ...");
-  report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
-    if(iterate.iteration() == 0)
-      progress.done("preprocessed");
-    if(progress.is_shown())
-    {
-      std::ostringstream text;
-      text << "iteration " << iterate.iteration() << " of at most " << line.options.iterations
-           << ", energy " << iterate.energy();
-      progress.show(text.str());
-    }
-    return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
-                          : CGAL::ARAP::Visitor_action::proceed;
-  });
-  progress.show("");
-  check_interrupted();
-  if(!report)
-    throw std::runtime_error(line.mesh + ": " + report.message);
-  return report;
+  expect_success(line, deformation.set_options(line.options));
+  std::vector<std::vector<typename Deformation::vertex_descriptor>> handles(task.handles.size());
+  for(auto v : domain.vertices())
+  {
+    const int status = task.selection[domain.index(v)];
+    if(status != FIXED)
+      deformation.insert_roi_vertex(v);
+    if(status < HANDLE)
+      continue;
+    deformation.insert_control_vertex(v);
+    handles[status - HANDLE].push_back(v);
+    if(const auto& weight = task.handles[status - HANDLE].weight)
+      expect_success(line, deformation.set_target_weight(v, *weight));
+  }
+  for(int frame = 1; frame <= line.frames; ++frame)
+  {
+    const double time = static_cast<double>(task.key_frames) * frame / line.frames;
+    for(std::size_t k = 0; k < handles.size(); ++k)
+      expect_success(line, deformation.transform(
+        handles[k],
+        [m = task.handles[k].transform(time)](const auto& p) { return transformed(m, p); },
+        CGAL::ARAP::Transformed::rest_shape));
+    const std::string which = line.frames == 1 ? "" : "frame " + std::to_string(frame) + " of " +
+                                                      std::to_string(line.frames) + ", ";
+    progress.show(which + "preprocessing ...");
+    const Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
+      if(iterate.iteration() == 0 && frame == 1)
+        progress.done("preprocessed");
+      if(progress.is_shown())
+      {
+        std::ostringstream text;
+        text << which << "iteration " << iterate.iteration() << " of at most "
+             << line.options.iterations << ", energy " << iterate.energy();
+        progress.show(text.str());
+      }
+      return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
+                            : CGAL::ARAP::Visitor_action::proceed;
+    });
+    progress.show("");
+    expect_success(line, report);
+    after_frame(report);
+  }
 }
 
 // Throws if not all that was printed has reached the standard output.
@@ -222,8 +275,10 @@ void flush_output()
 std::ostream& summary_stream(const Command_line& line)
 {
   const std::string standard_output = "/dev/stdout";
-  const bool is_taken = is_same_file(line.output, standard_output) ||
-                        (!line.image.empty() && is_same_file(line.image, standard_output));
+  bool is_taken = false;
+  for(const std::string& file : {line.output, line.image, line.animation, line.save_selection,
+                                 line.save_transform})
+    is_taken = is_taken || (!file.empty() && is_same_file(file, standard_output));
   return is_taken ? std::cerr : std::cout;
 }
 
@@ -235,14 +290,19 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.final_energy()
             << ", edge length error " << result.edge_length_error << '\n';
+  if(result.self_intersections)
+    out << *result.self_intersections << " pairs of faces intersect\n";
   if(report.inverted_simplices > 0)
     out << report.inverted_simplices << " of " << result.simplices
         << " tetrahedra are inside out\n";
   out << "seconds: load " << result.load_seconds << ", preprocess "
       << report.seconds.preprocess << ", deform "
       << report.seconds.total - report.seconds.preprocess << '\n'
-      << "written: " << line.output;
-  for(const std::string& file : {line.report, line.image})
+      << "written: " << mesh_files(line).front();
+  if(line.is_sequence && line.frames > 1)
+    out << " to " << mesh_files(line).back();
+  for(const std::string& file : {line.report, line.image, line.animation, line.save_selection,
+                                 line.save_transform})
     if(!file.empty())
       out << ", " << file;
   out << '\n';
@@ -265,17 +325,108 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const std::string mesh_format = lower_case_extension(line.mesh);
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
-      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl or "
-                                      ".mesh");
+      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
+                                      ".gltf, .glb, .mesh, .msh or .vtk");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);
-  if(is_tetrahedra_format(mesh_format) && !is_tetrahedra_format(format))
+  if(is_tetrahedra_format(mesh_format) && format != mesh_format && format != ".mesh")
     throw std::runtime_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
-                             " can only be written to a .mesh file");
+                             " can only be written to a .mesh file" +
+                             (mesh_format == ".mesh" ? "" : ", or to a " + mesh_format + " file"));
   if(is_surface_format(mesh_format) && !is_surface_format(format))
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
-                             " can only be written to an .off, .obj, .ply or .stl file");
+                             " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "
+                             "file");
+}
+
+// the simplices of a shape; polygons are cut as for a picture
+std::vector<std::array<int, 3>> simplices_of(const Mesh& mesh) { return skin(mesh).triangles; }
+
+const std::vector<std::array<int, 4>>& simplices_of(const Tetrahedral_mesh& mesh)
+{
+  return mesh.tetrahedra;
+}
+
+template <typename Shape>
+void measure(const Command_line& line, const Shape& shape,
+             const std::vector<Kernel::Point_3>& rest_points, const Skin& boundary, Result& result)
+{
+  const std::vector<Kernel::Point_3> points = points_of(shape.mesh());
+  std::vector<std::array<int, 3>> triangles = boundary.triangles;
+  for(auto& triangle : triangles)
+    for(int& corner : triangle)
+      corner = static_cast<int>(boundary.vertices[corner]);
+  result.quality = quality(simplices_of(shape.mesh()), triangles, rest_points, points);
+  if(line.has_quality)
+    result.self_intersections = number_of_self_intersections(triangles, points);
+}
+
+// The measures as colours: from 0 to 1 for the largest, which the caption tells.
+void colour(Panel& panel, const std::string& name, const Skin& boundary,
+            const std::vector<double>& values)
+{
+  for(std::size_t v : boundary.vertices)
+    panel.values.push_back(std::abs(values[v]));
+  const double largest = *std::max_element(panel.values.begin(), panel.values.end());
+  for(double& value : panel.values)
+    value = largest > 0 ? value / largest : 0;
+  std::ostringstream caption;
+  caption.precision(3);
+  caption << name << " up to " << largest;
+  panel.caption = caption.str();
+}
+
+// The outputs: opened before the run, so that nothing is computed in vain, and kept only after all
+// have been written.
+class Outputs
+{
+public:
+  explicit Outputs(const Command_line& line)
+  {
+    for(const std::string& file : mesh_files(line))
+      m_meshes.push_back(open(file));
+    report = open(line.report);
+    image = open(line.image);
+    film = open(line.animation);
+    selection = open(line.save_selection);
+    transform = open(line.save_transform);
+  }
+
+  // of a frame; null if it is not written
+  Output_file* mesh(const Command_line& line, int frame) const
+  {
+    return line.is_sequence ? m_meshes[frame - 1] : frame == line.frames ? m_meshes[0] : nullptr;
+  }
+
+  void commit()
+  {
+    for(const auto& file : m_files)
+      file->commit();
+  }
+
+  Output_file *report, *image, *film, *selection, *transform; // null if not asked for
+
+private:
+  Output_file* open(const std::string& name)
+  {
+    return name.empty() ? nullptr
+                        : m_files.emplace_back(std::make_unique<Output_file>(name)).get();
+  }
+
+  std::vector<std::unique_ptr<Output_file>> m_files;
+  std::vector<Output_file*> m_meshes;
+};
+
+void write_task(const Outputs& outputs, const Task& task)
+{
+  if(outputs.selection)
+    outputs.selection->write([&](std::ostream& out) { write_selection(out, task.selection); });
+  if(outputs.transform)
+    outputs.transform->write([&](std::ostream& out) {
+      for(const Handle& handle : task.handles)
+        write_transform(out, handle.transform(static_cast<double>(task.key_frames)));
+    });
 }
 
 // Shape is the class of the contents of the mesh file.
@@ -286,73 +437,99 @@ void run(const Command_line& line, const std::string& format)
   progress.show("loading " + line.mesh + " ...");
   CGAL::Real_timer load_timer;
   load_timer.start();
-  Shape shape(line.mesh);
-  const std::vector<int> selection = read_selection(line.selection, shape.number_of_vertices());
-  const Transform transform = read_transform(line.transform);
+  Shape shape(line.mesh, format);
+  const std::vector<Kernel::Point_3> rest_points = points_of(shape.mesh());
+  const Task task = make_task(line, rest_points);
   load_timer.stop();
   progress.done("loaded " + line.mesh + ", " + std::to_string(shape.number_of_vertices()) +
                 " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
                 Shape::simplices + ',');
 
-  // opened first, so that nothing is computed in vain
   shape.check_output(line.output, format);
   const Delayed_interruption until_files_are_closed;
-  Output_file output(line.output);
-  std::optional<Output_file> report, image;
-  if(!line.report.empty())
-    report.emplace(line.report);
-  if(!line.image.empty())
-    image.emplace(line.image);
+  Outputs outputs(line);
+  write_task(outputs, task);
 
-  const std::vector<Kernel::Point_3> rest_points = points_of(shape.mesh());
-  const Skin drawn = image ? skin(shape.mesh()) : Skin();
+  const Skin boundary = skin(shape.mesh()); // before tetrahedra are inverted
+  const auto panel_of = [&](const std::vector<Kernel::Point_3>& points,
+                            const std::string& caption) {
+    return panel(boundary, points, task.selection, caption);
+  };
+  View view = default_view(panel_of(rest_points, "").points);
+  if(!line.view.empty())
+    view = turned(view, line.view);
+  Film film(line.animation, view);
+  if(outputs.film)
+    film.add_frame(panel_of(rest_points, ""));
+
   const typename Shape::Domain domain = shape.domain();
   Result result;
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
-  result.report = deform(line, domain, selection, transform, progress);
+  std::vector<double> color; // of each vertex
+  deform(line, domain, task, progress, [&](const Report& report) {
+    result.frames.push_back(report);
+    if(!line.color.empty())
+    {
+      color = measure_at_vertices(vertex_measure(line.color), simplices_of(shape.mesh()),
+                                  rest_points, points_of(shape.mesh()));
+      shape.set_property(line.color, color);
+    }
+    if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
+      shape.write(*file, format);
+    if(outputs.film)
+      film.add_frame(panel_of(points_of(shape.mesh()), ""));
+  });
+  result.report = result.frames.back();
   result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
+  if(outputs.report || line.has_quality)
+    measure(line, shape, rest_points, boundary, result);
 
-  shape.write(output, format);
-  if(image)
+  if(outputs.image)
   {
-    const std::vector<Panel> panels = {
-      panel(drawn, rest_points, selection, "before"),
-      panel(drawn, points_of(shape.mesh()), selection, "after")};
-    image->write([&](std::ostream& out) {
-      render(panels, default_view(panels[0].points), out);
+    Panel after = panel_of(points_of(shape.mesh()), "after");
+    if(!color.empty())
+      colour(after, line.color, boundary, color);
+    outputs.image->write([&](std::ostream& out) {
+      render({panel_of(rest_points, "before"), after}, view, out);
     });
   }
-  if(report)
-    write_report(*report, result);
+  if(outputs.film)
+  {
+    progress.show("making the film ...");
+    outputs.film->write([&](std::ostream& out) { film.write(out); });
+    progress.show("");
+  }
+  if(outputs.report)
+    write_report(*outputs.report, result);
   if(!line.is_quiet)
   {
     print_summary(summary_stream(line), line, result);
     print_note(line, shape.dropped(format));
   }
   check_interrupted();
-
-  // when nothing else can fail
-  output.commit();
-  if(report)
-    report->commit();
-  if(image)
-    image->commit();
+  outputs.commit(); // when nothing else can fail
 }
 
 void run(const Command_line& line)
 {
   const std::string format = output_format(line.output, line.mesh);
   check_mesh_files(line, format);
-  if(!line.image.empty())
+  if(!line.color.empty() && line.image.empty() && format != ".ply")
+    throw std::runtime_error("--color " + line.color + ": needs a .ply file as output, or --image");
   {
     const Delayed_interruption until_folder_is_removed;
-    check_renderer();
+    if(!line.image.empty())
+      check_renderer();
+    if(!line.animation.empty())
+      Film::check(line.animation);
   }
   check_interrupted();
   if(is_tetrahedra_format(format))
     run<Tetrahedra_file>(line, format);
+  else if(is_gltf_format(lower_case_extension(line.mesh)))
+    run<Gltf_file>(line, format);
   else
     run<Surface_file>(line, format);
 }

@@ -76,9 +76,7 @@ void write_model(const fs::path& folder, const Demo_model<Shape>& model)
   std::ofstream transform(folder / (model.name + ".def"));
   for(int status : model.selection)
     selection << status << '\n';
-  transform.precision(17);
-  for(int k = 0; k < 16; ++k)
-    transform << model.transform[k] << (k % 4 == 3 ? '\n' : ' ');
+  write_transform(transform, model.transform);
   if(!selection.flush() || !transform.flush())
     throw std::runtime_error(folder.string() + ": cannot be written to");
   std::cout << file_name(model) << '\n';

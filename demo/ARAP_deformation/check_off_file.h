@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_OFF_FILE_H
 
+#include "Source_text.h"
 #include "shape_files.h"
 
 #include <CGAL/IO/OFF/File_header_OFF.h>
@@ -38,8 +39,8 @@ class Off_rows
 {
 public:
   Off_rows(std::istream& in, const std::string& file, const File_header_OFF& header,
-           std::set<std::string>& dropped)
-    : m_in(in), m_file(file), m_header(header), m_dropped(dropped)
+           std::set<std::string>& dropped, Source_text* source)
+    : m_in(in), m_file(file), m_header(header), m_dropped(dropped), m_source(source)
   {}
 
   void check_vertices()
@@ -53,6 +54,11 @@ public:
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
       find_row("vertex", v);
+      if(m_source && !m_header.is_homogeneous() && !m_header.has_normals())
+      {
+        Words words(m_source->text, m_begin);
+        m_source->points.push_back(Source_text::next_triple(words));
+      }
       if(is_plain)
         check_coordinates(v);
       if(is_plain && v > 0) // the first row tells whether there are colours
@@ -104,6 +110,8 @@ private:
   void find_row(const char* what, std::size_t number)
   {
     m_in >> skip_comment_OFF;
+    if(m_source)
+      m_begin = static_cast<std::size_t>(m_in.tellg());
     if(!std::getline(m_in, m_line))
       refuse(what, number, "is missing");
   }
@@ -158,6 +166,8 @@ private:
   const std::string& m_file;
   const File_header_OFF& m_header;
   std::set<std::string>& m_dropped;
+  Source_text* m_source;
+  std::size_t m_begin = 0; // of the row
   std::string m_line;
   std::istringstream m_numbers;
   std::vector<double> m_row;
@@ -167,9 +177,10 @@ private:
 
 // Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
 // rows, rows that are too short, and rows that the header does not announce. Files without an .off
-// header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`.
+// header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`, and
+// into `source`, whose text is that of the stream, the places of the coordinates.
 inline void check_off_file(std::istream& in, const std::string& file,
-                           std::set<std::string>& dropped)
+                           std::set<std::string>& dropped, Source_text* source = nullptr)
 {
   File_header_OFF header(false);
   if(!(in >> header))
@@ -182,7 +193,7 @@ inline void check_off_file(std::istream& in, const std::string& file,
     dropped.insert("normals");
   if(header.has_textures())
     dropped.insert("texture coordinates");
-  internal::Off_rows rows(in, file, header, dropped);
+  internal::Off_rows rows(in, file, header, dropped, source);
   rows.check_vertices();
   rows.check_faces();
   check_end(in, file, "the " + std::to_string(header.size_of_vertices()) + " vertices and " +

@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
 
+#include "Source_text.h"
 #include "check_count.h"
 #include "shape_files.h"
 
@@ -22,6 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -59,7 +61,11 @@ public:
       if(word == "element")
         read_element(words);
       else if(word == "property")
+      {
         read_property(words);
+        if(is_vertex(m_elements.back()))
+          m_properties_end = static_cast<std::size_t>(m_in.tellg());
+      }
       else if(word == "end_header")
         return true;
     }
@@ -124,16 +130,46 @@ public:
     for(const Element& element : m_elements)
       for(std::size_t i = 0; i < element.number; ++i)
         for(const Property& p : element.properties)
+          read(p);
+  }
+
+  // Finds the coordinates and normals of the vertices; the text of `source` is that of the stream.
+  void find_places(Source_text& source)
+  {
+    source.numbers = !is_binary() ? Source_text::Numbers::text
+                     : m_format == "binary_big_endian" ? Source_text::Numbers::big_endian
+                                                       : Source_text::Numbers::little_endian;
+    source.properties_end = m_properties_end;
+    for(const Element& element : m_elements)
+      for(std::size_t i = 0; i < element.number; ++i)
+      {
+        std::size_t end = 0;
+        Source_text::Triple point = {}, normal = {};
+        std::array<double, 3> direction = {};
+        for(const Property& p : element.properties)
         {
-          double entries = 1;
-          if(p.is_list)
+          if(!is_binary())
+            m_in >> std::ws;
+          const auto begin = static_cast<std::size_t>(m_in.tellg());
+          const double value = read(p);
+          end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
+          if(is_position(p))
+            point[p.name[0] - 'x'] = {begin, end};
+          if(is_normal(p))
           {
-            entries = read(p.size_type);
-            check_count(m_file, m_bytes, entries, "entries of " + in_quotes(p.name));
+            normal[p.name[1] - 'x'] = {begin, end};
+            direction[p.name[1] - 'x'] = value;
           }
-          for(double j = 0; j < entries; ++j)
-            read(p.type);
         }
+        if(!is_vertex(element))
+          continue;
+        source.points.push_back(point);
+        source.row_ends.push_back(end);
+        if(direction != std::array<double, 3>())
+          source.normals.push_back(
+            {normal, {direction[0], direction[1], direction[2]},
+             {{std::nullopt, source.points.size() - 1}}});
+      }
   }
 
 private:
@@ -179,6 +215,13 @@ private:
   static bool is_position(const Property& p)
   {
     return p.name == "x" || p.name == "y" || p.name == "z";
+  }
+
+  // of a type that can hold a normal
+  static bool is_normal(const Property& p)
+  {
+    return (p.name == "nx" || p.name == "ny" || p.name == "nz") &&
+           (p.is("float") || p.is("double"));
   }
 
   static bool is_corners(const Property& p)
@@ -242,6 +285,20 @@ private:
     m_elements.back().properties.push_back(property);
   }
 
+  // Reads a property, and returns the last number of it.
+  double read(const Property& p)
+  {
+    double entries = 1, value = 0;
+    if(p.is_list)
+    {
+      entries = read(p.size_type);
+      check_count(m_file, m_bytes, entries, "entries of " + in_quotes(p.name));
+    }
+    for(double j = 0; j < entries; ++j)
+      value = read(p.type);
+    return value;
+  }
+
   // Reads a number. Text is parsed like in CGAL's PLY_read_number, so that both see the same.
   double read(Type type)
   {
@@ -286,13 +343,21 @@ private:
 
   std::istream& m_in;
   const std::string& m_file;
-  std::size_t m_bytes;
+  std::size_t m_bytes, m_properties_end = 0; // of the vertices, in the header
   std::string m_format = "ascii";
   std::vector<Element> m_elements;
   double m_total = 0; // number of elements
 };
 
 } // namespace internal
+
+// Finds the coordinates in the text of a .ply file that has been read.
+inline void find_places_in_ply_file(std::istream& in, const std::string& file, Source_text& source)
+{
+  internal::Ply_layout layout(in, file, source.text.size());
+  if(layout.read_header())
+    layout.find_places(source);
+}
 
 // Throws a std::runtime_error for errors that CGAL's reader of .ply files does not detect: counts
 // that are impossible, and properties of unexpected types. Files without a .ply header are left to

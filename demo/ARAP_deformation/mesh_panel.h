@@ -104,7 +104,7 @@ inline Panel panel(const Skin& skin, const std::vector<Kernel::Point_3>& points,
   for(std::size_t v : skin.vertices)
   {
     result.points.push_back({points[v].x(), points[v].y(), points[v].z()});
-    result.selection.push_back(selection[v]);
+    result.selection.push_back((std::min)(selection[v], int(HANDLE))); // all handles look the same
   }
   result.triangles = skin.triangles;
   result.caption = caption;

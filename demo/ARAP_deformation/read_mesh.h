@@ -15,6 +15,7 @@
 // Reads surfaces with CGAL. Its readers trust a file: input that would make them crash, or allocate
 // without bound, is refused here first.
 
+#include "Source_text.h"
 #include "check_obj_file.h"
 #include "check_off_file.h"
 #include "check_ply_file.h"
@@ -137,6 +138,23 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
 
 } // namespace internal
 
+// Throws if the mesh has no faces, or coordinates that are not finite.
+inline void check_mesh(const std::string& file, const Mesh& mesh)
+{
+  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
+    throw std::runtime_error(file + ": has no faces");
+  for(Mesh::Vertex_index v : mesh.vertices())
+    for(int k = 0; k < 3; ++k)
+      if(!std::isfinite(mesh.point(v)[k]))
+        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
+                                 " has a coordinate that is infinite or not a number");
+  for(Mesh::Face_index f : mesh.faces())
+    if(mesh.degree(f) < 3)
+      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
+                               "least three");
+}
+
 // Reads a surface of triangles and polygons; all its coordinates are finite. Inserts what the mesh
 // does not have of the file into `dropped`.
 inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
@@ -155,19 +173,28 @@ inline Mesh read_mesh(const std::string& file, std::set<std::string>& dropped)
     throw std::runtime_error(file + ": cannot be read: it is not in the format of " +
                              lower_case_extension(file) + " files, or has a coordinate that "
                              "is not a finite number");
-  if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
-    throw std::runtime_error(file + ": has no faces");
-  for(Mesh::Vertex_index v : mesh.vertices())
-    for(int k = 0; k < 3; ++k)
-      if(!std::isfinite(mesh.point(v)[k]))
-        throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
-                                 " has a coordinate that is infinite or not a number");
-  for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) < 3)
-      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
-                               "least three");
+  check_mesh(file, mesh);
   return mesh;
+}
+
+// The text of a file that has been read as a mesh, to write it with other points. If it has no
+// places of points, the format does not allow it.
+inline Source_text read_source(const std::string& file)
+{
+  const std::string extension = lower_case_extension(file);
+  Source_text source;
+  if(extension == ".stl") // each point of a mesh is there several times
+    return source;
+  source.text = content_of(file);
+  std::istringstream in(source.text);
+  std::set<std::string> ignored;
+  if(extension == ".off")
+    check_off_file(in, file, ignored, &source);
+  else if(extension == ".obj")
+    check_obj_file(in, file, ignored, &source);
+  else
+    find_places_in_ply_file(in, file, source);
+  return source;
 }
 
 inline Mesh read_mesh(const std::string& file)

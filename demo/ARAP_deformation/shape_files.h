@@ -29,6 +29,7 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <iterator>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -53,6 +54,7 @@ inline std::vector<Kernel::Point_3> points_of(const Mesh& mesh)
 // the 4 x 4 matrix of an affine map, row by row
 using Transform = std::array<double, 16>;
 
+// the status of a vertex; handle k has the status k, from HANDLE on
 enum Selection_status { FIXED = 0, FREE = 1, HANDLE = 2 };
 
 inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
@@ -62,7 +64,7 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
-// Passes the selection and the targets of the handles to a deformation.
+// Passes the selection to a deformation, with the targets of the handles.
 template <typename Deformation>
 void insert_selection(Deformation& deformation, const std::vector<int>& selection,
                       const Transform& transform)
@@ -73,11 +75,8 @@ void insert_selection(Deformation& deformation, const std::vector<int>& selectio
     const int status = selection[domain.index(v)];
     if(status != FIXED)
       deformation.insert_roi_vertex(v);
-    if(status == HANDLE)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, transformed(transform, domain.point(v)));
-    }
+    if(status >= HANDLE)
+      deformation.insert_control_vertex(v, transformed(transform, domain.point(v)));
   }
 }
 
@@ -113,6 +112,12 @@ inline std::ifstream open_for_reading(const std::string& file)
   return in;
 }
 
+inline std::string content_of(const std::string& file)
+{
+  std::ifstream in = open_for_reading(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 inline std::string lower_case_extension(const std::string& file)
 {
   std::string extension = std::filesystem::path(file).extension().string();
@@ -122,12 +127,21 @@ inline std::string lower_case_extension(const std::string& file)
 }
 
 // Formats of meshes are lower-case extensions.
-inline bool is_surface_format(const std::string& format)
+inline bool is_gltf_format(const std::string& format)
 {
-  return format == ".off" || format == ".obj" || format == ".ply" || format == ".stl";
+  return format == ".gltf" || format == ".glb";
 }
 
-inline bool is_tetrahedra_format(const std::string& format) { return format == ".mesh"; }
+inline bool is_surface_format(const std::string& format)
+{
+  return format == ".off" || format == ".obj" || format == ".ply" || format == ".stl" ||
+         is_gltf_format(format);
+}
+
+inline bool is_tetrahedra_format(const std::string& format)
+{
+  return format == ".mesh" || format == ".msh" || format == ".vtk";
+}
 
 inline bool is_mesh_format(const std::string& format)
 {
@@ -191,13 +205,18 @@ inline std::runtime_error bad_line(const std::string& file, std::size_t number,
   return std::runtime_error(file + ", line " + std::to_string(number) + ": " + what);
 }
 
-// Quotes a word of a file, which may contain anything, for a message.
-inline std::string in_quotes(std::string_view word)
+// The text of a file, which may contain anything, for a message.
+inline std::string printable(std::string_view part)
 {
-  std::string text(word.substr(0, 40));
+  std::string text(part);
   for(char& c : text)
     c = std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-  return "'" + text + "'";
+  return text;
+}
+
+inline std::string in_quotes(std::string_view word)
+{
+  return "'" + printable(word.substr(0, 40)) + "'";
 }
 
 // Throws if more than white space and comments is left of a file in which `contents` was read.
@@ -220,7 +239,7 @@ inline void check_end(std::istream& in, const std::string& file, const std::stri
   throw bad_line(file, line, "there is more than " + contents);
 }
 
-// One status per line and vertex: 0 fixed, 1 free, 2 handle.
+// One status per line and vertex: 0 fixed, 1 free, 2 and more the number of a handle.
 inline std::vector<int> read_selection(const std::string& file, std::size_t number_of_vertices)
 {
   std::vector<int> selection;
@@ -230,9 +249,10 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
     std::string rest;
     if(!(in >> status) || in >> rest)
       throw bad_line(file, number, "expected one integer, the status of a vertex");
-    if(status != FIXED && status != FREE && status != HANDLE)
+    if(status < FIXED || std::size_t(status) > number_of_vertices + 1)
       throw bad_line(file, number, "unknown status " + std::to_string(status) +
-                                     "; use 0 (fixed), 1 (free) or 2 (handle)");
+                                     "; use 0 (fixed), 1 (free), or the number of a handle, from 2 "
+                                     "on");
     selection.push_back(status);
   });
   if(selection.size() != number_of_vertices)
@@ -242,8 +262,24 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
   return selection;
 }
 
-// Four rows of four numbers, the last row 0 0 0 1.
-inline Transform read_transform(const std::string& file)
+// Throws if the matrix is not that of an affine map that can be undone.
+inline void check_transform(const Transform& m, const std::string& name)
+{
+  const std::array<double, 4> last_row = {0, 0, 0, 1};
+  if(!std::equal(last_row.begin(), last_row.end(), m.begin() + 12))
+    throw std::runtime_error(name + ": the last row of the transform is not 0 0 0 1");
+  const auto column = [&m](int k) { // divided by its largest entry, so that no product overflows
+    const Kernel::Vector_3 v(m[k], m[4 + k], m[8 + k]);
+    return v / (std::max)({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
+  };
+  const Kernel::Vector_3 x = column(0), y = column(1), z = column(2);
+  const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
+  if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
+    throw std::runtime_error(name + ": the transform is singular: it flattens the handle");
+}
+
+// Matrices of four rows of four numbers, the last row 0 0 0 1.
+inline std::vector<Transform> read_transforms(const std::string& file)
 {
   std::vector<double> entries;
   for_each_line(file, [&](const std::string& line, int number) {
@@ -258,24 +294,24 @@ inline Transform read_transform(const std::string& file)
       entries.push_back(entry);
     }
   });
-  Transform transform;
-  if(entries.size() != transform.size())
+  if(entries.empty() || entries.size() % 16 != 0)
     throw std::runtime_error(file + ": has " + std::to_string(entries.size()) +
                              " numbers; a transform is a 4 x 4 matrix of 16");
-  std::copy(entries.begin(), entries.end(), transform.begin());
-  const std::array<double, 4> last_row = {0, 0, 0, 1};
-  if(!std::equal(last_row.begin(), last_row.end(), transform.begin() + 12))
-    throw std::runtime_error(file + ": the last row of the transform is not 0 0 0 1");
-  const Transform& m = transform;
-  const auto column = [&m](int k) { // divided by its largest entry, so that no product overflows
-    const Kernel::Vector_3 v(m[k], m[4 + k], m[8 + k]);
-    return v / (std::max)({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
-  };
-  const Kernel::Vector_3 x = column(0), y = column(1), z = column(2);
-  const double volume = std::sqrt(x.squared_length() * y.squared_length() * z.squared_length());
-  if(!(std::abs(CGAL::determinant(x, y, z)) > 1e-12 * volume))
-    throw std::runtime_error(file + ": the transform is singular: it flattens the handle");
-  return transform;
+  std::vector<Transform> transforms(entries.size() / 16);
+  for(std::size_t k = 0; k < transforms.size(); ++k)
+  {
+    std::copy_n(entries.begin() + 16 * k, 16, transforms[k].begin());
+    check_transform(transforms[k],
+                    file + (k == 0 ? "" : ", matrix " + std::to_string(k + 1)));
+  }
+  return transforms;
+}
+
+inline void write_transform(std::ostream& out, const Transform& transform)
+{
+  out.precision(std::numeric_limits<double>::max_digits10);
+  for(int k = 0; k < 16; ++k)
+    out << transform[k] << (k % 4 == 3 ? '\n' : ' ');
 }
 
 // Throws if the format of the file cannot store the mesh.
@@ -303,6 +339,15 @@ inline bool has_isolated_vertices(const Mesh& mesh)
 {
   return std::any_of(mesh.vertices().begin(), mesh.vertices().end(),
                      [&mesh](Mesh::Vertex_index v) { return mesh.is_isolated(v); });
+}
+
+// Sets a property that a .ply file holds.
+inline void set_vertex_property(Mesh& mesh, const std::string& name,
+                                const std::vector<double>& values)
+{
+  auto map = mesh.add_property_map<Mesh::Vertex_index, float>("v:" + name).first;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    map[v] = static_cast<float>(values[v]);
 }
 
 inline void write_mesh(Output_file& file, const Mesh& mesh, const std::string& format = ".off")

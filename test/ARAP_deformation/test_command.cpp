@@ -26,16 +26,21 @@
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
+#include <Eigen/Geometry>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -323,8 +328,8 @@ void test_refusals()
     check_refused(file + rest, 1, phrase);
   };
   mesh("missing.off", "missing.off: there is no such file");
-  mesh(".", "ends in .off, .obj, .ply, .stl or .mesh");
-  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl or .mesh");
+  mesh(".", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
+  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
   for(const std::string extension : {"off", "obj", "ply", "stl"})
   {
     write("empty." + extension, "");
@@ -363,8 +368,11 @@ void test_refusals()
   select("bad.sel", "has 105 statuses, but the mesh has 104 vertices");
   write("bad.sel", good.substr(0, good.size() - 16));
   select("bad.sel", "has 103 statuses, but the mesh has 104 vertices");
-  write("bad.sel", "1\n1\n3\n" + good);
-  select("bad.sel", "bad.sel, line 3: unknown status 3");
+  for(const std::string status : {"-1", "106", "2147483647"})
+  {
+    write("bad.sel", "1\n1\n" + status + "\n" + good);
+    select("bad.sel", "bad.sel, line 3: unknown status " + status);
+  }
   write("bad.sel", "1\none\n" + good);
   select("bad.sel", "bad.sel, line 2: expected one integer");
   write("bad.sel", "1.5\n" + good);
@@ -420,6 +428,522 @@ void test_refusals()
   check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
 }
 
+// the points of an .off file that the command has written
+std::vector<Eigen::Vector3d> read_points(const std::string& file)
+{
+  Mesh mesh;
+  CHECK(CGAL::IO::read_polygon_mesh((folder / file).string(), mesh));
+  std::vector<Eigen::Vector3d> points;
+  for(auto v : mesh.vertices())
+    points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
+  return points;
+}
+
+std::string text(const Eigen::Affine3d& map)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << map.matrix() << '\n';
+  return out.str();
+}
+
+// Several handles, each with its own matrix; hard and soft; against the library.
+void test_handles()
+{
+  test_case() = "handles";
+  const auto handle = [](const Eigen::Vector3d& p) {
+    return p.z() < 0.5 ? 0 : p.z() > 4.5 ? 3 : std::abs(p.z() - 2.5) < 0.3 && p.x() > 0 ? 2 : 1;
+  };
+  std::string statuses;
+  for(const auto& p : shape.points)
+    statuses += std::to_string(handle(p)) + '\n';
+  write("two.sel", statuses);
+  const Eigen::Affine3d maps[2] = {
+    Eigen::Affine3d(rigid_motion(0.4, {1, 2, 3}, {0.2, 0, 0.1})),
+    Eigen::Affine3d(rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0}))};
+  write("two.def", text(maps[0]) + "# the other\n" + text(maps[1]));
+  for(const std::string soft : {"", " --soft 2.5"})
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    for(auto v : mesh.vertices())
+    {
+      const int k = handle(shape.points[v]);
+      if(k != 0)
+        d.insert_roi_vertex(v);
+      if(k < 2)
+        continue;
+      const Eigen::Vector3d target = maps[k - 2] * shape.points[v];
+      d.insert_control_vertex(v, Point(target.x(), target.y(), target.z()));
+      if(!soft.empty())
+        CHECK(d.set_target_weight(v, 2.5));
+    }
+    CHECK(d.deform(30, 0));
+    CHECK(run("in.off --selection two.sel --transform two.def -o two.off --tolerance 0 "
+              "--iterations 30" + soft).exit_code == 0);
+    const auto result = read_points("two.off");
+    for(auto v : mesh.vertices())
+      CHECK_AT_MOST((result[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
+                                                 mesh.point(v).z())).norm(), 1e-12);
+  }
+  write("three.def", text(maps[0]) + text(maps[0]) + text(maps[1]));
+  check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
+                "three.def: has 3 matrices, but there are 2 handles");
+  write("three.def", text(maps[0]) + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
+  check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
+                "three.def, matrix 2: the transform is singular");
+}
+
+void test_frames()
+{
+  test_case() = "frames";
+  const std::string call = "in.off --selection in.sel --transform in.def --quiet -o ";
+  CHECK(run(call + "plain.off").exit_code == 0);
+  CHECK(run(call + "one.off --frames 1").exit_code == 0);
+  CHECK(!fs::exists(folder / "one.off"));
+  CHECK(content(folder / "one-0001.off") == content(folder / "plain.off"));
+
+  // two key frames, the second a stretch, in six frames
+  const Eigen::Affine3d first(rigid_motion(2, {1, 0.5, 0.3}, {3, 0, 1}));
+  const Eigen::Affine3d second = first * Eigen::Scaling(1., 1., 1.5);
+  write("first.def", text(first));
+  write("second.def", text(second));
+  CHECK(run("in.off --selection in.sel --transform first.def --transform second.def --frames 6 "
+            "-o six.off --report r.json").exit_code == 0);
+  CHECK(!fs::exists(folder / "six.off") && !fs::exists(folder / "six-0007.off"));
+  Eigen::Vector3d centre(0, 0, 0);
+  std::vector<std::size_t> handle;
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(status(shape.points[v]) == 2)
+    {
+      handle.push_back(v);
+      centre += shape.points[v];
+    }
+  centre /= static_cast<double>(handle.size());
+  for(int frame = 1; frame <= 6; ++frame)
+  {
+    const auto points = read_points("six-000" + std::to_string(frame) + ".off");
+    Eigen::Affine3d map = first;
+    if(frame <= 3) // turns at constant speed, and the centre moves along a straight line
+    {
+      const double share = frame / 3.;
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(first.linear()));
+      map.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
+      map.translation() = (1 - share) * centre + share * (first * centre) - map.linear() * centre;
+    }
+    else // only the stretch changes
+    {
+      const double share = (frame - 3) / 3.;
+      map = first * Eigen::Scaling(1., 1., 1 + 0.5 * share);
+    }
+    for(std::size_t v : handle)
+      if(frame % 3 == 0) // exactly
+      {
+        const auto& m = frame == 3 ? first : second;
+        const auto& p = shape.points[v];
+        for(int k = 0; k < 3; ++k)
+          CHECK(points[v][k] == m(k, 0) * p.x() + m(k, 1) * p.y() + m(k, 2) * p.z() + m(k, 3));
+      }
+      else
+        CHECK_AT_MOST((points[v] - map * shape.points[v]).norm(), 1e-12);
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(status(shape.points[v]) == 0)
+        CHECK(points[v] == shape.points[v]);
+  }
+  const auto json = nlohmann::json::parse(content(folder / "r.json"));
+  CHECK(json["frames"].size() == 6);
+  for(int frame = 0; frame < 6; ++frame)
+    CHECK(json["frames"][frame]["factorized"] == (frame == 0)); // the factor is kept
+  CHECK(json["energy"].back() == json["frames"][5]["energy"][1]);
+
+  test_case() = "frames start from the one before";
+  CHECK(run(call + "a.off --frames 2 --iterations 3 --tolerance 0").exit_code == 0);
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  const auto rest = read_points("in.off"), middle = read_points("a-0001.off");
+  for(auto v : mesh.vertices())
+  {
+    if(status(rest[v]) != 0)
+      d.insert_roi_vertex(v);
+    if(status(rest[v]) == 2)
+      d.insert_control_vertex(v, Point(middle[v].x(), middle[v].y(), middle[v].z()));
+  }
+  CHECK(d.deform(3, 0));
+  for(auto v : d.control_vertices())
+    d.set_target_position(v, Point(-rest[v].y(), rest[v].x(), rest[v].z() + 0.5));
+  CHECK(d.deform(3, 0));
+  const auto end = read_points("a-0002.off");
+  for(auto v : mesh.vertices())
+    CHECK_AT_MOST((end[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
+                                            mesh.point(v).z())).norm(), 1e-12);
+
+  write("precious.off", "precious");
+  const std::string two_keys = "in.off --selection in.sel --transform first.def --transform "
+                               "second.def ";
+  check_refused(two_keys + "--frames 1 -o new.off", 2, "--frames 1: there is at least one for");
+  check_refused(call + "new.off --frames 10000", 2, "--frames 10000");
+  check_refused(call + "new.off --frames x", 2, "--frames 'x' is not a whole number");
+  write("in-0002.off", content(folder / "in.off"));
+  check_refused("in-0002.off --selection in.sel --transform in.def -o in.off --frames 3", 2,
+                "in-0002.off is given for two things");
+  check_refused(call + "new.off --frames 3 --report new-0002.off", 2, "is given for two things");
+#if defined(__unix__) || defined(__APPLE__)
+  check_refused(call + "/dev/stdout --frames 3", 2, "frames need a file each");
+#endif
+
+  test_case() = "films";
+  check_refused(call + "new.off --animation film.avi", 1, "a film ends in .gif");
+  for(const auto& [file, start] : std::map<std::string, std::string>{
+        {"film.gif", "GIF89a"}, {"film.glb", "glTF"}, {"film.gltf", "{"},
+        {"film.webm", "\x1A\x45\xDF\xA3"}})
+  {
+    const Run done = run(call + "new.off --frames 2 --animation " + file);
+    if(done.exit_code == 1 && done.err.find("--animation " + file) != std::string::npos)
+      std::cout << "NOTICE: not tested: " << done.err; // something is not installed
+    else
+    {
+      CHECK(done.exit_code == 0);
+      CHECK(content(folder / file).rfind(start, 0) == 0);
+    }
+  }
+  if(fs::exists(folder / "film.gltf"))
+  {
+    const auto gltf = nlohmann::json::parse(content(folder / "film.gltf"));
+    CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
+    CHECK(gltf["accessors"][0]["count"] == shape.points.size());
+    CHECK(gltf["animations"][0]["channels"][0]["target"]["path"] == "weights");
+  }
+  const std::string shell_command = command;
+  command = "/usr/bin/env\" PATH=/nonexistent \"" + shell_command;
+  check_refused("missing.off --selection in.sel --transform in.def -o other.off --animation a.mp4",
+                1, "--animation a.mp4: needs the program ffmpeg");
+  command = shell_command;
+}
+
+// What is picked, against the same conditions here.
+void test_picks()
+{
+  using P = Eigen::Vector3d;
+  const P low(-1, -1, 0), size(2, 2, 5); // of the bounding box
+  const auto check_picked = [&](const std::string& what, const auto& is_picked) {
+    test_case() = what;
+    std::string expected;
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+      expected += is_picked(v, shape.points[v]) ? "2\n" : "0\n";
+    CHECK(expected.find('2') != std::string::npos);
+    const Run done = run("in.off --fix x:-9.. --handle '" + what + "' --move 0,0,1 -o new.off "
+                         "--save-selection new.sel --quiet");
+    if(!CHECK(done.exit_code == 0))
+      std::cerr << "    " << done.err;
+    CHECK(content(folder / "new.sel") == expected);
+  };
+  check_picked("z:90%..", [&](auto, const P& p) { return p.z() >= low.z() + 0.9 * size.z(); });
+  check_picked("z:100%..", [&](auto, const P& p) { return p.z() == 5; });
+  check_picked("y:..0.25", [&](auto, const P& p) { return p.y() <= 0.25; });
+  check_picked("x:-0.5..60%", [&](auto, const P& p) { return p.x() >= -0.5 && p.x() <= 0.2; });
+  check_picked("box:-2,0,0%,2,2,50%", [&](auto, const P& p) { return p.y() >= 0 && p.z() <= 2.5; });
+  check_picked("sphere:1,0,0,2", [&](auto, const P& p) { return (p - P(1, 0, 0)).norm() <= 2; });
+  check_picked("sphere:50%,50%,50%,30%", [&](auto, const P& p) {
+    return (p - P(0, 0, 2.5)).norm() <= 0.3 * size.norm();
+  });
+  check_picked("plane:0,0,2.4,1,0,-1", [&](auto, const P& p) { return p.x() - p.z() + 2.4 >= 0; });
+  check_picked("near:0,1.2,100%", [&](auto v, const P&) {
+    const auto nearest = std::min_element(
+      shape.points.begin(), shape.points.end(), [](const P& p, const P& q) {
+        return (p - P(0, 1.2, 5)).norm() < (q - P(0, 1.2, 5)).norm();
+      });
+    return int(v) == nearest - shape.points.begin();
+  });
+  write("list", "7 # a comment\n# none\n9 11\n");
+  const auto is_listed = [](auto v, const P&) { return v == 7 || v == 9 || v == 11; };
+  check_picked("list:7,11,9", is_listed);
+  check_picked("list:@list", is_listed);
+
+  test_case() = "one line, and the same from files";
+  const std::string picks = "in.off --fix z:..0.5 --handle z:4.5.. --rotate z 90 0,0,7 "
+                            "--move 0,0,0.5 --handle near:1,0,2.5 --move -10%,0,0 ";
+  CHECK(run(picks + "-o picked.off --save-selection s.sel --save-transform s.def").exit_code == 0);
+  CHECK(run("in.off --selection s.sel --transform s.def -o read.off --save-selection t.sel "
+            "--save-transform t.def").exit_code == 0);
+  CHECK(content(folder / "picked.off") == content(folder / "read.off"));
+  CHECK(content(folder / "s.sel") == content(folder / "t.sel"));
+  CHECK(content(folder / "s.def") == content(folder / "t.def"));
+  auto points = read_points("picked.off");
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const P& p = shape.points[v];
+    if(p.z() >= 4.5)
+      CHECK_AT_MOST((points[v] - P(-p.y(), p.x(), p.z() + 0.5)).norm(), 1e-14);
+    if(p.z() <= 0.5)
+      CHECK(points[v] == p);
+  }
+
+  test_case() = "a full turn about the handle's own centre, in frames";
+  CHECK(run("in.off --fix z:..0.5 --handle z:4.5.. --rotate 0,0,2 360 --frames 4 -o t.off")
+          .exit_code == 0);
+  points = read_points("t-0001.off");
+  P centre(0, 0, 0); // the seam of the tube is there
+  int n = 0;
+  for(const P& p : shape.points)
+    if(p.z() >= 4.5)
+    {
+      centre += p;
+      ++n;
+    }
+  centre /= n;
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(const P p = shape.points[v] - centre; shape.points[v].z() >= 4.5)
+      CHECK_AT_MOST((points[v] - centre - P(-p.y(), p.x(), p.z())).norm(), 1e-14);
+
+  test_case() = "region, soft";
+  CHECK(run("in.off --region z:2..4 --handle z:2.9..3.1 --move 0.2,0,0 --soft 3 -o region.off "
+            "--save-selection region.sel").exit_code == 0);
+  points = read_points("region.off");
+  bool is_soft = false;
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const P& p = shape.points[v];
+    if(p.z() < 2 || p.z() > 4)
+      CHECK(points[v] == p);
+    else if(p.z() > 2.9 && p.z() < 3.1)
+      is_soft = is_soft || (points[v] - p - P(0.2, 0, 0)).norm() > 1e-3;
+  }
+  CHECK(is_soft);
+
+  write("precious.off", "precious");
+  const std::string rest = " --move 0,0,1 -o precious.off";
+  const auto refuse = [&](const std::string& arguments, int exit_code, const std::string& phrase) {
+    check_refused("in.off " + arguments + rest, exit_code, phrase);
+  };
+  refuse("--handle z:7..", 1, "--handle z:7..: picks no vertex; the bounding box of the mesh is "
+                              "box:-1,-1,0,1,1,5");
+  refuse("--fix sphere:9,9,9,1 --handle z:..1", 1, "--fix sphere:9,9,9,1: picks no vertex");
+  refuse("--handle z:4.5.. --move 0,0,1 --handle z:4..", 1, "--handle z:4.5..: a later --fix or");
+  refuse("--handle list:104", 1, "there is no vertex 104; they are numbered from 0 to 103");
+  refuse("--handle list:@missing", 1, "missing: there is no such file");
+  refuse("--handle list:@in.off", 1, "in.off, line 1: 'OFF' is not the number of a vertex");
+  refuse("--handle list:-1", 2, "'-1' is not a whole number");
+  refuse("--handle z", 2, "expected a range such as z:90%..");
+  refuse("--handle z:90%", 2, "expected a range");
+  refuse("--handle cube:1", 2, "--handle cube:1: expected box:, sphere:");
+  refuse("--handle box:1,2,3", 2, "expected the numbers x0,y0,z0,x1,y1,z1");
+  refuse("--handle box:1,2,3,4,5,x", 2, "'x' is not a finite number");
+  refuse("--handle near:nan,0,0", 2, "'nan' is not a finite number");
+  refuse("--handle z:0.. --rotate w 90", 2, "--rotate: 'w' is not a finite number");
+  refuse("--handle z:0.. --rotate 0,0,0 90", 2, "has no direction");
+  refuse("--handle z:0.. --rotate z up", 2, "--rotate: 'up' is not a finite number");
+  refuse("--handle z:0.. --move 1,2", 2, "--move: expected the numbers dx,dy,dz");
+  refuse("--handle z:0.. --soft -1", 2, "--soft -1: a weight is not negative");
+  refuse("--handle z:0.. --transform in.def", 2, "leave out --move and --rotate");
+  refuse("--handle z:0.. --selection in.sel", 2, "leave out --handle");
+  refuse("--fix z:0..", 2, "--move is for the --handle before it");
+  refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers x,y,z");
+  refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
+  check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
+  check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
+}
+
+struct Glb
+{
+  nlohmann::json json;
+  std::vector<float> numbers; // in its buffer
+};
+
+Glb read_glb(const std::string& file)
+{
+  const std::string bytes = content(folder / file);
+  std::uint32_t size = 0;
+  CHECK(bytes.size() > 20 && bytes.substr(0, 4) == "glTF");
+  std::memcpy(&size, bytes.data() + 12, 4);
+  Glb result{nlohmann::json::parse(bytes.substr(20, size)), {}};
+  CHECK(bytes.substr(24 + size, 4) == std::string("BIN\0", 4));
+  result.numbers.resize((bytes.size() - 28 - size) / 4);
+  std::memcpy(result.numbers.data(), bytes.data() + 28 + size, 4 * result.numbers.size());
+  return result;
+}
+
+// Two triangles, of two vertices each at their common edge, since their texture coordinates differ
+// there; in a node that is turned, scaled and moved.
+void test_gltf()
+{
+  test_case() = "glTF";
+  using P = Eigen::Vector3d;
+  const std::vector<P> local = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
+  const P normal(0, 0, 1);
+  std::vector<float> numbers;
+  for(const P& p : local)
+    numbers.insert(numbers.end(), {float(p.x()), float(p.y()), float(p.z())});
+  for(std::size_t i = 0; i < local.size(); ++i)
+    numbers.insert(numbers.end(), {0, 0, 1});
+  for(std::size_t i = 0; i < local.size(); ++i)
+    numbers.insert(numbers.end(), {float(i), 0.5f});
+  write("part.bin", std::string(reinterpret_cast<const char*>(numbers.data()),
+                                4 * numbers.size()));
+  auto json = nlohmann::json::parse(R"({
+    "asset": {"version": "2.0", "extras": {"by": "hand"}},
+    "buffers": [{"uri": "part.bin", "byteLength": 192}],
+    "bufferViews": [{"buffer": 0, "byteLength": 144}, {"buffer": 0, "byteOffset": 144,
+                                                       "byteLength": 48}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
+                  {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 6,
+                   "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"}],
+    "materials": [{"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
+                                "material": 0}]}],
+    "nodes": [{"children": [1], "translation": [1, 2, 3]},
+              {"mesh": 0, "rotation": [0.6, 0, 0, 0.8], "scale": [2, 2, 2]}],
+    "scenes": [{"nodes": [0]}]})");
+  write("in.gltf", json.dump());
+  CHECK(run("in.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o out.glb --quiet").exit_code == 0);
+  const Glb glb = read_glb("out.glb");
+  const Eigen::Affine3d to_scene = Eigen::Translation3d(1, 2, 3) *
+                                   Eigen::Quaterniond(0.8, 0.6, 0, 0) * Eigen::Scaling(2.);
+  const Eigen::Affine3d turn =
+    Eigen::Translation3d(0, 1, 0) *
+    Eigen::AngleAxisd(50 * std::acos(-1.0) / 180, P(1, 2, 3).normalized()) *
+    Eigen::Translation3d(0, -1, 0);
+  const Eigen::Affine3d expected = to_scene.inverse() * turn * to_scene;
+  for(std::size_t i = 0; i < 6; ++i)
+    for(int k = 0; k < 3; ++k)
+    {
+      CHECK_AT_MOST(std::abs(glb.numbers[3 * i + k] - (expected * local[i])[k]), 1e-6);
+      CHECK_AT_MOST(std::abs(glb.numbers[18 + 3 * i + k] - (expected.linear() * normal)[k]), 1e-6);
+    }
+  for(std::size_t i = 36; i < numbers.size(); ++i)
+    CHECK(glb.numbers[i] == numbers[i]);
+  auto rest = glb.json;
+  for(const char* bound : {"min", "max"})
+  {
+    CHECK(rest["accessors"][0][bound].size() == 3);
+    rest["accessors"][0].erase(bound);
+  }
+  rest["buffers"] = json["buffers"];
+  CHECK(rest == json); // all else is kept
+
+  test_case() = "glTF to other formats and back";
+  const std::string stay = " --handle x:-99.. --move 0,0,0 --quiet -o ";
+  CHECK(run("out.glb" + stay + "out.gltf").exit_code == 0);
+  CHECK(run("out.gltf" + stay + "out2.glb").exit_code == 0);
+  CHECK(content(folder / "out2.glb") == content(folder / "out.glb"));
+  CHECK(run("in.gltf" + stay + "out.off").exit_code == 0);
+  const auto points = read_points("out.off");
+  CHECK(points.size() == 4); // the seam is closed
+  CHECK_AT_MOST((points[1] - to_scene * local[1]).norm(), 1e-12);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.off --quiet").exit_code == 0);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.glb --quiet").exit_code == 0);
+  CHECK(run("tube.glb" + stay + "tube2.off").exit_code == 0);
+  const auto tube = read_points("tube.off"), tube2 = read_points("tube2.off");
+  CHECK(tube.size() == tube2.size());
+  for(std::size_t v = 0; v < tube.size() && v < tube2.size(); ++v)
+    CHECK_AT_MOST((tube[v] - tube2[v]).norm(), 1e-6);
+  CHECK(run("in.off --selection in.sel --transform in.def -o tube.glb").err ==
+        "note: tube.glb does not keep: double precision\n");
+
+  write("precious.off", "precious");
+  const auto refuse = [&](const std::string& pointer, const nlohmann::json& value,
+                          const std::string& phrase) {
+    auto bad = json;
+    bad[nlohmann::json::json_pointer(pointer)] = value;
+    write("bad.gltf", bad.dump());
+    check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
+  };
+  refuse("/nodes/1/skin", 0, "the node 1 has a skin");
+  refuse("/nodes/0/children/0", 0, "the node 0 is there twice");
+  refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
+  refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
+  refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
+  refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
+  refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
+  refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
+  refuse("/accessors/0/count", 7000, "has an accessor that does not fit into its buffer");
+  refuse("/accessors/0/count", -1, "has an accessor that does not fit into its buffer");
+  refuse("/accessors/0/componentType", 5123, "has positions or normals that are quantized");
+  refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
+  refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");
+  refuse("/buffers/0/uri", "data:;base64,=*=", "has a buffer that is not in base64");
+  write("bad.glb", content(folder / "out.glb").substr(0, 300));
+  check_refused("bad.glb" + stay + "precious.off", 1, "bad.glb: ");
+}
+
+// Measures of the result, where they are known.
+void test_quality()
+{
+  const auto report = [](const std::string& file) {
+    return nlohmann::json::parse(content(folder / file));
+  };
+  test_case() = "quality of an affine map of all";
+  write("map.def", "0 -2 0 0\n2 0 0 0\n0 0 2 5\n0 0 0 1\n");
+  CHECK(run("in.off --handle z:0.. --transform map.def -o new.off --report r.json --quality")
+          .exit_code == 0);
+  auto json = report("r.json");
+  CHECK_AT_MOST(std::abs(json["area_change"].get<double>() - 3), 1e-12);
+  CHECK(json["volume_change"].is_null()); // the tube is open
+  CHECK_AT_MOST(json["largest_angle_change"].get<double>(), 1e-5);
+  CHECK_AT_MOST(json["largest_spike"].get<double>(), 1e-12);
+  CHECK(json["self_intersections"] == 0);
+
+  test_case() = "a stretched tetrahedron, closed, as text";
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\n"
+                             "property double y\nproperty double z\n";
+  const std::string header_end = "element face 4\nproperty list uchar int vertex_indices\n"
+                                 "end_header\n";
+  write("corner.ply", header + header_end + corners + faces);
+  write("stretch.def", "1 0 0 0\n0 1 0 0\n0 0 2 0\n0 0 0 1\n");
+  const std::string call = "corner.ply --handle z:0.. --transform stretch.def --report r.json "
+                           "--quality -o ";
+  CHECK(run(call + "new.ply --color edge_error").exit_code == 0);
+  json = report("r.json");
+  const double area = 1.5 + std::sqrt(3.) / 2, stretched = 0.5 + 2 + 1.5;
+  CHECK_AT_MOST(std::abs(json["area_change"].get<double>() - (stretched / area - 1)), 1e-12);
+  CHECK_AT_MOST(std::abs(json["volume_change"].get<double>() - 1), 1e-12);
+  // from 45 to atan(2), and from 60 to the angles of an isosceles triangle with sides sqrt(5)
+  const double degree = std::acos(-1.0) / 180;
+  const double angle = (std::max)(std::atan(2) / degree - 45,
+                                  60 - 2 * std::asin(std::sqrt(0.1)) / degree);
+  CHECK_AT_MOST(std::abs(json["largest_angle_change"].get<double>() - angle), 1e-6);
+  const std::string text = content(folder / "new.ply");
+  const std::string new_header = header + "property float edge_error\n" + header_end;
+  CHECK(text.substr(0, new_header.size()) == new_header);
+  std::istringstream in(text.substr((std::min)(new_header.size(), text.size())));
+  const double d = std::sqrt(5.) - std::sqrt(2.); // of a slanted edge
+  for(const double expected : {std::sqrt(1. / 3), std::sqrt(d * d / 5), std::sqrt(d * d / 5),
+                               std::sqrt((1 + 2 * d * d) / 5)})
+  {
+    double x = 0, y = 0, z = 0, value = 0;
+    CHECK(in >> x >> y >> z >> value);
+    CHECK_AT_MOST(std::abs(value - expected), 1e-7);
+  }
+  CHECK(run(call + "new2.ply --color area").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float area\n") != std::string::npos);
+  CHECK(run("new.ply --handle z:0.. --move 0,0,1 -o new2.ply --color edge_error").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float edge_error_\n") != std::string::npos);
+  CHECK(run("in.off --handle z:..1 --rotate x 90 -o new2.ply --color spike").exit_code == 0);
+  CHECK(content(folder / "new2.ply").find("property float spike\n") != std::string::npos);
+  check_refused(call + "new3.off --color edge_error", 1, "needs a .ply file as output, or --image");
+  check_refused(call + "new3.ply --color red", 2, "use one of edge_error, area, volume, angle");
+
+  test_case() = "one triangle through another";
+  write("two.off", "OFF\n6 2 0\n0 0 0\n2 0 0\n0 2 0\n0 0 1\n2 0 1\n0 2 1\n3 0 1 2\n3 3 4 5\n");
+  for(const auto& [step, pairs] : {std::pair("-0.5", 0), std::pair("-1", 1)})
+  {
+    CHECK(run("two.off --fix list:0,1,2 --handle list:3,4 --move 0,0,1 --handle list:5 --move "
+              "0.5,-1," + std::string(step) + "5 -o new.off --report r.json --quality").exit_code ==
+          0);
+    CHECK(report("r.json")["self_intersections"] == pairs);
+  }
+
+  test_case() = "a spike";
+  write("fan.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 2 3\n"
+                   "3 0 3 4\n3 0 4 1\n");
+  CHECK(run("fan.off --fix list:1,2,3,4 --handle list:0 --move 0,0,1 -o new.off --report r.json")
+          .exit_code == 0);
+  CHECK_AT_MOST(std::abs(report("r.json")["largest_spike"].get<double>() - std::sqrt(0.5)), 1e-12);
+  CHECK(!report("r.json").contains("self_intersections"));
+}
+
 void test_help()
 {
   test_case() = "help";
@@ -428,7 +952,8 @@ void test_help()
   for(const char* option :
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
        "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
-       "--quiet"})
+       "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
+       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform"})
     CHECK(help.out.find(option) != std::string::npos);
 }
 
@@ -440,6 +965,11 @@ void test_all()
   test_help();
   test_success();
   test_polygons();
+  test_handles();
+  test_frames();
+  test_picks();
+  test_gltf();
+  test_quality();
   test_refusals();
 }
 
@@ -674,6 +1204,130 @@ void test_text()
   CHECK(content(folder / "SELF.MESH") + end == moved);
 }
 
+// `good` with the first `from` replaced by `to`
+std::string replaced(const std::string& good, const std::string& from, const std::string& to)
+{
+  const std::size_t place = good.find(from);
+  CHECK(place != std::string::npos);
+  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
+}
+
+// The same tetrahedra in the formats of Gmsh and VTK, with all that may be around them.
+void test_other_formats()
+{
+  const Task task = make_task();
+  write_task(task);
+  write("in.mesh", mesh_file(shape.points));
+  const std::string rest = " --selection in.sel --transform in.def --iterations 5 --tolerance 0 "
+                           "--quiet -o ";
+  CHECK(run("in.mesh" + rest + "out.mesh").exit_code == 0);
+  const std::vector<Eigen::Vector3d> expected = read_points("out.mesh");
+  const std::size_t n = shape.points.size(), m = shape.tetrahedra.size();
+  using Points = std::vector<Eigen::Vector3d>;
+  const auto cells = [m](const std::string& start, const std::string& end, std::size_t first) {
+    std::string text;
+    for(std::size_t i = 0; i < m; ++i)
+    {
+      text += start == "#" ? std::to_string(i + 7) + ' ' : start;
+      for(std::size_t v : shape.tetrahedra[i])
+        text += std::to_string(first + v) + ' ';
+      text += end;
+    }
+    return text;
+  };
+
+  const auto msh2 = [&](const Points& points) {
+    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"$Nodes\"\n"
+                       "$EndPhysicalNames\n$Nodes\n" + std::to_string(n) + '\n';
+    for(std::size_t v = 0; v < n; ++v)
+      text += std::to_string(v + 100) + ' ' + row(points[v]) + '\n';
+    text += "$EndNodes\n$Elements\n" + std::to_string(m + 1) + "\n1 2 2 1 -3 100 101 102\n";
+    return text + cells("5 4 3 1 2 9 ", "\n", 100) + "$EndElements\n$NodeData\n1 2 3\n";
+  };
+  const auto msh4 = [&](const Points& points) {
+    std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 0\n$EndEntities\n"
+                       "$Nodes\n2 " + std::to_string(n) + " 1 " + std::to_string(n) + "\n1 -4 1 1\n"
+                       "1\n" + row(points[0]) + " 0.5\n3 1 0 " + std::to_string(n - 1) + '\n';
+    for(std::size_t v = 1; v < n; ++v)
+      text += std::to_string(v + 1) + '\n';
+    for(std::size_t v = 1; v < n; ++v)
+      text += row(points[v]) + '\n';
+    text += "$EndNodes\n$Elements\n2 " + std::to_string(m + 1) + " 1 9\n2 1 2 1\n5 1 2 3\n3 1 4 " +
+            std::to_string(m) + '\n';
+    return text + cells("#", "\n", 1) + "$EndElements\n";
+  };
+  const auto vtk = [&](const std::string& version, const Points& points) {
+    std::string text = "# vtk DataFile Version " + version + "\nPOINTS of a title\nASCII\nDATASET "
+                       "UNSTRUCTURED_GRID\nPOINTS " + std::to_string(n) + " double\n";
+    for(const auto& p : points)
+      text += row(p) + "  ";
+    if(version == "3.0")
+      text += "\n\nCELLS " + std::to_string(m + 1) + ' ' + std::to_string(5 * m + 4) +
+              "\n3 0 1 2\n" + cells("4 ", "\n", 0);
+    else
+    {
+      text += "\nMETADATA\nINFORMATION 0\n\nCELLS " + std::to_string(m + 2) + ' ' +
+              std::to_string(4 * m + 3) + "\nOFFSETS vtktypeint64\n0 3 ";
+      for(std::size_t i = 1; i <= m; ++i)
+        text += std::to_string(3 + 4 * i) + ' ';
+      text += "\nCONNECTIVITY vtktypeint64\n0 1 2 " + cells("", "", 0);
+    }
+    text += "\nCELL_TYPES " + std::to_string(m + 1) + "\n5\n";
+    for(std::size_t i = 0; i < m; ++i)
+      text += "10\n";
+    return text + "POINT_DATA 1\nSCALARS a float\n";
+  };
+  const auto check_same = [&](const std::string& name, const std::string& file, const auto& text) {
+    test_case() = name;
+    write("in." + file, text(shape.points));
+    const Run done = run("in." + file + rest + "out." + file);
+    if(!CHECK(done.exit_code == 0))
+      std::cerr << "    " << done.err;
+    CHECK(content(folder / ("out." + file)) == text(expected));
+    CHECK(run("in." + file + rest + "other.mesh").exit_code == 0);
+    const std::string other = content(folder / "other.mesh");
+    CHECK(other.find("Vertices " + std::to_string(n) + '\n' + row(expected[0]) + " 0\n") !=
+          std::string::npos);
+    write("precious.off", "precious");
+    check_refused("in." + file + rest + "new.off", 1, "only be written to a .mesh file, or to a");
+  };
+  check_same("msh 2.2", "msh", msh2);
+  check_same("msh 4.1", "msh", msh4);
+  check_same("vtk 3.0", "vtk", [&](const Points& points) { return vtk("3.0", points); });
+  check_same("vtk 5.1", "vtk", [&](const Points& points) { return vtk("5.1", points); });
+
+  const auto refuse = [&](const std::string& file, const std::string& text,
+                          const std::string& phrase) {
+    write("bad." + file, text);
+    const bool is_start = phrase[0] == ':' || phrase[0] == ',';
+    check_refused("bad." + file + rest + "out2." + file, 1,
+                  (is_start ? "bad." + file : "") + phrase);
+  };
+  const std::string good = msh2(shape.points), good4 = msh4(shape.points),
+                    grid = vtk("5.1", shape.points);
+  refuse("msh", "OFF\n", ", line 1: a .msh file starts with '$MeshFormat', but this with 'OFF'");
+  refuse("msh", replaced(good, "2.2 0", "4 0"), ", line 2: only the versions 2.2 and 4.1");
+  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary; save it as text");
+  refuse("msh", replaced(good, "\n$Nodes\n", "\n$Node\n"), ": has no $Nodes");
+  refuse("msh", replaced(good, "\n101 ", "\n100 "), ", line 11: a node has the same number as");
+  refuse("msh", replaced(good, "100 101 102", "100 101 7"), ", line 58: there is no node '7'");
+  const std::string only = "only tetrahedra with four vertices can be deformed, but there are "
+                           "elements of the type ";
+  refuse("msh", replaced(good, "\n5 4 3", "\n5 5 3"), ", line 59: " + only + "5, after '9'");
+  refuse("msh", replaced(good4, "3 1 4 ", "3 1 11 "), ", line 107: " + only + "11, after '7'");
+  refuse("msh", replaced(good4, "3 1 4 ", "3 1 4 9"), ", line 187: expected an integer");
+  for(std::size_t size = 100; size < good.find("$EndElements") - 20; size += 97)
+    refuse("msh", good.substr(0, size), "");
+  refuse("vtk", "vtk\n", ": does not start with '# vtk DataFile'");
+  refuse("vtk", replaced(grid, "ASCII", "BINARY"), ", line 3: only ASCII files can be read, but");
+  refuse("vtk", replaced(grid, "UNSTRUCTURED_GRID", "POLYDATA"), ", line 4: only an UNSTRUCTURED");
+  refuse("vtk", replaced(grid, "\n10\n", "\n12\n"), "a cell of the type 12 with 4 vertices, after");
+  refuse("vtk", replaced(grid, "0 1 2 ", "0 1 99999 "), "but found '99999'");
+  refuse("vtk", replaced(grid, "CELL_TYPES ", "CELL_TYPES 1"), "CELL_TYPES, but found");
+  for(std::size_t size = 60; size < grid.find("CELL_TYPES"); size += 97)
+    refuse("vtk", grid.substr(0, size), "");
+}
+
 void test_rigid_motion()
 {
   test_case() = "the boundary moves rigidly";
@@ -735,14 +1389,6 @@ void test_inside_out()
   }
   else
     std::cout << "NOTICE: povray is not installed; no picture was tested" << std::endl;
-}
-
-// `good` with the first `from` replaced by `to`
-std::string replaced(const std::string& good, const std::string& from, const std::string& to)
-{
-  const std::size_t place = good.find(from);
-  CHECK(place != std::string::npos);
-  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
 }
 
 void test_refusals()
@@ -823,7 +1469,7 @@ void test_refusals()
   check_refused(good_call + "-o out.off", 1,
                 "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
                 "file");
-  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl or .mesh");
+  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl, .gltf, .glb,");
   write("five.sel", "0\n1\n1\n2\n1\n");
   check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,
                 "has 5 statuses, but the mesh has 4 vertices");
@@ -835,6 +1481,7 @@ void test_all()
 {
   test_choices();
   test_text();
+  test_other_formats();
   test_rigid_motion();
   test_inside_out();
   test_refusals();

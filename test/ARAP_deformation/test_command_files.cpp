@@ -16,12 +16,15 @@
 #include "include/command.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <iostream>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -292,10 +295,11 @@ void test_notes()
   check_note("colours.off", "new.ply", "");
   check_note("colours.off", "new.obj", "colours");
   write("faces.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces(" 1 2 3"));
-  check_note("faces.off", "new.off", "colours");
+  check_note("faces.off", "new.off", "");
+  check_note("faces.off", "new.ply", "colours");
   write("vertices.off", "OFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n" +
                           faces(""));
-  check_note("vertices.off", "new.off", "colours");
+  check_note("vertices.off", "new.obj", "colours");
   write("normals.off", "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n" +
                          faces(""));
   check_note("normals.off", "new.off", "normals");
@@ -305,12 +309,98 @@ void test_notes()
                                           "materials, normals, points, texture coordinates");
   write("colours.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"
                        "f 1 3 4\n");
-  check_note("colours.obj", "new.obj", "colours");
+  check_note("colours.obj", "new.obj", "");
+  check_note("colours.obj", "new.off", "colours");
   write("more.ply", ply("ascii", "float", "4", "uchar int",
                         "property float nx\nproperty uchar red\nproperty int quality\n"
                         "element edge 1\nproperty int a\n") +
                       "0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n7\n" + faces(""));
-  check_note("more.ply", "new.ply", "colours, normals, the element 'edge', the property 'quality'");
+  check_note("more.ply", "new.ply", "");
+  check_note("more.ply", "new.off", "colours, normals, the element 'edge', the property 'quality'");
+}
+
+// the bytes of a number
+template <typename Number>
+std::string bytes(Number value, bool is_reversed)
+{
+  std::string result(reinterpret_cast<const char*>(&value), sizeof(value));
+  if(is_reversed)
+    std::reverse(result.begin(), result.end());
+  return result;
+}
+
+// In the format of the input only coordinates change, and normals turn. Here two triangles share an
+// edge on the y axis, and one turns about it, so that its last vertex goes from x = -1 to z = 1.
+void test_kept()
+{
+  write("quarter.def", "0 0 1 0\n0 1 0 0\n-1 0 0 0\n0 0 0 1\n");
+  const auto deformed = [](const std::string& file, const std::string& text) {
+    test_case() = file;
+    write(file, text);
+    const std::string output = "new" + file.substr(file.find('.'));
+    const Run done = run(file + " --fix x:0.. --handle x:..-1 --transform quarter.def -o " +
+                         output);
+    if(!CHECK(done.exit_code == 0 && done.err.empty()))
+      std::cerr << "    " << done.err;
+    return content(folder / output);
+  };
+  CHECK(deformed("kept.off",
+                 "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # colour\n+1 0 0\t4 5 6\n"
+                 "0 1 0 7 8 9\n# another\n -1.00 0.5  0 1 1 1\n3 0 1 2 7\n3 0 2 3 8 # end") ==
+        "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # colour\n+1 0 0\t4 5 6\n"
+        "0 1 0 7 8 9\n# another\n 0 0.5  1 1 1 1\n3 0 1 2 7\n3 0 2 3 8 # end");
+
+  const std::string start = "# a comment\r\nmtllib my.mtl\r\no a\nv 0.0 -1 0e3\n\tv 1 \\\n 0 0 0.5 "
+                            "0.5 0.5 # colour\nv 0 1 0 1.0\nvt 0 0\nvt 1 0.50\nvn 0 0 1.0\n";
+  const std::string end = "g b c\nusemtl red\ns 1\nf 1/1/1 2/1/1 3/2/1\nusemtl blue\n"
+                          "f 3/1/2 -1/2/-1 1/2/2\nl 1 2";
+  std::string obj = deformed("kept.obj", start + "v -1.00 0.5 0\nvn 0 0 2\nvn 0 1 0\n" + end);
+  const std::size_t turned = start.size() + std::string("v 0 0.5 1\n").size();
+  CHECK(obj.substr(0, turned) == start + "v 0 0.5 1\n"); // the first normal is as it was
+  CHECK(obj.size() > turned + end.size() && obj.substr(obj.size() - end.size()) == end);
+  std::istringstream normals(obj.substr((std::min)(turned, obj.size())));
+  for(const auto& expected : {std::array<double, 3>{2, 0, 0}, {0, 1, 0}})
+  {
+    std::string keyword;
+    CHECK(normals >> keyword && keyword == "vn");
+    for(int k = 0; k < 3; ++k)
+    {
+      double value = 7;
+      normals >> value;
+      CHECK_AT_MOST(std::abs(value - expected[k]), 1e-12);
+    }
+  }
+
+  const auto header = [](const std::string& format) {
+    return "ply\nformat " + format + " 1.0\ncomment by hand\nelement lists 1\n"
+           "property list uchar short things\nelement vertex 4\nproperty int before\n"
+           "property double z\nproperty float x\nproperty float y\nproperty uchar red\n"
+           "element face 2\nproperty uchar quality\nproperty list uchar int vertex_indices\n"
+           "element edge 1\nproperty int a\nend_header\n";
+  };
+  CHECK(deformed("kept.ply", header("ascii") + "2 8 9\n1 0.0 0 -1 9\n2 0 1.0 0 9\n3 0 0 1 9\n"
+                                               "4 0 -1 0.50 9\n5 3 0 1 2\n6 3 0 2 3\n 7") ==
+        header("ascii") + "2 8 9\n1 0.0 0 -1 9\n2 0 1.0 0 9\n3 0 0 1 9\n"
+                          "4 1 0 0.50 9\n5 3 0 1 2\n6 3 0 2 3\n 7");
+  for(const bool is_big : {false, true})
+  {
+    const auto binary = [&](double x, double z) {
+      const std::string format = is_big ? "binary_big_endian" : "binary_little_endian";
+      std::string text = header(format) + '\2' + bytes<short>(8, is_big) + bytes<short>(9, is_big);
+      for(const auto& p : {std::array<double, 3>{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {x, 0.5, z}})
+        text += bytes<int>(4, is_big) + bytes<double>(p[2], is_big) +
+                bytes<float>(static_cast<float>(p[0]), is_big) +
+                bytes<float>(static_cast<float>(p[1]), is_big) + '\x9';
+      for(const auto& corners : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}})
+      {
+        text += "\5\3";
+        for(int corner : corners)
+          text += bytes<int>(corner, is_big);
+      }
+      return text + bytes<int>(7, is_big);
+    };
+    CHECK(deformed("kept.ply", binary(-1, 0)) == binary(0, 1));
+  }
 }
 
 void test_all()
@@ -327,6 +417,7 @@ void test_all()
   test_text_files();
   test_byte_order_marks();
   test_notes();
+  test_kept();
 }
 
 } // namespace damaged
@@ -411,13 +502,13 @@ void test_meshes_in_pipes()
   const std::string arguments = "--selection in.sel -o ";
   write("in.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
   check_mesh("arap in.off " + arguments + "/dev/stdout | cat", "OFF\n4 2 0\n");
-  check_mesh("arap in.obj " + arguments + "/dev/stdout | cat", "# file");
-  check_mesh("arap in.obj " + arguments + "link_to_stdout", "# file");
-  check_mesh("arap in.obj " + arguments + "/dev/fd/1 > got; cat got", "# file");
+  check_mesh("arap in.obj " + arguments + "/dev/stdout | cat", "v 0 0 0\nv");
+  check_mesh("arap in.obj " + arguments + "link_to_stdout", "v 0 0 0\nv");
+  check_mesh("arap in.obj " + arguments + "/dev/fd/1 > got; cat got", "v 0 0 0\nv");
   fs::remove(folder / "got");
   Run done = run_arap("timeout 20 cat fifo > got & arap in.obj " + arguments + "fifo; wait");
   CHECK(done.exit_code == 0 && done.out.find("written: fifo") != std::string::npos);
-  CHECK(content(folder / "got").rfind("# file", 0) == 0);
+  CHECK(content(folder / "got").rfind("v 0 0 0\nv", 0) == 0);
   fs::remove(folder / "got");
   done = run_arap("timeout 20 cat fifo.off > got & arap in.obj " + arguments + "fifo.off; wait");
   CHECK(done.exit_code == 0 && content(folder / "got").rfind("OFF", 0) == 0);
@@ -598,6 +689,12 @@ Files make_files()
                      "3 0 1 2 3\n3 0 2 3 4\n"},
     {"in.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
                 "0 0 1 0\n1 1 1 0\n2 1 1 0\nTetrahedra 3\n1 2 3 4 0\n2 3 4 5 1\n2 4 5 6 2\nEnd\n"},
+    {"in.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 6 1 6\n3 1 0 6\n1\n2\n3\n4\n5\n6\n"
+               "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n2 1 1\n$EndNodes\n$Elements\n1 3 1 3\n3 1 4 3\n"
+               "1 1 2 3 4\n2 2 3 4 5\n3 2 4 5 6\n$EndElements\n"},
+    {"in.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
+               "0 0 0 1 0 0 0 1 0 0 0 1 1 1 1 2 1 1\nCELLS 3 15\n4 0 1 2 3\n4 1 2 3 4\n4 1 3 4 5\n"
+               "CELL_TYPES 3\n10\n10\n10\n"},
     {"in.sel", "0\n0\n1\n1\n1\n2 # the last\n"},
     {"in.def", "1 0 0 0.1\n0 1 0 0.2\n0 0 1 0\n0 0 0 1\n"},
     {"text.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty double y\n"
@@ -608,7 +705,7 @@ Files make_files()
                  "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"}};
   for(const auto& [name, text] : files)
     write(name, text);
-  for(const std::string name : {"in.obj", "in.ply", "in.stl"})
+  for(const std::string name : {"in.obj", "in.ply", "in.stl", "in.gltf", "in.glb"})
   {
     test_case() = name;
     CHECK(run("in.off --selection in.sel --transform in.def --iterations 1 -o " + name).exit_code ==
@@ -640,7 +737,8 @@ std::string make_arguments(Changes& changes, const std::string& mesh, bool is_ch
     {mesh}, {"--selection", "in.sel"}, {"--transform", "in.def"}, {"-o", "out" + kind},
     {"--report=r.json"}, {"--iterations", "5"}, {"--cells", "spokes"}, {"--weights", "uniform"},
     {"--minimizer", "quasi_newton"}, {"--initial_guess", "laplacian"}, {"--threads=1"},
-    {"--quiet"}};
+    {"--quiet"}, {"--frames", "2"}, {"--region", "x:-50%..0.5"}, {"--fix", "near:0,0,1"},
+    {"--save-selection", "new.sel"}, {"--soft", "3"}, {"--quality"}};
   options.resize(4 + changes.below(options.size() - 3));
   for(std::size_t i = options.size(); i > 1; --i)
     std::swap(options[i - 1], options[changes.below(i)]);
@@ -693,7 +791,8 @@ void test_all(int runs, unsigned int seed)
   limit_command();
   const Files good = make_files();
   const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
-                                           "text.ply", "in.stl", "text.stl", "in.mesh"};
+                                           "text.ply", "in.stl", "text.stl", "in.mesh",
+                                           "in.gltf", "in.glb", "in.msh", "in.vtk"};
   std::map<int, int> exit_codes;
   for(int i = 0; i < runs; ++i)
   {

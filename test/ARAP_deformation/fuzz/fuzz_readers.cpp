@@ -68,10 +68,10 @@ void read(const std::string& file)
   if(format == "sel")
     read_selection(file, 4);
   else if(format == "def")
-    read_transform(file);
+    read_transforms(file);
   else if(format == "mesh")
   {
-    const Medit_file tetrahedra(file);
+    Medit_file tetrahedra(file);
     std::ostringstream out;
     tetrahedra.write(out, tetrahedra.mesh().points);
     const std::ifstream in = open_for_reading(file);
@@ -85,6 +85,12 @@ void read(const std::string& file)
     require(mesh.is_valid(false), "a valid mesh");
     Output_file out((folder / ("out." + format)).string());
     write_mesh(out, mesh, "." + format);
+    Source_text source = read_source(file);
+    require(source.points.empty() || source.points.size() == mesh.number_of_vertices(),
+            "a place for each point");
+    std::ostringstream same;
+    source.write(same);
+    require(same.str() == source.text, "the same text if no point has moved");
   }
 }
 

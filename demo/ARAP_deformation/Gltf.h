@@ -1,0 +1,306 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_GLTF_H
+#define CGAL_ARAP_DEFORMATION_DEMO_GLTF_H
+
+// The containers of glTF 2.0: .gltf, a JSON text, and .glb, with the first buffer behind it.
+
+#include "shape_files.h"
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/binary_from_base64.hpp>
+#include <boost/archive/iterators/dataflow_exception.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+class Gltf
+{
+public:
+  using Json = nlohmann::ordered_json;
+
+  // the component types and targets of the format
+  enum { BYTE_INDEX = 5121, SHORT_INDEX = 5123, INDEX = 5125, FLOAT = 5126 };
+  enum { VERTICES = 34962, CORNERS = 34963 };
+
+  // the place of an accessor in a buffer
+  struct Array
+  {
+    std::size_t buffer, begin, stride, size;
+    int component;
+  };
+
+  Json json;
+  std::vector<std::string> buffers; // in bytes
+
+  // One buffer, and nothing in it.
+  Gltf() : json{{"asset", {{"version", "2.0"}, {"generator", "arap_deform"}}}}, buffers(1),
+           m_is_inside(1, true)
+  {
+    json["buffers"].push_back(Json::object());
+  }
+
+  // Throws a std::runtime_error if the file cannot be read.
+  explicit Gltf(const std::string& file)
+  {
+    try
+    {
+      read(file);
+    }
+    catch(const Json::exception& error)
+    {
+      throw std::runtime_error(file + ": is no glTF that can be read: " + printable(error.what()));
+    }
+    catch(const boost::archive::iterators::dataflow_exception&)
+    {
+      throw std::runtime_error(file + ": has a buffer that is not in base64");
+    }
+  }
+
+  // Throws if the accessor is not in a buffer, or needs what is not supported.
+  Array array(std::size_t index, const std::string& type) const
+  {
+    const Json& accessor = json.at("accessors").at(index);
+    if(accessor.at("type") != type || accessor.contains("sparse") ||
+       !accessor.contains("bufferView"))
+      throw std::runtime_error("has an accessor that is sparse, compressed, or not of the type " +
+                               type);
+    const Json& view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+    Array result;
+    result.component = accessor.at("componentType");
+    const std::size_t bytes = (result.component == BYTE_INDEX    ? 1
+                               : result.component == SHORT_INDEX ? 2
+                                                                 : 4) *
+                              (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
+    result.buffer = view.at("buffer");
+    if(result.buffer >= buffers.size())
+      throw std::runtime_error("has an accessor in a buffer that does not exist");
+    result.begin = view.value("byteOffset", std::size_t(0)) +
+                   accessor.value("byteOffset", std::size_t(0));
+    result.stride = view.value("byteStride", bytes);
+    result.size = accessor.at("count");
+    const double end = double(result.begin) + double(result.stride) * (double(result.size) - 1) +
+                       double(bytes);
+    if(!(double(result.size) <= end && end <= double(buffers[result.buffer].size())))
+      throw std::runtime_error("has an accessor that does not fit into its buffer");
+    return result;
+  }
+
+  std::array<double, 3> vector(const Array& array, std::size_t i) const
+  {
+    std::array<float, 3> value;
+    std::memcpy(value.data(), buffers[array.buffer].data() + array.begin + i * array.stride,
+                sizeof(value));
+    return {value[0], value[1], value[2]};
+  }
+
+  void set_vector(const Array& array, std::size_t i, const std::array<double, 3>& v)
+  {
+    const std::array<float, 3> value{float(v[0]), float(v[1]), float(v[2])};
+    std::memcpy(buffers[array.buffer].data() + array.begin + i * array.stride, value.data(),
+                sizeof(value));
+    m_is_inside[array.buffer] = true;
+  }
+
+  std::size_t corner(const Array& array, std::size_t i) const
+  {
+    std::uint32_t value = 0;
+    std::memcpy(&value, buffers[array.buffer].data() + array.begin + i * array.stride,
+                array.component == BYTE_INDEX ? 1 : array.component == SHORT_INDEX ? 2 : 4);
+    return value;
+  }
+
+  // Writes the bounds of an accessor of vectors.
+  void update_bounds(std::size_t index)
+  {
+    const Array a = array(index, "VEC3");
+    Json low = Json::array(), high = Json::array();
+    for(std::size_t k = 0; k < 3 && a.size > 0; ++k)
+    {
+      double least = vector(a, 0)[k], most = least;
+      for(std::size_t i = 0; i < a.size; ++i)
+      {
+        least = (std::min)(least, vector(a, i)[k]);
+        most = (std::max)(most, vector(a, i)[k]);
+      }
+      low.push_back(least);
+      high.push_back(most);
+    }
+    json["accessors"][index]["min"] = low;
+    json["accessors"][index]["max"] = high;
+  }
+
+  // Appends numbers to the first buffer as an accessor, and returns its index.
+  template <typename Value>
+  std::size_t append(const std::vector<Value>& values, const std::string& type, int target = 0)
+  {
+    Json view = {{"buffer", 0}, {"byteOffset", buffers[0].size()},
+                 {"byteLength", values.size() * sizeof(Value)}};
+    if(target != 0)
+      view["target"] = target;
+    buffers[0].append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    json["bufferViews"].push_back(view);
+    json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                 {"componentType", std::is_same_v<Value, float> ? FLOAT : INDEX},
+                                 {"count", values.size() / (type == "VEC3" ? 3 : 1)},
+                                 {"type", type}});
+    const std::size_t index = json["accessors"].size() - 1;
+    if(type == "VEC3")
+      update_bounds(index);
+    return index;
+  }
+
+  // Buffers in files of their own stay there if they are unchanged.
+  void write(std::ostream& out, bool is_binary)
+  {
+    for(std::size_t k = 0; k < buffers.size(); ++k)
+    {
+      json["buffers"][k]["byteLength"] = buffers[k].size();
+      if(!m_is_inside[k])
+        continue;
+      if(is_binary && k == 0)
+        json["buffers"][k].erase("uri");
+      else
+        json["buffers"][k]["uri"] = data_uri + in_base64(buffers[k]);
+    }
+    if(!is_binary)
+    {
+      out << json.dump(1) << '\n';
+      return;
+    }
+    std::string text = json.dump(), bytes;
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const bool has_bytes = !buffers.empty() && m_is_inside[0];
+    if(has_bytes)
+      bytes = buffers[0];
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    const std::size_t size = 12 + 8 + text.size() + (has_bytes ? 8 + bytes.size() : 0);
+    out << "glTF" << number(2) << number(size) << number(text.size()) << "JSON" << text;
+    if(has_bytes)
+      out << number(bytes.size()) << std::string("BIN\0", 4) << bytes;
+  }
+
+private:
+  inline static const std::string data_uri = "data:application/octet-stream;base64,";
+
+  static std::string number(std::size_t value)
+  {
+    const auto four_bytes = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&four_bytes), 4);
+  }
+
+  static std::string in_base64(const std::string& bytes)
+  {
+    using namespace boost::archive::iterators;
+    using Encoded = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+    std::string result(Encoded(bytes.begin()), Encoded(bytes.end()));
+    result.resize((result.size() + 3) / 4 * 4, '=');
+    return result;
+  }
+
+  static std::string from_base64(std::string text)
+  {
+    using namespace boost::archive::iterators;
+    using Decoded = transform_width<binary_from_base64<std::string::const_iterator>, 8, 6>;
+    while(!text.empty() && text.back() == '=')
+      text.pop_back();
+    const std::size_t size = text.size() * 6 / 8;
+    text.resize((text.size() + 3) / 4 * 4, 'A');
+    std::string result(Decoded(text.begin()), Decoded(text.end()));
+    result.resize((std::min)(size, result.size()));
+    return result;
+  }
+
+  void read(const std::string& file)
+  {
+    std::string text = content_of(file), bytes;
+    if(text.rfind("glTF", 0) == 0)
+    {
+      const auto size_at = [&text](std::size_t place) {
+        std::uint32_t value = 0;
+        if(place + 4 <= text.size())
+          std::memcpy(&value, text.data() + place, 4);
+        return std::size_t(value);
+      };
+      const std::size_t size = size_at(12), begin = 20 + size + 8;
+      if(size_at(4) != 2 || size == 0 || 20 + size > text.size())
+        throw std::runtime_error(file + ": is no .glb file of version 2, or ends too early");
+      if(begin <= text.size())
+        bytes = text.substr(begin, size_at(20 + size));
+      text = text.substr(20, size);
+    }
+    json = Json::parse(text);
+    for(const Json& buffer : json.value("buffers", Json::array()))
+    {
+      const std::string uri = buffer.value("uri", "");
+      const std::size_t comma = uri.find(";base64,");
+      m_is_inside.push_back(uri.empty() || comma != std::string::npos);
+      if(uri.empty()) // that of a .glb file
+        buffers.push_back(bytes);
+      else if(m_is_inside.back())
+        buffers.push_back(from_base64(uri.substr(comma + 8)));
+      else
+      {
+        std::ifstream in(std::filesystem::path(file).parent_path() / uri, std::ios::binary);
+        buffers.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+      }
+      if(const std::size_t size = buffer.at("byteLength"); buffers.back().size() < size)
+        throw std::runtime_error(file + ": a buffer has less than its " + std::to_string(size) +
+                                 " bytes, or its file is missing");
+      else
+        buffers.back().resize(size);
+    }
+  }
+
+  std::vector<bool> m_is_inside; // of each buffer: not in a file of its own
+};
+
+// A scene of triangles; their positions are the first accessor.
+inline Gltf make_gltf(const std::vector<std::array<double, 3>>& points,
+                      const std::vector<std::array<int, 3>>& triangles)
+{
+  std::vector<float> positions;
+  for(const auto& p : points)
+    positions.insert(positions.end(), p.begin(), p.end());
+  std::vector<std::uint32_t> corners;
+  for(const auto& t : triangles)
+    corners.insert(corners.end(), t.begin(), t.end());
+  Gltf gltf;
+  gltf.append(positions, "VEC3", Gltf::VERTICES);
+  gltf.append(corners, "SCALAR", Gltf::CORNERS);
+  gltf.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}};
+  gltf.json["nodes"] = {{{"mesh", 0}}};
+  gltf.json["scenes"] = {{{"nodes", {0}}}};
+  gltf.json["scene"] = 0;
+  return gltf;
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_GLTF_H

@@ -1,0 +1,257 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_GLTF_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_GLTF_FILE_H
+
+#include "Corner_rotation.h"
+#include "Gltf.h"
+#include "Output_file.h"
+#include "read_mesh.h"
+#include "shape_files.h"
+
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// The triangles of a .gltf or .glb file as one surface in the coordinates of the scene. Vertices
+// that differ only in their attributes, such as texture coordinates, are one vertex of the surface.
+class Gltf_file
+{
+public:
+  using Domain = Face_graph_domain<Mesh>;
+
+  static constexpr const char* simplices = "faces";
+
+  Gltf_file(const std::string& file, const std::string&) : m_gltf(file)
+  {
+    try
+    {
+      const Gltf::Json& json = m_gltf.json;
+      const std::size_t scene = json.value("scene", std::size_t(0));
+      for(const auto& node : json.at("scenes").at(scene).at("nodes"))
+        read_node(node, Eigen::Affine3d::Identity(), 0);
+    }
+    catch(const Gltf::Json::exception& error)
+    {
+      throw std::runtime_error(file + ": is no glTF that can be read: " +
+                               printable(error.what()));
+    }
+    catch(const std::runtime_error& error)
+    {
+      throw std::runtime_error(file + ": " + error.what());
+    }
+    internal::build_mesh(file, m_rest_points, m_faces, m_mesh);
+    check_mesh(file, m_mesh);
+  }
+
+  const Mesh& mesh() const { return m_mesh; }
+  std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
+  std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
+  Domain domain() { return Domain(m_mesh); }
+
+  void check_output(const std::string& file, const std::string& format) const
+  {
+    check_format(file, format, m_mesh);
+  }
+
+  std::set<std::string> dropped(const std::string& format) const
+  {
+    return is_gltf_format(format) ? std::set<std::string>()
+                                  : std::set<std::string>{"all but points and faces"};
+  }
+
+  void set_property(const std::string& name, const std::vector<double>& values)
+  {
+    set_vertex_property(m_mesh, name, values);
+  }
+
+  void write(Output_file& output, const std::string& format) const
+  {
+    if(!is_gltf_format(format))
+      return write_mesh(output, m_mesh, format);
+    Gltf gltf = m_gltf;
+    for(const auto& [accessors, piece] : m_pieces)
+    {
+      const Gltf::Array positions = gltf.array(accessors.first, "VEC3");
+      for(std::size_t i = 0; i < piece.vertices.size(); ++i)
+        if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
+          gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
+                                                    vector(m_mesh.point(v))));
+      gltf.update_bounds(accessors.first);
+      if(accessors.second)
+        turn_normals(gltf, gltf.array(*accessors.second, "VEC3"), piece);
+    }
+    output.write([&](std::ostream& out) { gltf.write(out, format == ".glb"); });
+  }
+
+private:
+  // The vertices of a primitive, and their corners in the faces.
+  struct Piece
+  {
+    Eigen::Affine3d to_scene;
+    std::vector<Mesh::Vertex_index> vertices;
+    std::vector<std::vector<std::size_t>> faces;
+  };
+
+  static Eigen::Vector3d vector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+  static std::array<double, 3> coordinates(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+  static Eigen::Affine3d transform(const Gltf::Json& node)
+  {
+    Eigen::Affine3d result = Eigen::Affine3d::Identity();
+    if(node.contains("matrix")) // column by column, as in Eigen
+    {
+      const auto m = node["matrix"].get<std::array<double, 16>>();
+      result.matrix() = Eigen::Map<const Eigen::Matrix4d>(m.data());
+      return result;
+    }
+    const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
+    const auto r = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
+    const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
+    result.translate(Eigen::Vector3d(t[0], t[1], t[2]));
+    result.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized());
+    result.scale(Eigen::Vector3d(s[0], s[1], s[2]));
+    return result;
+  }
+
+  void read_node(std::size_t index, const Eigen::Affine3d& parent, int depth)
+  {
+    if(!m_nodes.insert(index).second)
+      throw std::runtime_error("the node " + std::to_string(index) + " is there twice");
+    if(depth > 1000)
+      throw std::runtime_error("has more than 1000 nodes in each other");
+    const Gltf::Json& node = m_gltf.json.at("nodes").at(index);
+    const Eigen::Affine3d to_scene = parent * transform(node);
+    if(node.contains("mesh"))
+    {
+      const std::size_t mesh = node["mesh"];
+      if(node.contains("skin"))
+        throw std::runtime_error("the node " + std::to_string(index) + " has a skin; only rigid "
+                                 "nodes can be deformed");
+      if(!m_meshes.insert(mesh).second)
+        throw std::runtime_error("the mesh " + std::to_string(mesh) + " is used by two nodes");
+      if(!(std::abs(to_scene.linear().determinant()) > 0))
+        throw std::runtime_error("the node " + std::to_string(index) + " is flattened");
+      for(const auto& primitive : m_gltf.json.at("meshes").at(mesh).at("primitives"))
+        read_primitive(primitive, to_scene);
+    }
+    for(const auto& child : node.value("children", Gltf::Json::array()))
+      read_node(child, to_scene, depth + 1);
+  }
+
+  void read_primitive(const Gltf::Json& primitive, const Eigen::Affine3d& to_scene)
+  {
+    const int triangles = 4;
+    if(primitive.value("mode", triangles) != triangles)
+      throw std::runtime_error("has a primitive that is no list of triangles");
+    if(primitive.contains("targets"))
+      throw std::runtime_error("has morph targets, which a deformation would make wrong");
+    const Gltf::Json& attributes = primitive.at("attributes");
+    std::pair<std::size_t, std::optional<std::size_t>> accessors(attributes.at("POSITION"), {});
+    if(attributes.contains("NORMAL"))
+      accessors.second = attributes["NORMAL"].get<std::size_t>();
+    const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
+    if(positions.component != Gltf::FLOAT ||
+       (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT))
+      throw std::runtime_error("has positions or normals that are quantized");
+
+    Piece& piece = m_pieces[accessors];
+    if(piece.vertices.empty())
+    {
+      piece.to_scene = to_scene;
+      piece.faces.resize(positions.size);
+      for(std::size_t i = 0; i < positions.size; ++i)
+      {
+        const auto p = m_gltf.vector(positions, i);
+        piece.vertices.push_back(vertex(coordinates(to_scene * Eigen::Vector3d(p[0], p[1], p[2]))));
+      }
+    }
+    std::optional<Gltf::Array> corners;
+    if(primitive.contains("indices"))
+      corners = m_gltf.array(primitive["indices"], "SCALAR");
+    const std::size_t size = corners ? corners->size : positions.size;
+    for(std::size_t i = 0; i + 2 < size; i += 3)
+    {
+      std::array<std::size_t, 3> t;
+      for(std::size_t k = 0; k < 3; ++k)
+      {
+        t[k] = corners ? m_gltf.corner(*corners, i + k) : i + k;
+        if(t[k] >= piece.vertices.size())
+          throw std::runtime_error("a triangle has a vertex that does not exist");
+      }
+      const std::vector<std::size_t> face = {piece.vertices[t[0]], piece.vertices[t[1]],
+                                             piece.vertices[t[2]]};
+      if(face[0] == face[1] || face[1] == face[2] || face[2] == face[0])
+        continue; // without area
+      for(std::size_t k : t)
+        piece.faces[k].push_back(m_faces.size());
+      m_faces.push_back(face);
+    }
+  }
+
+  Mesh::Vertex_index vertex(const std::array<double, 3>& p)
+  {
+    for(double coordinate : p)
+      if(!std::isfinite(coordinate))
+        throw std::runtime_error("has a position that is infinite or not a number");
+    const auto [place, is_new] = m_vertices.emplace(p, m_rest_points.size());
+    if(is_new)
+      m_rest_points.emplace_back(p[0], p[1], p[2]);
+    return Mesh::Vertex_index(static_cast<Mesh::size_type>(place->second));
+  }
+
+  // Each normal turns with its corners.
+  void turn_normals(Gltf& gltf, const Gltf::Array& normals, const Piece& piece) const
+  {
+    for(std::size_t i = 0; i < piece.vertices.size() && i < normals.size; ++i)
+    {
+      Corner_rotation rotation(m_mesh, m_rest_points);
+      for(std::size_t face : piece.faces[i])
+        rotation.insert(Mesh::Face_index(static_cast<Mesh::size_type>(face)), piece.vertices[i]);
+      if(!rotation.has_moved())
+        continue;
+      const auto n = m_gltf.vector(normals, i);
+      const Eigen::Matrix3d m = piece.to_scene.linear(); // normals are mapped by its cofactors
+      const Eigen::Vector3d in_scene = m.inverse().transpose() * Eigen::Vector3d(n[0], n[1], n[2]);
+      const auto turned = rotation({in_scene[0], in_scene[1], in_scene[2]});
+      gltf.set_vector(normals, i, coordinates(
+        (m.transpose() * Eigen::Vector3d(turned.x(), turned.y(), turned.z())).normalized()));
+    }
+  }
+
+  Gltf m_gltf;
+  std::set<std::size_t> m_nodes, m_meshes; // that were read
+  std::map<std::array<double, 3>, std::size_t> m_vertices;
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces; // of two accessors
+  internal::Polygons m_faces;
+  std::vector<Kernel::Point_3> m_rest_points;
+  Mesh m_mesh; // deformed
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_GLTF_FILE_H

@@ -1,0 +1,133 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_SOURCE_TEXT_H
+#define CGAL_ARAP_DEFORMATION_DEMO_SOURCE_TEXT_H
+
+#include "shape_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// The contents of a mesh file, and where the coordinates are in it: it is written with new ones,
+// and otherwise unchanged to the byte.
+class Source_text
+{
+public:
+  enum class Numbers { text, little_endian, big_endian };
+
+  // the place of a number; four bytes of a binary file are a float, eight a double
+  struct Span
+  {
+    std::size_t begin, end;
+  };
+  using Triple = std::array<Span, 3>;
+
+  // A normal, and the corners that use it: of a face, or of all faces, at a vertex.
+  struct Normal
+  {
+    Triple place;
+    Kernel::Vector_3 value;
+    std::vector<std::pair<std::optional<std::size_t>, std::size_t>> corners;
+  };
+
+  std::string text;
+  Numbers numbers = Numbers::text;
+  std::vector<Triple> points;  // of the vertices, in their order
+  std::vector<Normal> normals;
+  std::size_t properties_end = 0;    // of a .ply file: where more properties of vertices go,
+  std::vector<std::size_t> row_ends; // in the header and for each vertex
+
+  // The places of the next three words.
+  static Triple next_triple(Words& words)
+  {
+    Triple result;
+    for(Span& span : result)
+    {
+      words.next();
+      span = {words.begin(), words.end()};
+    }
+    return result;
+  }
+
+  // Replaces `before` by `after` in what is written. Numbers that stay keep their text.
+  void replace(const Triple& place, const Kernel::Vector_3& before, const Kernel::Vector_3& after)
+  {
+    for(int k = 0; k < 3; ++k)
+      if(after[k] != before[k])
+        m_changes.push_back({place[k], number(after[k], place[k].end - place[k].begin)});
+  }
+
+  // Inserts a text.
+  void insert(std::size_t place, const std::string& inserted)
+  {
+    m_changes.push_back({{place, place}, inserted});
+  }
+
+  // the text of a number, or its bytes
+  std::string number(double value, std::size_t bytes) const
+  {
+    if(numbers == Numbers::text)
+    {
+      std::ostringstream out;
+      out.precision(std::numeric_limits<double>::max_digits10);
+      out << value;
+      return out.str();
+    }
+    const float single = static_cast<float>(value);
+    std::string result(bytes == 4 ? reinterpret_cast<const char*>(&single)
+                                  : reinterpret_cast<const char*>(&value), bytes);
+    if(numbers == Numbers::big_endian)
+      std::reverse(result.begin(), result.end());
+    return result;
+  }
+
+  // Writes the text with the changes, and forgets them.
+  void write(std::ostream& out)
+  {
+    std::stable_sort(m_changes.begin(), m_changes.end(), [](const Change& a, const Change& b) {
+      return a.place.begin < b.place.begin;
+    });
+    std::size_t written = 0;
+    for(const Change& change : m_changes)
+    {
+      out << std::string_view(text).substr(written, change.place.begin - written) << change.text;
+      written = change.place.end;
+    }
+    out << std::string_view(text).substr(written);
+    m_changes.clear();
+  }
+
+private:
+  struct Change
+  {
+    Span place;
+    std::string text;
+  };
+
+  std::vector<Change> m_changes;
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_SOURCE_TEXT_H

@@ -1,0 +1,220 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_TASK_H
+#define CGAL_ARAP_DEFORMATION_DEMO_TASK_H
+
+// What the command does with the vertices of a mesh: which are fixed, which belong to a handle, and
+// where each handle is at each time.
+
+#include "Command_line.h"
+#include "Pick.h"
+#include "shape_files.h"
+
+#include <CGAL/Bbox_3.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// A handle: vertices that an affine map moves.
+struct Handle
+{
+  std::vector<std::size_t> vertices;
+  std::optional<double> weight; // of its targets, if they are soft
+  std::function<Transform(double)> transform; // at a time from 0 to the number of key frames
+};
+
+struct Task
+{
+  std::vector<int> selection;
+  std::vector<Handle> handles; // handle k has the status HANDLE + k
+  std::size_t key_frames = 1;
+};
+
+namespace internal {
+
+using Affine = Eigen::Affine3d;
+
+inline Affine affine(const Transform& m)
+{
+  Affine result;
+  result.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
+  return result;
+}
+
+inline Transform transform(const Affine& m)
+{
+  Transform result;
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(result.data()) = m.matrix();
+  return result;
+}
+
+inline const Transform identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+// The map at the share s of the way from a to b, both included: the centre moves along a straight
+// line, the rotation of the polar decomposition turns at constant speed, and the stretch is
+// interpolated linearly.
+inline Transform interpolated(const Transform& a, const Transform& b, const Eigen::Vector3d& centre,
+                              double s)
+{
+  if(s == 0 || s == 1)
+    return s == 0 ? a : b;
+  Eigen::Matrix3d rotation_a, rotation_b, stretch_a, stretch_b;
+  affine(a).computeRotationScaling(&rotation_a, &stretch_a);
+  affine(b).computeRotationScaling(&rotation_b, &stretch_b);
+  const Eigen::Quaterniond from(rotation_a), to(rotation_b);
+  Affine result;
+  result.setIdentity();
+  result.linear() = from.slerp(s, to).toRotationMatrix() * ((1 - s) * stretch_a + s * stretch_b);
+  result.translation() = (1 - s) * (affine(a) * centre) + s * (affine(b) * centre) -
+                         result.linear() * centre;
+  return transform(result);
+}
+
+// The map at a time between key frames; the first is the identity, at the time 0.
+inline Transform at_time(double time, const std::vector<Transform>& keys,
+                         const Eigen::Vector3d& centre)
+{
+  const std::size_t last = (std::min)(keys.size() - 1, static_cast<std::size_t>(time));
+  return interpolated(last == 0 ? identity : keys[last - 1], keys[last], centre, time - last);
+}
+
+// The map of a share of all steps, one after the other.
+inline Transform of_steps(double share, const std::vector<Motion_step>& steps, const Bbox_3& box,
+                          const Eigen::Vector3d& centre)
+{
+  Affine result = Affine::Identity();
+  for(const Motion_step& step : steps)
+  {
+    const Measures& m = step.place;
+    if(!step.is_rotation)
+    {
+      result.pretranslate(share * Eigen::Vector3d(m[0].length(box), m[1].length(box),
+                                                  m[2].length(box)));
+      continue;
+    }
+    Eigen::Vector3d own_centre = result * centre;
+    for(int k = 0; k < 3 && !m.empty(); ++k)
+      own_centre[k] = m[k].coordinate(box, k);
+    const Eigen::Vector3d axis(step.axis[0], step.axis[1], step.axis[2]);
+    result.pretranslate(-own_centre);
+    result.prerotate(Eigen::AngleAxisd(share * step.angle * std::acos(-1.0) / 180,
+                                       axis.stableNormalized()));
+    result.pretranslate(own_centre);
+  }
+  return transform(result);
+}
+
+inline Eigen::Vector3d centroid(const std::vector<Kernel::Point_3>& points,
+                                const std::vector<std::size_t>& vertices)
+{
+  Eigen::Vector3d sum(0, 0, 0);
+  for(std::size_t v : vertices)
+    sum += Eigen::Vector3d(points[v].x(), points[v].y(), points[v].z());
+  return sum / static_cast<double>((std::max)(vertices.size(), std::size_t(1)));
+}
+
+inline std::vector<int> make_selection(const Command_line& line,
+                                       const std::vector<Kernel::Point_3>& points)
+{
+  std::vector<int> selection = line.selection.empty() ? std::vector<int>(points.size(), FREE)
+                                                      : read_selection(line.selection,
+                                                                       points.size());
+  for(const auto& [status, pick] : line.picks)
+    for(std::size_t v : pick.vertices(points))
+      selection[v] = status;
+  for(const auto& [status, pick] : line.picks)
+    if(status != FIXED && std::count(selection.begin(), selection.end(), status) == 0)
+      throw std::runtime_error(pick.name() + ": a later --fix or --handle picks all its vertices");
+  std::vector<bool> is_in_region(points.size(), line.region.empty());
+  for(const Pick& pick : line.region)
+    for(std::size_t v : pick.vertices(points))
+      is_in_region[v] = true;
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(selection[v] == FREE && !is_in_region[v])
+      selection[v] = FIXED;
+  return selection;
+}
+
+// Reads the matrices of the key frames: one for each handle, or one for all.
+inline std::vector<std::vector<Transform>> read_key_frames(const Command_line& line,
+                                                           std::size_t handles)
+{
+  std::vector<std::vector<Transform>> keys;
+  for(const std::string& file : line.transforms)
+  {
+    keys.push_back(read_transforms(file));
+    if(const std::size_t n = keys.back().size(); n != 1 && n != handles)
+      throw std::runtime_error(file + ": has " + std::to_string(n) + " matrices, but there are " +
+                               std::to_string(handles) + " handles; give one for each, or one for "
+                               "all");
+  }
+  return keys;
+}
+
+} // namespace internal
+
+inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_3>& points)
+{
+  Task task;
+  task.selection = internal::make_selection(line, points);
+  const int largest = *std::max_element(task.selection.begin(), task.selection.end());
+  task.handles.resize(largest < HANDLE ? 0 : largest - HANDLE + 1);
+  std::vector<std::size_t> all;
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(task.selection[v] >= HANDLE)
+    {
+      task.handles[task.selection[v] - HANDLE].vertices.push_back(v);
+      all.push_back(v);
+    }
+
+  const auto key_frames = internal::read_key_frames(line, task.handles.size());
+  const bool are_together = // all handles move as one
+    line.handles.empty() && std::all_of(key_frames.begin(), key_frames.end(),
+                                        [](const auto& key) { return key.size() == 1; });
+  const Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
+  for(std::size_t k = 0; k < task.handles.size(); ++k)
+  {
+    Handle& handle = task.handles[k];
+    const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
+    const Eigen::Vector3d centre = internal::centroid(points, are_together ? all : handle.vertices);
+    handle.weight = options.weight;
+    std::vector<Transform> keys;
+    for(const auto& key : key_frames)
+      keys.push_back(key[key.size() == 1 ? 0 : k]);
+    if(keys.empty())
+      handle.transform = [steps = options.steps, box, centre](double time) {
+        return internal::of_steps(time, steps, box, centre);
+      };
+    else
+      handle.transform = [keys, centre](double time) {
+        return internal::at_time(time, keys, centre);
+      };
+  }
+  task.key_frames = (std::max)(key_frames.size(), std::size_t(1));
+  return task;
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_TASK_H

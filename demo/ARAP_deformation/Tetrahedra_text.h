@@ -1,0 +1,145 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_TETRAHEDRA_TEXT_H
+#define CGAL_ARAP_DEFORMATION_DEMO_TETRAHEDRA_TEXT_H
+
+#include "Source_text.h"
+#include "shape_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+struct Tetrahedral_mesh
+{
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<int, 4>> tetrahedra; // indices into `points`
+};
+
+inline const std::vector<Kernel::Point_3>& points_of(const Tetrahedral_mesh& mesh)
+{
+  return mesh.points;
+}
+
+// The tetrahedra of a text, which is written with new coordinates, and otherwise unchanged to the
+// byte. Derived classes read a format; what they throw names the file, the line and what is wrong.
+class Tetrahedra_text
+{
+public:
+  virtual ~Tetrahedra_text() = default;
+  Tetrahedra_text(const Tetrahedra_text&) = delete;
+  Tetrahedra_text& operator=(const Tetrahedra_text&) = delete;
+
+  const Tetrahedral_mesh& mesh() const { return m_mesh; }
+
+  // Writes the file with these points. Unchanged coordinates keep their text.
+  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points)
+  {
+    for(std::size_t v = 0; v < points.size(); ++v)
+      m_source.replace(m_source.points[v], m_mesh.points[v] - CGAL::ORIGIN,
+                       points[v] - CGAL::ORIGIN);
+    m_source.write(out);
+  }
+
+protected:
+  explicit Tetrahedra_text(const std::string& file) : m_name(file)
+  {
+    m_source.text = content_of(file);
+  }
+
+  const std::string& text() const { return m_source.text; }
+
+  [[noreturn]] void refuse(const std::string& sentence) const
+  {
+    throw std::runtime_error(m_name + ": " + sentence);
+  }
+
+  // Throws a message: `expected`, continued by what is there instead.
+  [[noreturn]] void refuse(const Words& words, const std::string& expected) const
+  {
+    const auto line = 1 + std::count(text().begin(), text().begin() + words.begin(), '\n');
+    const bool is_end = words.begin() == text().size();
+    const auto word = std::string_view(text()).substr(words.begin(), words.end() - words.begin());
+    throw bad_line(m_name, static_cast<std::size_t>(line),
+                   expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
+  }
+
+  // The words after a line that starts with a keyword, the first one after a place.
+  Words section(const std::string& keyword, std::size_t place) const
+  {
+    for(; (place = text().find(keyword, place)) != std::string::npos; ++place)
+      if(place > 0 && text()[place - 1] == '\n')
+        if(Words words(text(), place); words.next() == keyword)
+          return words;
+    refuse("has no " + keyword);
+  }
+
+  // Reads an integer from `smallest` to `largest`; description() tells what is expected.
+  template <typename Description>
+  long long read_integer(Words& words, long long smallest, long long largest,
+                         const Description& description) const
+  {
+    char* end = nullptr;
+    const bool is_end = words.next().empty();
+    const long long value = std::strtoll(text().c_str() + words.begin(), &end, 10); // saturates
+    if(is_end || end != text().c_str() + words.end() || value < smallest || value > largest)
+      refuse(words, "expected " + description() + ", but found");
+    return value;
+  }
+
+  // Appends a point and the place of its coordinates.
+  template <typename Description>
+  void read_point(Words& words, const Description& description)
+  {
+    Words place = words;
+    m_source.points.push_back(Source_text::next_triple(place));
+    std::array<double, 3> p;
+    for(double& coordinate : p)
+    {
+      char* end = nullptr;
+      const bool is_end = words.next().empty();
+      coordinate = std::strtod(text().c_str() + words.begin(), &end);
+      if(is_end || end != text().c_str() + words.end() || !std::isfinite(coordinate))
+        refuse(words, "expected a finite number, a coordinate in " + description() +
+                        ", but found");
+    }
+    m_mesh.points.emplace_back(p[0], p[1], p[2]);
+  }
+
+  // Throws if a tetrahedron has a vertex twice.
+  template <typename Description>
+  void check_tetrahedron(const Words& words, const std::array<int, 4>& corners,
+                         const Description& description) const
+  {
+    for(auto corner = corners.begin(); corner != corners.end(); ++corner)
+      if(std::find(corners.begin(), corner, *corner) != corner)
+        refuse(words, description() + " has a vertex twice; the last word is");
+  }
+
+  std::string m_name;
+  Source_text m_source;
+  Tetrahedral_mesh m_mesh;
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_TETRAHEDRA_TEXT_H

@@ -1,0 +1,124 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_VTK_FILE_H
+#define CGAL_ARAP_DEFORMATION_DEMO_VTK_FILE_H
+
+#include "Tetrahedra_text.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// Tetrahedra in .vtk files: unstructured grids in the legacy format of VTK, as text. Data of points
+// and cells are kept as they are.
+class Vtk_file : public Tetrahedra_text
+{
+public:
+  explicit Vtk_file(const std::string& file) : Tetrahedra_text(file)
+  {
+    const std::size_t title = text().find('\n');
+    if(text().rfind("# vtk DataFile", 0) != 0 || title == std::string::npos)
+      refuse("does not start with '# vtk DataFile'");
+    Words words(text(), text().find('\n', title + 1));
+    if(words.next() != "ASCII")
+      refuse(words, "only ASCII files can be read, but this is");
+    words.next(); // DATASET
+    if(words.next() != "UNSTRUCTURED_GRID")
+      refuse(words, "only an UNSTRUCTURED_GRID can be read, but this is");
+
+    words = section("POINTS", words.end());
+    const long long points = read(words);
+    words.next(); // the type of numbers
+    for(long long i = 0; i < points; ++i)
+      read_point(words, [i] { return "point " + std::to_string(i); });
+    read_cells(words.end());
+  }
+
+private:
+  long long read(Words& words, long long largest = (std::numeric_limits<int>::max)()) const
+  {
+    return read_integer(words, 0, largest, [largest] {
+      return "an integer from 0 to " + std::to_string(largest);
+    });
+  }
+
+  void read_cells(std::size_t place)
+  {
+    Words cells = section("CELLS", place), types = section("CELL_TYPES", place);
+    long long number = read(cells);
+    read(cells); // how many integers follow
+    Words connectivity = cells, look = cells;
+    const bool has_offsets = look.next() == "OFFSETS"; // since version 5
+    long long begin = 0;
+    if(has_offsets)
+    {
+      cells = look;
+      cells.next(); // the type of numbers
+      begin = read(cells);
+      --number;
+      connectivity = section("CONNECTIVITY", place);
+      connectivity.next();
+    }
+    if(const long long n = read(types); n != number)
+      refuse(types, "expected " + std::to_string(number) + " CELL_TYPES, but found");
+    for(long long i = 0; i < number; ++i)
+    {
+      long long size = read(cells);
+      if(has_offsets)
+      {
+        const long long end = size;
+        size = end - begin;
+        begin = end;
+      }
+      else
+        connectivity = cells;
+      read_cell(connectivity, size, read(types));
+      if(!has_offsets)
+        cells = connectivity;
+    }
+    if(m_mesh.tetrahedra.empty())
+      refuse("has no tetrahedra; surfaces are read from .off, .obj, .ply, .stl and glTF files");
+  }
+
+  void read_cell(Words& words, long long size, long long type)
+  {
+    const int tetrahedron = 10;
+    static const std::set<long long> flat = {1, 2, 3, 4, 5, 6, 7, 8, 9}; // or lines, or points
+    std::array<int, 4> vertices = {};
+    if((type == tetrahedron && size != 4) || (type != tetrahedron && flat.count(type) == 0))
+      refuse(words, "only tetrahedra with four vertices can be deformed, but there is a cell of "
+                    "the type " + std::to_string(type) + " with " + std::to_string(size) +
+                    " vertices, after");
+    for(long long k = 0; k < size; ++k)
+    {
+      const auto v = static_cast<int>(
+        read(words, static_cast<long long>(m_mesh.points.size()) - 1));
+      if(type == tetrahedron)
+        vertices[k] = v;
+    }
+    if(type != tetrahedron)
+      return;
+    check_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
+    m_mesh.tetrahedra.push_back(vertices);
+  }
+};
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_VTK_FILE_H
