@@ -50,6 +50,7 @@ struct Handle_options
 {
   std::vector<Motion_step> steps;
   std::optional<double> weight;
+  bool is_frame = false; // it turns the cells at its vertices, too
 };
 
 struct Command_line
@@ -84,11 +85,12 @@ inline boost::program_options::options_description described_options()
   task.add_options()
     ("fix", in_order()->value_name("WHAT"), "these vertices stay")
     ("handle", in_order()->value_name("WHAT"),
-     "these are a handle, for the next three options; each --handle is a new one")
+     "these are a handle, for the next four options; each --handle is a new one")
     ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
      "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
     ("soft", in_order()->value_name("WEIGHT"), "its targets pull with this weight")
+    ("turn", "its rotation is that of the cells around it: even one vertex turns its surroundings")
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
     ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
      "instead: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a comment")
@@ -118,15 +120,22 @@ inline boost::program_options::options_description described_options()
      "azimuth and elevation of the eye in degrees, or its direction X,Y,Z");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
-     "which edges share a rotation: spokes, spokes_and_rims, elements")
+     "which edges share a rotation: spokes, spokes_and_rims, elements, or k_ring:K, the spokes of "
+     "all vertices within K rings")
+    ("bending", value<std::string>()->default_value("0")->value_name("B"),
+     "the length over which a sharp bend is spread, as a share of the bounding box's diagonal; "
+     "0.02 to 0.1 keep a pulled vertex from being a spike")
+    ("smoothing", value<std::string>()->default_value("0")->value_name("S"),
+     "the length over which rotations are made smooth, as such a share")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
      "cotangent (with spokes the energy can be negative), clamped_cotangent, uniform, or "
      "safe_cotangent: clamped for spokes only")
     ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
      "quasi_newton unless the tolerance is 0")
-    ("initial_guess", value<std::string>()->default_value("previous")->value_name("NAME"),
-     "where to start: previous (the input with the handles moved), laplacian")
+    ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
+     "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
+     "laplacian, or automatic: the better one of the first two")
     ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<std::string>()->value_name("T")
@@ -260,12 +269,32 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
   return step;
 }
 
+inline Cell_scheme chosen_cells(const std::string& name)
+{
+  const std::string ring = "k_ring:";
+  if(name.compare(0, ring.size(), ring) == 0)
+    return Cell_scheme::k_ring(static_cast<unsigned int>(
+      number<int>("cells k_ring", name.substr(ring.size()))));
+  return chosen<Cell_scheme>("cells", name, {{"spokes", Cell_scheme::spokes()},
+                                             {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+                                             {"elements", Cell_scheme::elements()}});
+}
+
+inline Handle_options& handle_before(const std::string& option, Command_line& line)
+{
+  if(line.handles.empty() && line.selection.empty())
+    throw Usage_error("--" + option + " is for the --handle before it, but there is none");
+  return line.handles.empty() ? line.all_handles : line.handles.back();
+}
+
 // Reads the options that pick or move vertices, in their order.
 inline void read_picks(const std::vector<boost::program_options::option>& given, Command_line& line)
 {
   for(const auto& option : given)
   {
     const std::string& name = option.string_key;
+    if(name == "turn")
+      handle_before(name, line).is_frame = true;
     if(option.value.empty())
       continue;
     if(const std::string& value = option.value[0]; name == "fix")
@@ -279,9 +308,7 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
     }
     else if(name == "move" || name == "rotate" || name == "soft")
     {
-      if(line.handles.empty() && line.selection.empty())
-        throw Usage_error("--" + name + " is for the --handle before it, but there is none");
-      Handle_options& handle = line.handles.empty() ? line.all_handles : line.handles.back();
+      Handle_options& handle = handle_before(name, line);
       if(name == "soft")
         handle.weight = numbers("--soft", value, "weight")[0];
       else
@@ -384,11 +411,7 @@ inline Command_line parse_command_line(int argc, char** argv)
        {"clamped_cotangent", Weight_choice::clamped_cotangent},
        {"uniform", Weight_choice::uniform},
        {"safe_cotangent", Weight_choice::safe_cotangent}});
-    line.options.cells = chosen<Cell_scheme>(
-      "cells", values["cells"].as<std::string>(),
-      {{"spokes", Cell_scheme::spokes()},
-       {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
-       {"elements", Cell_scheme::elements()}});
+    line.options.cells = chosen_cells(values["cells"].as<std::string>());
     line.options.minimizer = chosen<Minimizer>(
       "minimizer", values["minimizer"].as<std::string>(),
       {{"automatic", Minimizer::automatic},
@@ -396,11 +419,14 @@ inline Command_line parse_command_line(int argc, char** argv)
        {"quasi_newton", Minimizer::quasi_newton}});
     line.options.initial_guess = chosen<Initial_guess>(
       "initial_guess", values["initial_guess"].as<std::string>(),
-      {{"previous", Initial_guess::previous}, {"laplacian", Initial_guess::laplacian}});
+      {{"automatic", Initial_guess::automatic}, {"previous", Initial_guess::previous},
+       {"rotations", Initial_guess::rotations}, {"laplacian", Initial_guess::laplacian}});
     const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
     line.options.iterations = number<int>("iterations", text("iterations"));
     line.options.threads = number<int>("threads", text("threads"));
     line.options.tolerance = number<double>("tolerance", text("tolerance"));
+    line.options.bending_length = number<double>("bending", text("bending"));
+    line.options.smoothing_length = number<double>("smoothing", text("smoothing"));
     if(const Outcome checked = line.options.check(); !checked)
       throw Usage_error(checked.message);
     if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&

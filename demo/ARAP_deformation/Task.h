@@ -41,6 +41,7 @@ struct Handle
 {
   std::vector<std::size_t> vertices;
   std::optional<double> weight; // of its targets, if they are soft
+  bool is_frame = false;        // it turns the cells at its vertices, too
   std::function<Transform(double)> transform; // at a time from 0 to the number of key frames
 };
 
@@ -49,6 +50,7 @@ struct Task
   std::vector<int> selection;
   std::vector<Handle> handles; // handle k has the status HANDLE + k
   std::size_t key_frames = 1;
+  double diagonal = 0; // of the bounding box: lengths are shares of it
 };
 
 namespace internal {
@@ -70,6 +72,12 @@ inline Transform transform(const Affine& m)
 }
 
 inline const Transform identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+// the rotation of its polar decomposition
+inline Eigen::Matrix3d rotation_of(const Transform& m)
+{
+  return affine(m).rotation();
+}
 
 // The map at the share s of the way from a to b, both included: the centre moves along a straight
 // line, the rotation of the polar decomposition turns at constant speed, and the stretch is
@@ -193,12 +201,15 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
     line.handles.empty() && std::all_of(key_frames.begin(), key_frames.end(),
                                         [](const auto& key) { return key.size() == 1; });
   const Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
+  task.diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(),
+                             box.zmax() - box.zmin());
   for(std::size_t k = 0; k < task.handles.size(); ++k)
   {
     Handle& handle = task.handles[k];
     const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
     const Eigen::Vector3d centre = internal::centroid(points, are_together ? all : handle.vertices);
     handle.weight = options.weight;
+    handle.is_frame = options.is_frame;
     std::vector<Transform> keys;
     for(const auto& key : key_frames)
       keys.push_back(key[key.size() == 1 ? 0 : k]);

@@ -220,7 +220,10 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
-  expect_success(line, deformation.set_options(line.options));
+  CGAL::ARAP::Options options = line.options;
+  options.bending_length *= task.diagonal;
+  options.smoothing_length *= task.diagonal;
+  expect_success(line, deformation.set_options(options));
   std::vector<std::vector<typename Deformation::vertex_descriptor>> handles(task.handles.size());
   for(auto v : domain.vertices())
   {
@@ -238,10 +241,15 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
   {
     const double time = static_cast<double>(task.key_frames) * frame / line.frames;
     for(std::size_t k = 0; k < handles.size(); ++k)
+    {
+      const auto map = task.handles[k].transform(time);
       expect_success(line, deformation.transform(
-        handles[k],
-        [m = task.handles[k].transform(time)](const auto& p) { return transformed(m, p); },
+        handles[k], [&map](const auto& p) { return transformed(map, p); },
         CGAL::ARAP::Transformed::rest_shape));
+      for(auto v = handles[k].begin(); v != handles[k].end() && task.handles[k].is_frame; ++v)
+        expect_success(line, deformation.set_target_rotation(
+          *v, CGAL::ARAP::demo::internal::rotation_of(map)));
+    }
     const std::string which = line.frames == 1 ? "" : "frame " + std::to_string(frame) + " of " +
                                                       std::to_string(line.frames) + ", ";
     progress.show(which + "preprocessing ...");

@@ -420,7 +420,7 @@ void test_refusals()
   check_refused("in.off --cells dinner" + rest, 2, "spokes, spokes_and_rims, elements");
   check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
   check_refused("in.off --minimizer newton" + rest, 2, "automatic, local_global, quasi_newton");
-  check_refused("in.off --initial_guess none" + rest, 2, "previous, laplacian");
+  check_refused("in.off --initial_guess none" + rest, 2, "rotations, laplacian");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");
@@ -710,6 +710,44 @@ void test_picks()
   }
   CHECK(is_soft);
 
+  test_case() = "bending, cells, one vertex that turns";
+  const std::string pull = "in.off --fix z:..10% --handle near:1,0,5 --move 0.5,0,0 -o ";
+  const auto result = [&](const std::string& options) {
+    CHECK(run(pull + "terms.off " + options).exit_code == 0);
+    return read_points("terms.off");
+  };
+  CHECK(result("--bending 0 --smoothing 0") == result(""));
+  CHECK(result("--cells k_ring:0") == result("--cells spokes"));
+  CHECK(result("--cells k_ring:1") != result("--cells spokes"));
+  CHECK(result("--smoothing 0.1") != result(""));
+  CGAL::ARAP::Options bent; // as by the library, with a length
+  bent.bending_length = 0.1 * Eigen::Vector3d(2, 2, 5).norm();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation d(mesh);
+  CHECK(d.set_options(bent));
+  const std::vector<P> by_command = result("--bending 0.1");
+  std::size_t pulled = 0;
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if((shape.points[v] - P(1, 0, 5)).norm() < (shape.points[pulled] - P(1, 0, 5)).norm())
+      pulled = v;
+  for(auto v : mesh.vertices())
+  {
+    d.insert_roi_vertex(v);
+    if(shape.points[v].z() <= 0.5)
+      d.insert_control_vertex(v);
+  }
+  const P end = shape.points[pulled] + P(0.5, 0, 0);
+  d.insert_control_vertex(Mesh::Vertex_index(pulled), Point(end.x(), end.y(), end.z()));
+  CHECK(d.deform());
+  CHECK_AT_MOST(largest_distance(points_of(mesh), by_command), 1e-9);
+  CHECK(run("in.off --handle near:1,0,5 --rotate z 90 --turn -o turned.off").exit_code == 0);
+  points = read_points("turned.off");
+  const P pivot = shape.points[pulled];
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(const P p = shape.points[v] - pivot; points[v] != shape.points[v])
+      CHECK_AT_MOST((points[v] - pivot - P(-p.y(), p.x(), p.z())).norm(), 1e-9);
+  CHECK(points[pulled] == pivot);
+
   write("precious.off", "precious");
   const std::string rest = " --move 0,0,1 -o precious.off";
   const auto refuse = [&](const std::string& arguments, int exit_code, const std::string& phrase) {
@@ -733,6 +771,10 @@ void test_picks()
   refuse("--handle z:0.. --rotate 0,0,0 90", 2, "has no direction");
   refuse("--handle z:0.. --rotate z up", 2, "--rotate: 'up' is not a finite number");
   refuse("--handle z:0.. --move 1,2", 2, "--move: expected the numbers dx,dy,dz");
+  refuse("--handle z:0.. --bending -1", 2, "bending_length must be finite and not negative");
+  refuse("--handle z:0.. --bending 1 --cells elements", 2, "needs cells at vertices");
+  refuse("--handle z:0.. --cells k_ring:-1", 2, "is not a whole number");
+  check_refused("in.off --turn -o precious.off", 2, "--turn is for the --handle before it");
   refuse("--handle z:0.. --soft -1", 2, "--soft -1: a weight is not negative");
   refuse("--handle z:0.. --transform in.def", 2, "leave out --move and --rotate");
   refuse("--handle z:0.. --selection in.sel", 2, "leave out --handle");
@@ -1086,7 +1128,8 @@ CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_sch
                                                      std::vector<std::array<std::size_t, 4>>>;
   CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>> d(
     Domain(points, shape.tetrahedra));
-  CHECK(d.set_options(options_for(cells)));
+  CHECK(d.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
+                                  CGAL::ARAP::Initial_guess::automatic)));
   const Eigen::Matrix4d m = task.motion.matrix();
   for(std::size_t v = 0; v < number_of_vertices; ++v)
   {
