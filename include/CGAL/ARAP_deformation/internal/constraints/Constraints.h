@@ -47,7 +47,13 @@ public:
   }
 
   // adds the row of one vertex
-  void append(int vertex, double weight) { append({vertex}, {1}, weight); }
+  void append(int vertex, double weight)
+  {
+    m_vertices.items.push_back(vertex);
+    m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+    m_coefficients.push_back(1);
+    m_weights.push_back(weight);
+  }
 
   // adds a row; its vertices differ
   void append(const Array<int>& vertices, const Array<double>& coefficients, double weight)
@@ -198,6 +204,8 @@ struct Constraints
   Array<char> is_fixed;    // for each movable vertex
   Weighted_rows rows;      // of vertices that may be fixed or not
   Weighted_rows hard_rows; // the same
+  bool has_inertia = false; // whether there are rows of free vertices that tie these to where their
+                            // inertia takes them, and not the shape to a rigid copy of itself
 
   // calls f(begin, end, sum, weight) for each row, first for the soft ones
   template <typename Function>
