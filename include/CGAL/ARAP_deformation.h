@@ -724,7 +724,8 @@ public:
   /// @{
 
   /// returns the energy after the last `deform()` or `advance()`, without inertia; not a number
-  /// before the first one, and after `reset()` or a change of the region, the weight of a target, the rest shape or the cells.
+  /// before the first one, and after `reset()` or a change of the region, the weight of a target,
+  /// the rest shape or the cells.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has

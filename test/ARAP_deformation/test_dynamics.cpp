@@ -79,9 +79,9 @@ std::vector<double> contents(const Model& model)
   {
     const Vector3d a = model.points[s[1]] - model.points[s[0]],
                    b = model.points[s[2]] - model.points[s[0]];
-    const double content = s.size() == 3
-                             ? a.cross(b).norm() / 2
-                             : std::abs(a.cross(b).dot(model.points[s[3]] - model.points[s[0]])) / 6;
+    double content = a.cross(b).norm() / 2;
+    if(s.size() == 4)
+      content = std::abs(a.cross(b).dot(model.points[s[3]] - model.points[s[0]])) / 6;
     for(std::size_t v : s)
       result[v] += content / double(s.size());
   }
@@ -103,7 +103,6 @@ Vector3d swirl(const Vector3d& p)
   return Vector3d(0.3 - p.y(), p.x() + 0.4 * p.z(), 0.5 * std::sin(2 * p.x()));
 }
 
-template <int Dimension>
 CGAL::ARAP::Options options(Cell_scheme cells, Minimizer minimizer, double tolerance = 1e-9)
 {
   CGAL::ARAP::Options result = options_for(cells, minimizer);
@@ -122,7 +121,7 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
   Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
   deformation.insert_roi_vertices(numbers(n));
   const bool is_local_global = minimizer == Minimizer::local_global;
-  CGAL::ARAP::Options o = options<Dimension>(cells, minimizer, is_local_global ? 0 : 1e-12);
+  CGAL::ARAP::Options o = options(cells, minimizer, is_local_global ? 0 : 1e-12);
   o.iterations = is_local_global ? 5 : 1000;
   CHECK(deformation.set_options(o));
   Dynamics dynamics;
@@ -169,7 +168,7 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
       std::cerr << "    " << report.message << std::endl;
       return;
     }
-    for(int k = 0; k < (is_local_global ? 5 : 400); ++k)
+    for(int k = 0; k < (is_local_global ? 5 : 100); ++k)
     {
       if(is_local_global)
         CHECK_AT_MOST(std::abs(report.energy[std::size_t(k)] - reference.energy(x)),
@@ -209,15 +208,15 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
   }
 }
 
-// A free body spins and swings for 500 steps.
+// A free body spins and swings.
 template <int Dimension>
-void conserve(Cell_scheme cells, Minimizer minimizer)
+void conserve(Cell_scheme cells, Minimizer minimizer, int steps)
 {
   const Model model = make_model<Dimension>();
   std::vector<Point> points = points_of(model.points);
   Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
   deformation.insert_roi_vertices(numbers(points.size()));
-  CHECK(deformation.set_options(options<Dimension>(cells, minimizer)));
+  CHECK(deformation.set_options(options(cells, minimizer)));
   Dynamics dynamics;
   dynamics.time_step = 0.01;
   dynamics.modulus = 10;
@@ -232,13 +231,12 @@ void conserve(Cell_scheme cells, Minimizer minimizer)
     energy += content[v] * velocity.squaredNorm() / 2;
   }
   const double first_energy = energy;
-  for(int step = 0; step < 500; ++step)
+  for(int step = 0; step < steps; ++step)
   {
     const Step_report report = deformation.advance(dynamics);
     if(!CHECK(report))
       return;
-    CHECK(!report.stages.region && report.stages.factor == (step == 0) ||
-          (step == 0 && report.stages.region));
+    CHECK(report.stages.region == (step == 0) && report.stages.factor == (step == 0));
     CHECK(report.unconstrained_components.empty());
     CHECK_AT_MOST((eigen(report.momentum) - momentum).norm(), 1e-10 * momentum.norm());
     const double sum = report.kinetic_energy + report.elastic_energy;
@@ -255,7 +253,8 @@ void conserve(Cell_scheme cells, Minimizer minimizer)
   CHECK(energy < first_energy && moment > 0.1 * largest_moment);
 }
 
-// A body without control vertices falls: by the parabola of the method, as it is.
+// A body without control vertices falls, and keeps its shape: after n steps without damping by
+// n h v + n (n + 1) / 2 h^2 g.
 template <int Dimension>
 void fall(Cell_scheme cells, Minimizer minimizer)
 {
@@ -263,7 +262,7 @@ void fall(Cell_scheme cells, Minimizer minimizer)
   std::vector<Point> points = points_of(model.points);
   Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
   deformation.insert_roi_vertices(numbers(points.size()));
-  CHECK(deformation.set_options(options<Dimension>(cells, minimizer)));
+  CHECK(deformation.set_options(options(cells, minimizer)));
   Dynamics dynamics;
   dynamics.time_step = 0.02;
   dynamics.acceleration = {0, 0, -10};
@@ -274,19 +273,19 @@ void fall(Cell_scheme cells, Minimizer minimizer)
   for(int step = 1; step <= 100; ++step)
   {
     dynamics.damping = step <= 50 ? 0 : 0.5; // another matrix
-    v = (v + dynamics.time_step * Vector3d(0, 0, -10)) / (1 + dynamics.damping * dynamics.time_step);
+    v = (v + dynamics.time_step * eigen(dynamics.acceleration)) /
+        (1 + dynamics.damping * dynamics.time_step);
     way += dynamics.time_step * v;
     const Step_report report = deformation.advance(dynamics);
     if(!CHECK(report))
       return;
-    CHECK(report.iterations <= 1);
+    CHECK(report.iterations == 0); // rounding errors are known for what they are
     std::vector<Vector3d> expected = model.points;
     for(auto& p : expected)
       p += way;
     CHECK_AT_MOST(largest_distance(points, expected), 1e-11);
     CHECK_AT_MOST(std::abs(report.elastic_energy), 1e-20);
   }
-  // undamped, the parabola of implicit Euler: n h v + n (n + 1) / 2 h^2 g after n steps
 }
 
 // A hanging body comes to rest where its elastic forces bear its weight.
@@ -304,18 +303,20 @@ void hang(Cell_scheme cells, Minimizer minimizer)
     deformation.insert_control_vertex(v);
     selection[v] = 0;
   }
-  CHECK(deformation.set_options(options<Dimension>(cells, minimizer, 1e-12)));
+  const bool is_local_global = minimizer == Minimizer::local_global;
+  CHECK(deformation.set_options(options(cells, minimizer, is_local_global ? 1e-9
+                                                                                     : 1e-12)));
   Dynamics dynamics;
-  dynamics.time_step = 0.3;
+  dynamics.time_step = 1;
   dynamics.modulus = 40;
   dynamics.damping = 2;
   dynamics.acceleration = {1, 0, -3};
-  for(int step = 0; step < 200; ++step)
+  for(int step = 0; step < 40; ++step)
   {
     const Step_report report = deformation.advance(dynamics);
     CHECK(report);
-    if(step == 199)
-      CHECK_AT_MOST(report.kinetic_energy, 1e-14);
+    if(step == 39)
+      CHECK_AT_MOST(report.kinetic_energy, is_local_global ? 1e-10 : 1e-14);
   }
   std::vector<Vector3d> x;
   for(const Point& p : points)
@@ -334,7 +335,8 @@ void hang(Cell_scheme cells, Minimizer minimizer)
         return dynamics.modulus * reference.energy(y);
       };
       const double force = content[v] * dynamics.acceleration[std::size_t(k)];
-      CHECK_AT_MOST(std::abs((shifted(eps) - shifted(-eps)) / (2 * eps) - force), 1e-6);
+      CHECK_AT_MOST(std::abs((shifted(eps) - shifted(-eps)) / (2 * eps) - force),
+                    is_local_global ? 1e-3 : 1e-6);
     }
 }
 
@@ -347,13 +349,13 @@ void undo_and_refuse()
   Deformation<3> deformation(Soup<3>(points, model.simplices));
   deformation.insert_roi_vertices(numbers(n));
   deformation.erase_roi_vertex(5);
+  CHECK(!deformation.set_velocity(5, Vector3d(1, 0, 0)));
   deformation.insert_control_vertex(0);
   deformation.insert_control_vertex(n - 1, point(model.points[n - 1] + Vector3d(0, 0, 0.2)));
   CHECK(deformation.set_target_weight(n - 1, 0.7));
   const auto insertion = deformation.insert_control_point(7, {0.25, 0.25, 0.25, 0.25});
   CHECK(insertion);
   const CGAL::ARAP::Control_point inside = insertion.point;
-  CHECK(!deformation.set_velocity(5, Vector3d(1, 0, 0)));
   Dynamics dynamics;
   dynamics.acceleration = {0, 0, -9.81};
   CHECK(deformation.velocity(3) == (Coordinates{0, 0, 0}));
@@ -391,8 +393,10 @@ void undo_and_refuse()
   run();
   CHECK_AT_MOST(largest_distance(points, after), 1e-10);
   CHECK(deformation.restore(state));
+  const double energy = deformation.energy();
   const CGAL::ARAP::Report alone = deformation.deform(3, 0);
-  CHECK(alone && alone.stages.factor); // no inertia is left in it
+  CHECK(alone); // no inertia is left in it
+  CHECK_AT_MOST(std::abs(alone.energy[0] - energy), 1e-12);
 
   // nothing is changed by what is refused
   CHECK(deformation.restore(state));
@@ -451,9 +455,11 @@ void run_all()
                     std::to_string(int(minimizer));
       compare<Dimension>(cells, false, minimizer);
       compare<Dimension>(cells, true, minimizer);
-      conserve<Dimension>(cells, minimizer);
+      conserve<Dimension>(cells, minimizer,
+                          cells == Cell_scheme::spokes_and_rims() ? 500 : 50);
       fall<Dimension>(cells, minimizer);
-      hang<Dimension>(cells, minimizer);
+      if(minimizer == Minimizer::quasi_newton || cells == Cell_scheme::spokes_and_rims())
+        hang<Dimension>(cells, minimizer); // the other one takes long
     }
 }
 

@@ -204,8 +204,8 @@ struct Constraints
   Array<char> is_fixed;    // for each movable vertex
   Weighted_rows rows;      // of vertices that may be fixed or not
   Weighted_rows hard_rows; // the same
-  bool has_inertia = false; // whether there are rows of free vertices that tie these to where their
-                            // inertia takes them, and not the shape to a rigid copy of itself
+  double inertia = 0;      // If not 0, each free vertex of positive mass has a row that ties it to
+                           // where its inertia takes it; then this is the sum of their weights.
 
   // calls f(begin, end, sum, weight) for each row, first for the soft ones
   template <typename Function>

@@ -144,17 +144,19 @@ public:
 
   // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
   // is far below the rounding error of the scale. The weights of rows do not count: where one is
-  // larger than those of the edges, the point is at its target.
-  double rounding_level(const Bounding_box& box) const
+  // larger than those of the edges, the point is at its target. But those of inertia, with this
+  // sum, count: they can be large at all vertices.
+  double rounding_level(const Bounding_box& box, double inertia) const
   {
     const double error = 4 * rounding_error(box);
-    return m_sum_of_weights * error * error;
+    return (m_sum_of_weights + inertia) * error * error;
   }
 
   // what rounding the positions makes of the force at a free vertex, on average
-  double rounding_error_of_force(const Bounding_box& box) const
+  double rounding_error_of_force(const Bounding_box& box, double inertia) const
   {
-    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
+    return (m_sum_of_weights + inertia) * rounding_error(box) /
+           (std::max)(1, m_number_of_free_vertices);
   }
 
   // Calls f(i, j, w) for each edge of each edge set, with the stiffness of its cells in the weight,

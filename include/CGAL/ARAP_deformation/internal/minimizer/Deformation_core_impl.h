@@ -164,7 +164,7 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   Array<char> is_untied = m_is_isolated;
   for(std::size_t v = 0; v < components.size(); ++v)
     is_untied[v] |= components[v] >= 0;
-  if(m_order == Minimization_order::local_first && !constraints.has_inertia)
+  if(m_order == Minimization_order::local_first && constraints.inertia == 0)
     m_state->rigid_start = Rigid_start(m_region, constraints, is_untied);
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
@@ -262,7 +262,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     targets.project(m_constraints.rows, x);
-    if(m_order == Minimization_order::local_first && !m_constraints.has_inertia)
+    if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
       is_placed =
         m_state->rigid_start(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
   }

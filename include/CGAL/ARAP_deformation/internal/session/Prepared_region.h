@@ -438,14 +438,16 @@ private:
     }
     if(m_inertia > 0)
     {
-      constraints.has_inertia = true;
       rows.contents = contents_at_centres(prepared.core->region());
       rows.contents.resize(constraints.is_fixed.size());
       for(int v = 0; v < static_cast<int>(rows.contents.size()); ++v)
         if(constraints.is_fixed[v])
           rows.contents[v] = 0;
         else if(rows.contents[v] > 0)
+        {
           constraints.rows.append(v, m_inertia * rows.contents[v]);
+          constraints.inertia += m_inertia * rows.contents[v];
+        }
     }
     return constraints;
   }
