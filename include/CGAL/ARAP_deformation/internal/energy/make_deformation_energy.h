@@ -212,6 +212,32 @@ inline Deformation_energy make_rigidity(const Edge_weight_model& model, Simplice
                             n);
 }
 
+inline Sequential_fit make_sequential_fit(const Energy_model& energy_model, const Region& region,
+                                          int number_of_cells)
+{
+  std::vector<std::pair<int, int>> edges; // each from a cell to a vertex
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+    for(int k = 0; k < region.number_of_corners(s); ++k)
+      for(int l = 0; l < region.number_of_corners(s); ++l)
+        if(const int c = region.corners_of(s)[k]; k != l && c < number_of_cells)
+          edges.emplace_back(c, region.corners_of(s)[l]);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  Index_lists neighbours;
+  Array<double> factors;
+  auto edge = edges.begin();
+  for(int c = 0; c < number_of_cells; ++c)
+  {
+    int valence = 0;
+    for(; edge != edges.end() && edge->first == c; ++edge, ++valence)
+      if(edge->second < number_of_cells)
+        neighbours.items.push_back(edge->second);
+    neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+    factors.push_back(energy_model.neighbour_weight / valence);
+  }
+  return Sequential_fit(energy_model.fit_order, std::move(neighbours), std::move(factors));
+}
+
 inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,
                                                   Simplices simplices,
                                                   const Energy_model& energy_model,
@@ -223,6 +249,9 @@ inline Deformation_energy make_deformation_energy(const Edge_weight_model& model
   if(energy_model.smoothing_length > 0)
     energy.set_smooth_rotations(
       make_smooth_rotations(energy_model, region, energy.number_of_cells()));
+  if(!energy_model.fit_order.empty())
+    energy.set_sequential_fit(
+      make_sequential_fit(energy_model, region, energy.number_of_cells()));
   if(!energy_model.group.empty())
   {
     std::map<int, std::vector<int>> groups;

@@ -56,7 +56,8 @@ public:
                std::vector<Matrix_3x3>& rotations, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
-      m_rows(constraints.rows), m_inertia(constraints.inertia), m_observe(observe), m_targets(targets), m_rotations(rotations)
+      m_rows(constraints.rows), m_inertia(constraints.inertia), m_observe(observe),
+      m_targets(targets), m_rotations(rotations)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
