@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
@@ -657,6 +658,47 @@ public:
     return m_session.deform(iterations, tolerance, visitor);
   }
 
+  /// \brief advances by a time step with inertia, of implicit Euler, from the current positions
+  /// and velocities; see \ref ARAPDeformation_Dynamics.
+  ///
+  /// Hard control vertices are at their targets after the step. All other vertices of the region of
+  /// interest move freely, also where no control vertex holds them. Steps with the same dynamics
+  /// share a factorization; `deform()` needs another one. Fails as `deform()` does, and with
+  /// `ARAP::Status::invalid_option` if the dynamics are out of range.
+  ///
+  /// \param dynamics the length of the step, masses and accelerations
+  /// \param forces a map of vertices, as for stiffness: the external forces, which have
+  ///        `operator[]`; where it has no value there is none
+  template <typename ForceMap>
+  [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics, const ForceMap& forces)
+  {
+    return m_session.advance(dynamics, [&](vertex_descriptor v) {
+      ARAP::Coordinates force = {0, 0, 0};
+      ARAP::internal::with_value(forces, v, domain().index(v), [&](const auto& f) {
+        force = {f[0], f[1], f[2]};
+      });
+      return force;
+    });
+  }
+
+  /// advances without forces beside the acceleration of the dynamics.
+  [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics)
+  {
+    return m_session.advance(dynamics, {});
+  }
+
+  /// returns the velocity of `v`: what the last `advance()` has moved it, over the time step, or
+  /// what was set since. Zero at first, and after `deform()` and `reset()`.
+  ARAP::Coordinates velocity(vertex_descriptor v) const { return m_session.velocity(v); }
+
+  /// sets the velocity with which the next step begins, whose type has `operator[]`. Returns
+  /// `false`, and changes nothing, if `v` is not in the region of interest.
+  template <typename Vector>
+  bool set_velocity(vertex_descriptor v, const Vector& velocity)
+  {
+    return m_session.set_velocity(v, {velocity[0], velocity[1], velocity[2]});
+  }
+
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
   /// the weights of the targets. Targets that are sets become points.
   void reset() { m_session.reset(); }
@@ -671,9 +713,9 @@ public:
 #endif
 
   /// returns the region of interest, the control vertices and control points, their targets and
-  /// weights, the rest shape and the positions, for undo and redo. Linear time and memory. The
-  /// options are no part of it, nor is the factor: where that, or the region, was computed again
-  /// since, runs from a restored state have the same iterates only up to rounding.
+  /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
+  /// memory. The options are no part of it, nor is the factor: where that, or the region, was
+  /// computed again since, runs from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
@@ -686,8 +728,9 @@ public:
   /// \name Results
   /// @{
 
-  /// returns the energy after the last `deform()`; not a number before the first one, and after
-  /// `reset()` or a change of the region, the weight of a target, the rest shape or the cells.
+  /// returns the energy after the last `deform()` or `advance()`, without inertia; not a number
+  /// before the first one, and after `reset()` or a change of the region, the weight of a target,
+  /// the rest shape or the cells.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has

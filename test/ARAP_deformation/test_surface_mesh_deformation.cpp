@@ -152,6 +152,19 @@ struct Other_points
   }
 };
 
+// with smoothed rotations
+template <int AlphaInThousandths>
+struct Smoothed : Own_points
+{
+  template <typename Deformation, typename TriangleMesh>
+  std::unique_ptr<Deformation> make(TriangleMesh& mesh)
+  {
+    auto deformation = Own_points::make<Deformation>(mesh);
+    deformation->set_sre_arap_alpha(AlphaInThousandths / 1000.0);
+    return deformation;
+  }
+};
+
 void set_ids(Mesh&) {}
 void set_ids(Polyhedron&) {}
 void set_ids(Polyhedron_with_ids& mesh) { CGAL::set_halfedgeds_items_id(mesh); }
@@ -443,9 +456,16 @@ using Pair_with_maps =
   Side_by_side<Our_class<Mesh, tag, Halfedge_weight, Default, Default, Bare_point_map>,
                Cgal_class<Mesh, tag, Halfedge_weight, Bare_point_map>, Other_points>;
 
+template <int AlphaInThousandths>
+using Smoothed_pair = Side_by_side<Our_class<Mesh, CGAL::SRE_ARAP>,
+                                   Cgal_class<Mesh, CGAL::SRE_ARAP>, Smoothed<AlphaInThousandths>>;
+
 void test_sequences(unsigned int seed)
 {
   using CGAL::ORIGINAL_ARAP;
+  run_sequences<Smoothed_pair<20>>("SRE_ARAP, alpha 0.02", seed, 2);
+  run_sequences<Smoothed_pair<1000>>("SRE_ARAP, alpha 1", seed, 2);
+  run_sequences<Smoothed_pair<50000>>("SRE_ARAP, alpha 50", seed, 2);
   using CGAL::SPOKES_AND_RIMS;
   run_sequences<Pair_of<Mesh, ORIGINAL_ARAP>>("ORIGINAL_ARAP", seed, 5);
   run_sequences<Pair_of<Mesh, SPOKES_AND_RIMS>>("SPOKES_AND_RIMS", seed, 5);
@@ -459,9 +479,9 @@ void test_sequences(unsigned int seed)
 }
 
 // one iteration more each time, from the beginning, and one run after the other: the same points
+template <typename Pair>
 void test_iterates()
 {
-  using Pair = Pair_of<Mesh, CGAL::SPOKES_AND_RIMS>;
   const auto prepare_both = [](Pair& pair, const Shape& shape) {
     const Scenario s = scenario(shape, 0.8);
     pair.both([&](auto& side) { prepare(*side.operator->(), s, side.all_vertices()); });
@@ -669,7 +689,7 @@ void test_failures()
   Mesh smooth = make_mesh<Mesh>(sphere);
   Our_class<Mesh, CGAL::SRE_ARAP> smoothed(smooth);
   prepare(smoothed, scenario(sphere), all_vertices(smooth));
-  CHECK(smoothed.preprocess());
+  smoothed.set_sre_arap_alpha(std::nan(""));
   CHECK(smoothed.deform().status == Status::invalid_option);
   CHECK(same_points(smooth, make_mesh<Mesh>(sphere)));
   smoothed.set_sre_arap_alpha(0);
@@ -714,7 +734,10 @@ void test_all(unsigned int first_seed)
   // a zero energy that is rounded to less is nothing to warn of
   CGAL::set_warning_handler([](const char*, const char*, const char*, int, const char*) {});
   test_sequences(first_seed);
-  test_iterates();
+  test_iterates<Pair_of<Mesh, CGAL::SPOKES_AND_RIMS>>();
+  test_iterates<Smoothed_pair<20>>();
+  test_iterates<Smoothed_pair<1000>>();
+  test_iterates<Smoothed_pair<50000>>();
   test_models();
   test_indices();
   test_failures();

@@ -26,8 +26,10 @@
 #include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_session.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Drop_in_traits.h>
 #include <CGAL/ARAP_deformation/internal/drop_in/Halfedge_weights.h>
+#include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 
 #include <CGAL/Default.h>
+#include <CGAL/Iterator_range.h>
 #include <CGAL/Surface_mesh_deformation.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -82,9 +84,7 @@ namespace ARAP {
 /// - *Cost.* `erase_roi_vertex()` takes amortized constant time. Functions that only read are
 ///   `const`; `target_position()` returns a copy, and does not move back vertices that have left
 ///   the region of interest.
-/// - *Smoothed rotations.* With the tag `SRE_ARAP` only `set_sre_arap_alpha(0)` is supported, which
-///   is `ORIGINAL_ARAP`. With any other value, such as the default 0.02, `preprocess()` works, but
-///   `deform()` returns `Status::invalid_option` and does nothing.
+///   Another `set_sre_arap_alpha()` costs a numeric factorization.
 ///
 /// \tparam TM a model of `FaceGraph` and `VertexListGraph` all of whose faces are triangles
 /// \tparam VIM a model of `ReadablePropertyMap` from the vertices to 0, 1, ...
@@ -160,6 +160,18 @@ public:
     Options options;
     options.cells = TAG == SPOKES_AND_RIMS ? Cell_scheme::spokes_and_rims() : Cell_scheme::spokes();
     m_session.set_options(options);
+    if(TAG == SRE_ARAP)
+    {
+      const internal::Double_point_map<Vertex_point_map> points = {vertex_point_map};
+      for(auto f : faces(mesh))
+      {
+        const halfedge_descriptor h = halfedge(f, mesh);
+        m_area += std::sqrt(CGAL::squared_area(get(points, source(h, mesh)),
+                                               get(points, target(h, mesh)),
+                                               get(points, target(next(h, mesh), mesh))));
+      }
+      set_sre_arap_alpha(m_alpha);
+    }
   }
 
   Surface_mesh_deformation(const Surface_mesh_deformation&) = delete;
@@ -282,11 +294,10 @@ public:
   /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
-    if(TAG == SRE_ARAP && m_alpha != 0)
+    if(TAG == SRE_ARAP && !std::isfinite(m_alpha))
     {
       Report report;
-      static_cast<Outcome&>(report) = {Status::invalid_option, "SRE_ARAP can be run with alpha = 0 "
-                                       "only: rotations are not smoothed yet"};
+      static_cast<Outcome&>(report) = {Status::invalid_option, "alpha of SRE_ARAP must be finite"};
       return report;
     }
     if(!std::isnan(tolerance)) // which the session refuses
@@ -353,9 +364,19 @@ public:
   const Triangle_mesh& halfedge_graph() const { return triangle_mesh(); }
 #endif
 
-  /// sets the weight of the differences of rotations for the tag `SRE_ARAP`, by default 0.02. Only
-  /// 0 is supported.
-  void set_sre_arap_alpha(double alpha) { m_alpha = alpha; }
+  /// sets the weight of the differences of rotations for the tag `SRE_ARAP`, by default 0.02. It
+  /// must be finite.
+  void set_sre_arap_alpha(double alpha)
+  {
+    m_alpha = alpha;
+    if(TAG == SRE_ARAP)
+      m_session.change_cell_values([&](auto& values) {
+        if(alpha == 0)
+          values.set_fit_order({}, 0);
+        else
+          values.set_fit_order([this] { return region_of_solution(); }, alpha * m_area);
+      });
+  }
   /// @}
 
 private:
@@ -368,6 +389,26 @@ private:
       if(Outcome outcome = f(*begin); first && !outcome)
         first = std::move(outcome);
     return first;
+  }
+
+  // the region of interest, and the vertices around it as CGAL's class finds them
+  std::vector<vertex_descriptor> region_of_solution() const
+  {
+    std::vector<vertex_descriptor> region = roi_vertices();
+    const std::size_t number_of_roi_vertices = region.size();
+    const Domain& domain = m_session.vertices().domain();
+    internal::Paged_index_map is_there;
+    for(vertex_descriptor v : region)
+      is_there.set(domain.index(v), 1);
+    for(std::size_t k = 0; k < number_of_roi_vertices; ++k)
+      for(auto e : CGAL::make_range(in_edges(region[k], m_mesh)))
+        if(const vertex_descriptor v = source(e, m_mesh);
+           is_there[domain.index(v)] == internal::Paged_index_map::none)
+        {
+          is_there.set(domain.index(v), 1);
+          region.push_back(v);
+        }
+    return region;
   }
 
   using Solver = typename internal::Select_sparse_solver<ST>::type;
@@ -387,6 +428,7 @@ private:
   unsigned int m_iterations = 5;
   double m_tolerance = 1e-4;
   double m_alpha = 0.02;
+  double m_area = 0; // of the mesh at construction, for SRE_ARAP
 };
 
 } // namespace ARAP

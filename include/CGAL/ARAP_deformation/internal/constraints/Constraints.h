@@ -47,7 +47,13 @@ public:
   }
 
   // adds the row of one vertex
-  void append(int vertex, double weight) { append({vertex}, {1}, weight); }
+  void append(int vertex, double weight)
+  {
+    m_vertices.items.push_back(vertex);
+    m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+    m_coefficients.push_back(1);
+    m_weights.push_back(weight);
+  }
 
   // adds a row; its vertices differ
   void append(const Array<int>& vertices, const Array<double>& coefficients, double weight)
@@ -198,6 +204,8 @@ struct Constraints
   Array<char> is_fixed;    // for each movable vertex
   Weighted_rows rows;      // of vertices that may be fixed or not
   Weighted_rows hard_rows; // the same
+  double inertia = 0;      // If not 0, each free vertex of positive mass has a row that ties it to
+                           // where its inertia takes it; then this is the sum of their weights.
 
   // calls f(begin, end, sum, weight) for each row, first for the soft ones
   template <typename Function>

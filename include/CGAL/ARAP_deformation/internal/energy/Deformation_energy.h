@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Sequential_fit.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
@@ -63,6 +64,7 @@ public:
 
   void set_bending(Bending bending) { m_bending = std::move(bending); }
   void set_smooth_rotations(Smooth_rotations smooth) { m_smooth = std::move(smooth); }
+  void set_sequential_fit(Sequential_fit fit) { m_sequential_fit = std::move(fit); }
 
   // the cells of each group share a rotation
   void set_groups(Index_lists groups)
@@ -144,17 +146,19 @@ public:
 
   // What rounding the positions makes of an energy of zero. The residuals are squared, so that it
   // is far below the rounding error of the scale. The weights of rows do not count: where one is
-  // larger than those of the edges, the point is at its target.
-  double rounding_level(const Bounding_box& box) const
+  // larger than those of the edges, the point is at its target. But those of inertia, with this
+  // sum, count: they can be large at all vertices.
+  double rounding_level(const Bounding_box& box, double inertia) const
   {
     const double error = 4 * rounding_error(box);
-    return m_sum_of_weights * error * error;
+    return (m_sum_of_weights + inertia) * error * error;
   }
 
   // what rounding the positions makes of the force at a free vertex, on average
-  double rounding_error_of_force(const Bounding_box& box) const
+  double rounding_error_of_force(const Bounding_box& box, double inertia) const
   {
-    return m_sum_of_weights * rounding_error(box) / (std::max)(1, m_number_of_free_vertices);
+    return (m_sum_of_weights + inertia) * rounding_error(box) /
+           (std::max)(1, m_number_of_free_vertices);
   }
 
   // Calls f(i, j, w) for each edge of each edge set, with the stiffness of its cells in the weight,
@@ -202,6 +206,15 @@ public:
         m_bending.add_covariances(begin, end, covariances);
         m_smooth.add_covariances(begin, end, covariances);
       };
+      for(int c : m_sequential_fit.order())
+      {
+        Matrix_3x3 covariance;
+        compute_covariances(c, c + 1, &covariance);
+        m_sequential_fit.add_covariance(c, rotations, covariance);
+        closest_rotations(1, &covariance, &rotations[static_cast<std::size_t>(c)]);
+      }
+      if(!m_sequential_fit.is_none())
+        return;
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
         compute_covariances(begin, end, covariances.data());
@@ -306,6 +319,7 @@ private:
   std::variant<Star_energy, Simplex_energy> m_cells;
   Bending m_bending;
   Smooth_rotations m_smooth;
+  Sequential_fit m_sequential_fit; // then there are no groups
   Index_lists m_groups;   // of cells
   Array<int> m_group_of;  // each cell, or -1; empty if there are no groups
   std::vector<std::pair<int, Matrix_3x3>> m_given; // rotations of cells

@@ -30,6 +30,10 @@ struct Energy_model
   Array<int> group;            // the cells of a group share a rotation; -1 for those in none
   double bending_length = 0;
   double smoothing_length = 0;
+  // If not empty, cells at vertices are fitted in this order, see Sequential_fit; the factor of one
+  // with n neighbours is this weight / n.
+  Array<int> fit_order;
+  double neighbour_weight = 0;
 };
 
 } // namespace internal

@@ -28,6 +28,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
@@ -42,21 +43,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// the area or volume of simplex s of the rest shape
-inline double content_of(const Region& region, int s)
-{
-  const int* const corners = region.corners_of(s);
-  const auto edge = [&](int k) {
-    return difference(region.rest[corners[k]], region.rest[corners[0]]);
-  };
-  if(region.dimension == 3)
-    return std::abs(dot(edge(1), cross(edge(2), edge(3)))) / 6;
-  Coordinates normal = {0, 0, 0};
-  for(int k = 1; k + 1 < region.number_of_corners(s); ++k)
-    add(normal, 0.5, cross(edge(k), edge(k + 1)));
-  return std::sqrt(dot(normal, normal));
-}
 
 // Calls f(facet) for each edge of polygon s, or triangle of tetrahedron s: the sorted numbers of
 // its vertices, the last of which is -1 for an edge.
@@ -108,15 +94,7 @@ inline Bending make_bending(const Energy_model& energy_model, const Region& regi
   constexpr double negligible = 1e-10;
   const Edge_weight_model_of<Cotangent_weight> cotangent{Cotangent_weight()};
   Stars stars = star_edge_sets(cotangent, weighted_simplices(cotangent, region), region);
-  Array<double> masses(region.number_of_centres, 0);
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-  {
-    const int n = region.number_of_corners(s);
-    const double share = content_of(region, s) / n;
-    for(int k = 0; k < n; ++k)
-      if(const int v = region.corners_of(s)[k]; v < region.number_of_centres)
-        masses[v] += share;
-  }
+  Array<double> masses = contents_at_centres(region);
   const Array<char> is_on_border = find_border(region);
   Array<double> factors(region.number_of_centres, 0);
   for(int i = 0; i < region.number_of_centres; ++i)
@@ -234,6 +212,32 @@ inline Deformation_energy make_rigidity(const Edge_weight_model& model, Simplice
                             n);
 }
 
+inline Sequential_fit make_sequential_fit(const Energy_model& energy_model, const Region& region,
+                                          int number_of_cells)
+{
+  std::vector<std::pair<int, int>> edges; // each from a cell to a vertex
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+    for(int k = 0; k < region.number_of_corners(s); ++k)
+      for(int l = 0; l < region.number_of_corners(s); ++l)
+        if(const int c = region.corners_of(s)[k]; k != l && c < number_of_cells)
+          edges.emplace_back(c, region.corners_of(s)[l]);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  Index_lists neighbours;
+  Array<double> factors;
+  auto edge = edges.begin();
+  for(int c = 0; c < number_of_cells; ++c)
+  {
+    int valence = 0;
+    for(; edge != edges.end() && edge->first == c; ++edge, ++valence)
+      if(edge->second < number_of_cells)
+        neighbours.items.push_back(edge->second);
+    neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+    factors.push_back(energy_model.neighbour_weight / valence);
+  }
+  return Sequential_fit(energy_model.fit_order, std::move(neighbours), std::move(factors));
+}
+
 inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,
                                                   Simplices simplices,
                                                   const Energy_model& energy_model,
@@ -245,6 +249,9 @@ inline Deformation_energy make_deformation_energy(const Edge_weight_model& model
   if(energy_model.smoothing_length > 0)
     energy.set_smooth_rotations(
       make_smooth_rotations(energy_model, region, energy.number_of_cells()));
+  if(!energy_model.fit_order.empty())
+    energy.set_sequential_fit(
+      make_sequential_fit(energy_model, region, energy.number_of_cells()));
   if(!energy_model.group.empty())
   {
     std::map<int, std::vector<int>> groups;

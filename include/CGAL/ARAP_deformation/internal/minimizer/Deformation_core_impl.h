@@ -265,7 +265,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     targets.project(m_constraints.rows, x);
-    if(m_order == Minimization_order::local_first)
+    if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
     {
       if(!m_state->rigid_start)
         m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
@@ -307,6 +307,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                             m_constraints, options, observe, targets, x, rotations, report);
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
+                        m_constraints.inertia == 0 &&
                         is_torn(m_region, m_constraints, m_squared_size, targets, x);
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed)
   {

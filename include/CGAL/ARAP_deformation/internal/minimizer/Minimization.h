@@ -56,7 +56,8 @@ public:
                std::vector<Matrix_3x3>& rotations, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
-      m_rows(constraints.rows), m_observe(observe), m_targets(targets), m_rotations(rotations)
+      m_rows(constraints.rows), m_inertia(constraints.inertia), m_observe(observe),
+      m_targets(targets), m_rotations(rotations)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
@@ -206,9 +207,9 @@ private:
     Bounding_box box = m_energy.bounding_box(x);
     box.include(m_targets.soft);
     report.energy_scale = m_energy.scale(box);
-    report.rounding_level = m_energy.rounding_level(box);
+    report.rounding_level = m_energy.rounding_level(box, m_inertia);
     diameter = std::sqrt(box.squared_length());
-    force_error = m_energy.rounding_error_of_force(box);
+    force_error = m_energy.rounding_error_of_force(box, m_inertia);
   }
 
   void estimate_gap()
@@ -226,6 +227,7 @@ private:
   const Closest_rotations& m_closest_rotations;
   Constrained_system& m_system;
   const Weighted_rows& m_rows;
+  const double m_inertia;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
   Targets& m_targets;

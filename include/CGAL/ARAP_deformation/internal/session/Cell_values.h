@@ -26,6 +26,7 @@
 #include <functional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -49,6 +50,13 @@ public:
   void clear_groups() { m_group = Values<int>(); }
   bool has_groups() const { return !m_group.is_empty(); }
 
+  // order() returns the vertices in the order in which their cells are fitted; see Sequential_fit
+  void set_fit_order(std::function<std::vector<vertex_descriptor>()> order, double weight)
+  {
+    m_fit_order = std::move(order);
+    m_neighbour_weight = weight;
+  }
+
   // Fills in the model for the cells of a region, if there is nothing wrong with the values.
   Outcome fill_in(Energy_model& model, const Options& options, const Domain& domain,
                   const Domain_region<Domain>& region, const Region& flat) const
@@ -59,6 +67,10 @@ public:
     const bool is_at_vertices = options.cells.has_vertex_cells();
     model.stiffness = m_stiffness.of(is_at_vertices, domain, region, flat);
     model.group = m_group.of(is_at_vertices, domain, region, flat);
+    if(m_fit_order)
+      for(vertex_descriptor v : m_fit_order())
+        model.fit_order.push_back(region.find_vertex(domain, v));
+    model.neighbour_weight = m_neighbour_weight;
     for(std::size_t c = 0; c < model.stiffness.size(); ++c)
       if(!(model.stiffness[c] >= 0) || !is_finite(model.stiffness[c]))
         return outcome(Status::invalid_stiffness,
@@ -121,6 +133,8 @@ private:
 
   Values<double> m_stiffness;
   Values<int> m_group;
+  std::function<std::vector<vertex_descriptor>()> m_fit_order;
+  double m_neighbour_weight = 0;
 };
 
 } // namespace internal

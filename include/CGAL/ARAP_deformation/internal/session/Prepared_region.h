@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
@@ -110,7 +111,10 @@ public:
   struct Rows
   {
     std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
-    std::vector<Control_point> soft_points, hard_points; // the others, and the hard rows
+    std::vector<Control_point> soft_points, hard_points; // the next ones, and the hard rows
+    // If there is inertia, for each movable vertex its share in the area or volume, or 0 if it is
+    // fixed. Those of the others are the last soft rows.
+    Array<double> contents;
   };
 
   const Rows& rows() const { return m_rows; }
@@ -130,6 +134,14 @@ public:
   {
     m_present.region = ++m_last_version;
     values_changed();
+  }
+
+  // Each free vertex gets a row, with this weight for a unit of its area or volume; 0 for none.
+  void set_inertia(double inertia)
+  {
+    if(inertia != m_inertia)
+      constraints_changed();
+    m_inertia = inertia;
   }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
@@ -175,21 +187,25 @@ public:
     std::size_t numbering; // of the vertices and cells that these are of
     Array<Coordinates> positions;
     Array<Matrix_3x3> rotations;
+    double inertia; // of the constraints
   };
 
   State state() const
   {
     if(!has_region())
-      return {m_present, none, {}, {}};
-    return {m_present, m_prepared->numbering, m_prepared->positions, core().rotations()};
+      return {m_present, none, {}, {}, m_inertia};
+    return {m_present, m_prepared->numbering, m_prepared->positions, core().rotations(), m_inertia};
   }
 
   // The entries of the vertices have been restored before. Stages that are the same stay ready.
   void restore(State state, const Vertices& vertices)
   {
     const std::size_t values = m_present.values; // stiffness and options are no part of it
+    const bool is_inertia_other = state.inertia != m_inertia;
     m_present = state.present;
     m_present.values = values;
+    if(is_inertia_other)
+      constraints_changed();
     if(!has_region())
       return;
     if(m_prepared->numbering == state.numbering)
@@ -420,6 +436,19 @@ private:
       (is_pull ? constraints.rows : constraints.hard_rows).append(corners, coefficients, weight);
       (is_pull ? rows.soft_points : rows.hard_points).push_back(point);
     }
+    if(m_inertia > 0)
+    {
+      rows.contents = contents_at_centres(prepared.core->region());
+      rows.contents.resize(constraints.is_fixed.size());
+      for(int v = 0; v < static_cast<int>(rows.contents.size()); ++v)
+        if(constraints.is_fixed[v])
+          rows.contents[v] = 0;
+        else if(rows.contents[v] > 0)
+        {
+          constraints.rows.append(v, m_inertia * rows.contents[v]);
+          constraints.inertia += m_inertia * rows.contents[v];
+        }
+    }
     return constraints;
   }
 
@@ -451,6 +480,7 @@ private:
   std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
   bool m_are_rotations_coupled = false;
+  double m_inertia = 0;
   Versions m_present = {1, 1, 1}, m_ready = {none, none, none};
   std::size_t m_last_version = 1, m_last_numbering = none;
 };

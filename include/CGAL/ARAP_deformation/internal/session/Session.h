@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Control_point.h>
@@ -28,6 +29,7 @@
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
+#include <CGAL/ARAP_deformation/internal/session/Time_step.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <CGAL/assertions.h>
@@ -335,6 +337,38 @@ public:
     return report;
   }
 
+  // A time step with these forces, or none if the function is empty.
+  Step_report advance(const Dynamics& dynamics, std::function<Coordinates(vertex_descriptor)> force)
+  {
+    Step_report report;
+    static_cast<Outcome&>(report) = dynamics.check();
+    if(!report)
+      return report;
+    Time_step<vertex_descriptor> step = {dynamics, std::move(force)};
+    Default_visitor visitor;
+    {
+      Scoped_seconds total(report.seconds.total);
+      static_cast<Outcome&>(report) =
+        deform(m_options.iterations, m_options.tolerance, visitor, report, &step);
+      if(!report)
+        return report;
+      Scoped_seconds seconds(report.seconds.transfer);
+      step.measure(m_prepared.rows().contents, m_prepared.positions(), report);
+      m_energy = report.elastic_energy / dynamics.modulus;
+    }
+    return report;
+  }
+
+  Coordinates velocity(vertex_descriptor v) const
+  {
+    return m_vertices.velocity(m_vertices.find(v));
+  }
+
+  bool set_velocity(vertex_descriptor v, const Coordinates& velocity)
+  {
+    return !refuse_in_a_run() && m_vertices.set_velocity(v, velocity);
+  }
+
   void reset()
   {
     if(refuse_in_a_run())
@@ -363,6 +397,7 @@ public:
     if(m_prepared.has_region())
       m_prepared.positions().swap(positions);
     m_prepared.reset_rotations();
+    m_vertices.velocities().clear();
     m_energy = not_a_number;
   }
 
@@ -565,20 +600,25 @@ protected:
     return m_prepared.prepare(m_vertices, m_cell_values, m_traits, m_options, m_stages);
   }
 
+  // with a time step, if one is given, else at once
   template <typename Visitor>
-  Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report)
+  Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report,
+                 Time_step<vertex_descriptor>* step = nullptr)
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
     Options options = m_options;
     options.iterations = iterations;
     options.tolerance = tolerance;
+    if(step)
+      options.initial_guess = Initial_guess::previous;
     if(Outcome checked = options.check(); !checked)
       return checked;
     if(Outcome taken = take_points_of_others(report); !taken)
       return taken;
     {
       Scoped_seconds seconds(report.seconds.preprocess);
+      m_prepared.set_inertia(step ? step->inertia() : 0);
       const Outcome prepared = prepare();
       report.stages = std::exchange(m_stages, {});
       if(!prepared)
@@ -593,6 +633,9 @@ protected:
     Targets targets;
     if(Outcome read = read_targets(positions, targets, report); !read)
       return read;
+    if(step)
+      if(Outcome begun = begin_step(*step, positions, targets, report); !begun)
+        return begun;
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, positions, iteration, energy));
     };
@@ -610,9 +653,13 @@ protected:
     {
       if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
         result.message = "the energy changed by less than the tolerance in an iteration";
-      describe(result, report);
+      describe(result, report, step != nullptr);
       Scoped_seconds seconds(report.seconds.transfer);
+      Array<Coordinates> velocities;
+      if(step)
+        velocities = velocities_after(*step, positions);
       write_points(positions);
+      m_vertices.velocities().swap(velocities);
       core.set_rotations(std::move(rotations));
       m_energy = report.energy.back();
       report.inverted_simplices = core.number_of_inverted_simplices(m_prepared.positions());
@@ -690,6 +737,52 @@ protected:
     return outcome(Status::success);
   }
 
+  // moves the free vertices to where their inertia takes them, which the last soft rows ask for
+  Outcome begin_step(Time_step<vertex_descriptor>& step, Array<Coordinates>& positions,
+                     Targets& targets, Report& report) const
+  {
+    Scoped_seconds seconds(report.seconds.transfer);
+    const auto& region = m_prepared.region();
+    const Array<double>& contents = m_prepared.rows().contents;
+    step.start = m_prepared.positions();
+    step.goals = positions;
+    for(std::size_t v = 0; v < contents.size(); ++v)
+    {
+      if(contents[v] == 0)
+        continue;
+      const vertex_descriptor vertex = region.vertices[v];
+      step.goals[v] = step.goal(vertex, positions[v],
+                                m_vertices.velocity(m_vertices.find(vertex)), contents[v]);
+      if(!is_finite(step.goals[v]))
+        return outcome(Status::non_finite_point,
+                       "where velocity and forces take " + name(vertex));
+      targets.soft.push_back(step.goals[v]);
+    }
+    positions = step.goals;
+    return outcome(Status::success);
+  }
+
+  // of all entries; hard control vertices are moved to their targets at once
+  Array<Coordinates> velocities_after(const Time_step<vertex_descriptor>& step,
+                                      const Array<Coordinates>& positions) const
+  {
+    const std::vector<Entry>& entries = m_vertices.entries();
+    Array<Coordinates> velocities(entries.size(), Coordinates{0, 0, 0});
+    for(std::size_t k = 0; k < entries.size(); ++k)
+    {
+      if(!entries[k].is_roi)
+        continue;
+      Coordinates way = {0, 0, 0};
+      if(m_vertices.is_hard_control(entries[k]))
+        way = difference(Domain::coordinates(m_vertices.target(entries[k])),
+                         Domain::coordinates(entries[k].present));
+      else if(const int v = m_prepared.region().find_vertex(domain(), entries[k].vertex); v >= 0)
+        way = difference(positions[v], step.start[v]);
+      velocities[k] = scaled(way, 1 / step.dynamics.time_step);
+    }
+    return velocities;
+  }
+
   // the rotations that are given to cells at control vertices
   std::vector<Frame> frames() const
   {
@@ -739,11 +832,11 @@ protected:
   }
 
   // adds to the message what a user would not expect
-  void describe(Outcome& result, const Report& report) const
+  void describe(Outcome& result, const Report& report, bool is_time_step) const
   {
     if(report.free_vertices == 0)
       result.message = about_nothing_free(m_prepared.roi_size() == 0);
-    else if(m_prepared.number_of_controls() == 0)
+    else if(m_prepared.number_of_controls() == 0 && !is_time_step)
       result.message += "; there is no control vertex";
     result.message += about_isolated_controls(m_prepared.isolated_controls());
     result.message += about_unconstrained_components(report.unconstrained_components);

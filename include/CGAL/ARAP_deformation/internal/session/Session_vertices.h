@@ -342,6 +342,26 @@ public:
     return changed;
   }
 
+  // of the first entries; those of the others are zero
+  Array<Coordinates>& velocities() { return m_velocities; }
+
+  Coordinates velocity(const Entry* entry) const
+  {
+    const auto k = static_cast<std::size_t>(entry - m_entries.data());
+    return entry != nullptr && k < m_velocities.size() ? m_velocities[k] : Coordinates{0, 0, 0};
+  }
+
+  // false if v is not in the region of interest
+  bool set_velocity(vertex_descriptor v, const Coordinates& velocity)
+  {
+    if(!is_roi(v))
+      return false;
+    if(m_velocities.size() < m_entries.size())
+      m_velocities.resize(m_entries.size(), Coordinates{0, 0, 0});
+    m_velocities[m_slots[m_domain.index(v)]] = velocity;
+    return true;
+  }
+
   // all of it, as a value
   struct State
   {
@@ -350,11 +370,12 @@ public:
     std::vector<Point> first_points;
     std::vector<Surrounding> surroundings;
     std::map<Control_point, Held_point> points;
+    Array<Coordinates> velocities;
   };
 
   State state() const
   {
-    return {m_entries, m_targets, m_first_points, m_surroundings, m_points};
+    return {m_entries, m_targets, m_first_points, m_surroundings, m_points, m_velocities};
   }
 
   // Returns to an earlier state. Vertices that have entered since leave.
@@ -370,6 +391,7 @@ public:
     m_targets.swap(state.targets);
     m_first_points.swap(state.first_points);
     m_points.swap(state.points);
+    m_velocities.swap(state.velocities);
   }
 
   // to be called before the rest shape is overwritten
@@ -453,6 +475,7 @@ private:
   std::vector<Surrounding> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::map<Control_point, Held_point> m_points;
+  Array<Coordinates> m_velocities;
   std::size_t m_number_of_insertions = 0;
   std::size_t m_last_point = 0; // its number, which no other one gets
 };

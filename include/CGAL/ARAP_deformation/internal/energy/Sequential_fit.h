@@ -1,0 +1,64 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SEQUENTIAL_FIT_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SEQUENTIAL_FIT_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The local step of CGAL's SRE_ARAP: cells are fitted one after the other, and the covariance of a
+// cell gains a multiple of the sum of the rotations of its neighbours, those of this step where
+// they come first. The energy has no term for it.
+class Sequential_fit
+{
+public:
+  Sequential_fit() = default; // none
+
+  // the cells in the order in which they are fitted; for each cell its neighbours and the factor
+  Sequential_fit(Array<int> order, Index_lists neighbours, Array<double> factors)
+    : m_order(std::move(order)), m_neighbours(std::move(neighbours)), m_factors(std::move(factors))
+  {}
+
+  bool is_none() const { return m_order.empty(); }
+  const Array<int>& order() const { return m_order; }
+
+  void add_covariance(int c, const std::vector<Matrix_3x3>& rotations,
+                      Matrix_3x3& covariance) const
+  {
+    for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
+      for(std::size_t entry = 0; entry < 9; ++entry)
+        covariance[entry] +=
+          m_factors[c] * rotations[static_cast<std::size_t>(m_neighbours.items[k])][entry];
+  }
+
+private:
+  Array<int> m_order;
+  Index_lists m_neighbours;
+  Array<double> m_factors;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_ENERGY_SEQUENTIAL_FIT_H

@@ -1,0 +1,62 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_CONTENTS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_CONTENTS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <cmath>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// the area or volume of simplex s of the rest shape
+inline double content_of(const Region& region, int s)
+{
+  const int* const corners = region.corners_of(s);
+  const auto edge = [&](int k) {
+    return difference(region.rest[corners[k]], region.rest[corners[0]]);
+  };
+  if(region.dimension == 3)
+    return std::abs(dot(edge(1), cross(edge(2), edge(3)))) / 6;
+  Coordinates normal = {0, 0, 0};
+  for(int k = 1; k + 1 < region.number_of_corners(s); ++k)
+    add(normal, 0.5, cross(edge(k), edge(k + 1)));
+  return std::sqrt(dot(normal, normal));
+}
+
+// the share of each centre in the area or volume of its simplices
+inline Array<double> contents_at_centres(const Region& region)
+{
+  Array<double> contents(region.number_of_centres, 0);
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+  {
+    const int n = region.number_of_corners(s);
+    const double share = content_of(region, s) / n;
+    for(int k = 0; k < n; ++k)
+      if(const int v = region.corners_of(s)[k]; v < region.number_of_centres)
+        contents[v] += share;
+  }
+  return contents;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_CONTENTS_H

@@ -1,0 +1,474 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Time steps with inertia: against the dense reference, and by what mechanics says of motions.
+
+#include "include/check.h"
+#include "include/dense_reference.h"
+#include "include/domains.h"
+#include "include/misuse.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Dynamics;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Step_report;
+using Eigen::Vector3d;
+using Simplices = std::vector<Dense_reference::Simplex>;
+
+template <int Dimension>
+using Soup = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
+template <int Dimension>
+using Deformation = CGAL::ARAP_deformation<Soup<Dimension>>;
+
+struct Model
+{
+  std::vector<Vector3d> points;
+  Simplices simplices;
+};
+
+template <int Dimension>
+Model make_model()
+{
+  Model model;
+  if constexpr(Dimension == 3)
+  {
+    const Block solid = block(3, 1, 2);
+    model.points = solid.points;
+    for(const auto& t : solid.tetrahedra)
+      model.simplices.emplace_back(t.begin(), t.end());
+  }
+  else
+  {
+    const Shape sheet = grid("sheet", 5, 4, [](double u, double v) {
+      return Vector3d(2 * u, 1.5 * v, 0.3 * std::sin(3 * u) * v);
+    });
+    model.points = sheet.points;
+    for(const auto& t : sheet.triangles)
+      model.simplices.emplace_back(t.begin(), t.end());
+  }
+  return model;
+}
+
+// the shares of the vertices in area or volume
+std::vector<double> contents(const Model& model)
+{
+  std::vector<double> result(model.points.size(), 0);
+  for(const auto& s : model.simplices)
+  {
+    const Vector3d a = model.points[s[1]] - model.points[s[0]],
+                   b = model.points[s[2]] - model.points[s[0]];
+    double content = a.cross(b).norm() / 2;
+    if(s.size() == 4)
+      content = std::abs(a.cross(b).dot(model.points[s[3]] - model.points[s[0]])) / 6;
+    for(std::size_t v : s)
+      result[v] += content / double(s.size());
+  }
+  return result;
+}
+
+Dense_reference::Cells dense(Cell_scheme cells)
+{
+  return cells == Cell_scheme::spokes()            ? Dense_reference::SPOKES
+         : cells == Cell_scheme::spokes_and_rims() ? Dense_reference::SPOKES_AND_RIMS
+                                                   : Dense_reference::ELEMENTS;
+}
+
+Vector3d eigen(const Coordinates& c) { return {c[0], c[1], c[2]}; }
+
+// some motion that is not rigid
+Vector3d swirl(const Vector3d& p)
+{
+  return Vector3d(0.3 - p.y(), p.x() + 0.4 * p.z(), 0.5 * std::sin(2 * p.x()));
+}
+
+CGAL::ARAP::Options options(Cell_scheme cells, Minimizer minimizer, double tolerance = 1e-9)
+{
+  CGAL::ARAP::Options result = options_for(cells, minimizer);
+  result.tolerance = tolerance;
+  return result;
+}
+
+// Steps against the dense reference: the same iterates with local/global, the same minimum with
+// both minimizers.
+template <int Dimension>
+void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
+{
+  const Model model = make_model<Dimension>();
+  const std::size_t n = model.points.size();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(n));
+  const bool is_local_global = minimizer == Minimizer::local_global;
+  CGAL::ARAP::Options o = options(cells, minimizer, is_local_global ? 0 : 1e-12);
+  o.iterations = is_local_global ? 5 : 1000;
+  CHECK(deformation.set_options(o));
+  Dynamics dynamics;
+  dynamics.time_step = 0.05;
+  dynamics.density = 3;
+  dynamics.modulus = 20;
+  dynamics.damping = 0.7;
+  dynamics.acceleration = {0.5, -2, -9};
+  const double h = dynamics.time_step, damping = 1 + dynamics.damping * h;
+  const std::map<std::size_t, Vector3d> forces = {{1, {3, 0, -1}}, {n - 2, {0, 5, 2}}};
+  std::vector<int> selection(n, 1);
+  std::vector<Vector3d> x = model.points, v(n);
+  for(std::size_t k = 0; k < n; ++k)
+  {
+    v[k] = swirl(x[k]);
+    CHECK(deformation.set_velocity(k, v[k]));
+  }
+  const std::vector<double> content = contents(model);
+  for(int step = 0; step < 3; ++step)
+  {
+    std::vector<Vector3d> before = x;
+    if(has_handles)
+      for(std::size_t k : {std::size_t(0), n - 1})
+      {
+        selection[k] = 2;
+        x[k] += Vector3d(0.02, 0.01 * step, 0);
+        deformation.insert_control_vertex(k, point(x[k]));
+      }
+    Dense_reference reference(model.points, model.simplices, Dimension, selection, dense(cells),
+                              Dense_reference::SAFE);
+    for(std::size_t k = 0; k < n; ++k)
+      if(selection[k] == 1)
+      {
+        const double mass = dynamics.density * content[k];
+        Vector3d a = eigen(dynamics.acceleration);
+        if(forces.count(k))
+          a += forces.at(k) / mass;
+        x[k] += (h * v[k] + h * h * a) / damping;
+        reference.add_soft_position(k, mass * damping / (2 * h * h * dynamics.modulus), x[k]);
+      }
+    const Step_report report = deformation.advance(dynamics, forces);
+    if(!CHECK(report))
+    {
+      std::cerr << "    " << report.message << std::endl;
+      return;
+    }
+    for(int k = 0; k < (is_local_global ? 5 : 100); ++k)
+    {
+      if(is_local_global)
+        CHECK_AT_MOST(std::abs(report.energy[std::size_t(k)] - reference.energy(x)),
+                      1e-10 * report.energy_scale);
+      reference.iterate(x);
+    }
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK_AT_MOST(report.final_energy() - reference.energy(x), 1e-10 * report.energy_scale);
+    CHECK_AT_MOST(largest_distance(points, x), is_local_global ? 1e-10 : 1e-5);
+    CHECK(report.stages.factor == (step == 0));
+    // the quantities of the report, spelled out
+    double mass = 0, kinetic = 0;
+    Vector3d momentum(0, 0, 0), moment(0, 0, 0), center(0, 0, 0);
+    for(std::size_t k = 0; k < n; ++k)
+    {
+      x[k] = vector(points[k]); // the next step starts where the package is
+      v[k] = (x[k] - before[k]) / h;
+      CHECK_AT_MOST((eigen(deformation.velocity(k)) - v[k]).norm(), 1e-11);
+      if(selection[k] != 1)
+        continue;
+      const double m = dynamics.density * content[k];
+      mass += m;
+      kinetic += m * v[k].squaredNorm() / 2;
+      momentum += m * v[k];
+      center += m * x[k];
+      moment += m * x[k].cross(v[k]);
+    }
+    center /= mass;
+    CHECK_AT_MOST(std::abs(report.mass - mass), 1e-12 * mass);
+    CHECK_AT_MOST((eigen(report.center_of_mass) - center).norm(), 1e-12);
+    CHECK_AT_MOST((eigen(report.momentum) - momentum).norm(), 1e-10);
+    CHECK_AT_MOST((eigen(report.angular_momentum) + center.cross(momentum) - moment).norm(), 1e-10);
+    CHECK_AT_MOST(std::abs(report.kinetic_energy - kinetic), 1e-10);
+    Dense_reference shape(model.points, model.simplices, Dimension, std::vector<int>(n, 1),
+                          dense(cells), Dense_reference::SAFE);
+    CHECK_AT_MOST(std::abs(report.elastic_energy - dynamics.modulus * shape.energy(x)), 1e-10);
+  }
+}
+
+// A free body spins and swings.
+template <int Dimension>
+void conserve(Cell_scheme cells, Minimizer minimizer, int steps)
+{
+  const Model model = make_model<Dimension>();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(points.size()));
+  CHECK(deformation.set_options(options(cells, minimizer)));
+  Dynamics dynamics;
+  dynamics.time_step = 0.01;
+  dynamics.modulus = 10;
+  const std::vector<double> content = contents(model);
+  Vector3d momentum(0, 0, 0);
+  double energy = 0, largest_moment = 0, moment = 0;
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const Vector3d velocity = swirl(model.points[v]);
+    CHECK(deformation.set_velocity(v, velocity));
+    momentum += content[v] * velocity;
+    energy += content[v] * velocity.squaredNorm() / 2;
+  }
+  const double first_energy = energy;
+  for(int step = 0; step < steps; ++step)
+  {
+    const Step_report report = deformation.advance(dynamics);
+    if(!CHECK(report))
+      return;
+    CHECK(report.stages.region == (step == 0) && report.stages.factor == (step == 0));
+    CHECK(report.unconstrained_components.empty());
+    CHECK_AT_MOST((eigen(report.momentum) - momentum).norm(), 1e-10 * momentum.norm());
+    const double sum = report.kinetic_energy + report.elastic_energy;
+    CHECK_AT_MOST(sum, energy + 1e-9 * first_energy);
+    energy = sum;
+    moment = eigen(report.angular_momentum).norm();
+    if(step == 0)
+      largest_moment = moment;
+    CHECK_AT_MOST(moment, largest_moment * (1 + 1e-6));
+    largest_moment = (std::max)(moment, largest_moment);
+  }
+  std::cout << test_case() << ": of the energy " << energy / first_energy
+            << " is left, of the angular momentum " << moment / largest_moment << std::endl;
+  CHECK(energy < first_energy && moment > 0.1 * largest_moment);
+}
+
+// A body without control vertices falls, and keeps its shape: after n steps without damping by
+// n h v + n (n + 1) / 2 h^2 g.
+template <int Dimension>
+void fall(Cell_scheme cells, Minimizer minimizer)
+{
+  const Model model = make_model<Dimension>();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(points.size()));
+  CHECK(deformation.set_options(options(cells, minimizer)));
+  Dynamics dynamics;
+  dynamics.time_step = 0.02;
+  dynamics.acceleration = {0, 0, -10};
+  const Vector3d velocity(1, 2, 3);
+  for(std::size_t v = 0; v < points.size(); ++v)
+    CHECK(deformation.set_velocity(v, velocity));
+  Vector3d way(0, 0, 0), v = velocity;
+  for(int step = 1; step <= 100; ++step)
+  {
+    dynamics.damping = step <= 50 ? 0 : 0.5; // another matrix
+    v = (v + dynamics.time_step * eigen(dynamics.acceleration)) /
+        (1 + dynamics.damping * dynamics.time_step);
+    way += dynamics.time_step * v;
+    const Step_report report = deformation.advance(dynamics);
+    if(!CHECK(report))
+      return;
+    CHECK(report.iterations == 0); // rounding errors are known for what they are
+    std::vector<Vector3d> expected = model.points;
+    for(auto& p : expected)
+      p += way;
+    CHECK_AT_MOST(largest_distance(points, expected), 1e-11);
+    CHECK_AT_MOST(std::abs(report.elastic_energy), 1e-20);
+  }
+}
+
+// A hanging body comes to rest where its elastic forces bear its weight.
+template <int Dimension>
+void hang(Cell_scheme cells, Minimizer minimizer)
+{
+  const Model model = make_model<Dimension>();
+  const std::size_t n = model.points.size();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(n));
+  std::vector<int> selection(n, 1);
+  for(std::size_t v : {0, 1, 2, 3})
+  {
+    deformation.insert_control_vertex(v);
+    selection[v] = 0;
+  }
+  const bool is_local_global = minimizer == Minimizer::local_global;
+  CHECK(deformation.set_options(options(cells, minimizer, is_local_global ? 1e-9
+                                                                                     : 1e-12)));
+  Dynamics dynamics;
+  dynamics.time_step = 1;
+  dynamics.modulus = 40;
+  dynamics.damping = 2;
+  dynamics.acceleration = {1, 0, -3};
+  for(int step = 0; step < 40; ++step)
+  {
+    const Step_report report = deformation.advance(dynamics);
+    CHECK(report);
+    if(step == 39)
+      CHECK_AT_MOST(report.kinetic_energy, is_local_global ? 1e-10 : 1e-14);
+  }
+  std::vector<Vector3d> x;
+  for(const Point& p : points)
+    x.push_back(vector(p));
+  CHECK(largest_distance(x, model.points) > 0.02);
+  Dense_reference reference(model.points, model.simplices, Dimension, selection, dense(cells),
+                            Dense_reference::SAFE);
+  const std::vector<double> content = contents(model);
+  for(std::size_t v = 4; v < n; ++v)
+    for(int k = 0; k < 3; ++k) // the derivative of mu E - m a x
+    {
+      const double eps = 1e-5;
+      auto shifted = [&](double s) {
+        std::vector<Vector3d> y = x;
+        y[v][k] += s;
+        return dynamics.modulus * reference.energy(y);
+      };
+      const double force = content[v] * dynamics.acceleration[std::size_t(k)];
+      CHECK_AT_MOST(std::abs((shifted(eps) - shifted(-eps)) / (2 * eps) - force),
+                    is_local_global ? 1e-3 : 1e-6);
+    }
+}
+
+// What a state holds, what is refused, and what the other constraints do in a step.
+void undo_and_refuse()
+{
+  const Model model = make_model<3>();
+  const std::size_t n = model.points.size();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<3> deformation(Soup<3>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(n));
+  deformation.erase_roi_vertex(5);
+  CHECK(!deformation.set_velocity(5, Vector3d(1, 0, 0)));
+  deformation.insert_control_vertex(0);
+  deformation.insert_control_vertex(n - 1, point(model.points[n - 1] + Vector3d(0, 0, 0.2)));
+  CHECK(deformation.set_target_weight(n - 1, 0.7));
+  const auto insertion = deformation.insert_control_point(7, {0.25, 0.25, 0.25, 0.25});
+  CHECK(insertion);
+  const CGAL::ARAP::Control_point inside = insertion.point;
+  Dynamics dynamics;
+  dynamics.acceleration = {0, 0, -9.81};
+  CHECK(deformation.velocity(3) == (Coordinates{0, 0, 0}));
+  const Point held = deformation.control_point_position(inside);
+  const auto run = [&] {
+    for(int step = 0; step < 5; ++step)
+    {
+      const Step_report report = deformation.advance(dynamics);
+      CHECK(report);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      CHECK_AT_MOST(sum_of_phases(report.seconds), report.seconds.total + 1e-6);
+      CHECK_AT_MOST(std::abs(deformation.energy() * dynamics.modulus - report.elastic_energy),
+                    1e-15);
+    }
+    std::vector<Coordinates> velocities;
+    for(std::size_t v = 0; v < n; ++v)
+      velocities.push_back(deformation.velocity(v));
+    return velocities;
+  };
+  run();
+  CHECK_AT_MOST((vector(deformation.control_point_position(inside)) - vector(held)).norm(), 1e-12);
+  const auto state = deformation.state();
+  const std::vector<Point> before = points;
+  const std::vector<Coordinates> velocities = run();
+  const std::vector<Point> after = points;
+  CHECK(deformation.restore(state));
+  CHECK(points == before);
+  CHECK(run() == velocities && points == after); // bit by bit: the factor is the same
+
+  // a restored state has velocities, also after runs without inertia, which make them zero
+  CHECK(deformation.deform());
+  CHECK(deformation.velocity(3) == (Coordinates{0, 0, 0}));
+  CHECK(deformation.restore(state));
+  CHECK(points == before && deformation.velocity(3) != (Coordinates{0, 0, 0}));
+  run();
+  CHECK_AT_MOST(largest_distance(points, after), 1e-10);
+  CHECK(deformation.restore(state));
+  const double energy = deformation.energy();
+  const CGAL::ARAP::Report alone = deformation.deform(3, 0);
+  CHECK(alone); // no inertia is left in it
+  CHECK_AT_MOST(std::abs(alone.energy[0] - energy), 1e-12);
+
+  // nothing is changed by what is refused
+  CHECK(deformation.restore(state));
+  const auto refused = [&](auto change, const std::string& name) {
+    Dynamics wrong = dynamics;
+    change(wrong);
+    const Step_report report = deformation.advance(wrong);
+    CHECK(report.status == Status::invalid_option);
+    CHECK(report.message.find(name) != std::string::npos);
+    CHECK(points == before);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([](Dynamics& d) { d.time_step = 0; }, "time_step");
+  refused([&](Dynamics& d) { d.density = nan; }, "density");
+  refused([](Dynamics& d) { d.modulus = -1; }, "modulus");
+  refused([](Dynamics& d) { d.damping = -1; }, "damping");
+  refused([&](Dynamics& d) { d.acceleration[1] = nan; }, "acceleration");
+  const std::map<std::size_t, Vector3d> forces = {{4, {0, nan, 0}}};
+  const Step_report report = deformation.advance(dynamics, forces);
+  CHECK(report.status == Status::non_finite_point);
+  CHECK(report.message.find("vertex 4") != std::string::npos);
+  CHECK(points == before && deformation.velocity(4) != (Coordinates{0, 0, 0}));
+
+  deformation.reset();
+  CHECK(deformation.velocity(4) == (Coordinates{0, 0, 0}));
+  deformation.clear_roi_vertices();
+  CHECK(deformation.advance(dynamics));
+}
+
+// a handle moves only what is near to it, and most of the rest is fixed
+void near_a_handle()
+{
+  const Model model = make_model<2>();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<2> deformation(Soup<2>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(points.size()));
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(v != 12 && v != 13)
+      deformation.insert_control_vertex(v, point(model.points[v] + Vector3d(1, 0, 0)));
+  Dynamics dynamics;
+  CHECK(deformation.advance(dynamics));
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(v != 12 && v != 13)
+      CHECK_AT_MOST(std::abs(deformation.velocity(v)[0] - 60), 1e-10);
+  CHECK(deformation.velocity(12)[0] > 0);
+}
+
+template <int Dimension>
+void run_all()
+{
+  for(Cell_scheme cells : all_cell_schemes)
+    for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    {
+      test_case() = std::to_string(Dimension) + "D, cells " +
+                    std::to_string(int(dense(cells))) + ", minimizer " +
+                    std::to_string(int(minimizer));
+      compare<Dimension>(cells, false, minimizer);
+      compare<Dimension>(cells, true, minimizer);
+      conserve<Dimension>(cells, minimizer,
+                          cells == Cell_scheme::spokes_and_rims() ? 500 : 50);
+      fall<Dimension>(cells, minimizer);
+      if(minimizer == Minimizer::quasi_newton || cells == Cell_scheme::spokes_and_rims())
+        hang<Dimension>(cells, minimizer); // the other one takes long
+    }
+}
+
+int main()
+{
+  run_all<2>();
+  run_all<3>();
+  test_case() = "";
+  undo_and_refuse();
+  near_a_handle();
+  return checks_result();
+}
