@@ -233,18 +233,15 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
-// A pulled vertex, without and with bending: the same shape on both sheets with it.
+// A pulled vertex is a spike without bending.
 void draw_bending(const fs::path& folder)
 {
-  std::vector<Panel> panels;
-  CGAL::ARAP::Options options;
-  for(const char* caption : {"without bending", "with bending"})
-  {
-    const Demo_shape sheet = make_pulled_sheet(40);
-    panels.push_back(deformed_panel(sheet, caption, options));
-    options.bending_length = 0.05 * std::sqrt(2); // a share of the diagonal
-  }
-  draw(panels, make_pulled_sheet(1).view, folder / "bending.png");
+  const Demo_shape sheet = make_pulled_sheet();
+  CGAL::ARAP::Options bending;
+  bending.bending_length = 0.05 * std::sqrt(2.0); // a share of the diagonal
+  draw({deformed_panel(sheet, "without bending", {}),
+        deformed_panel(sheet, "with bending", bending)},
+       sheet.view, folder / "bending.png");
 }
 
 // One vertex that turns what is around it.
@@ -272,10 +269,14 @@ void draw_stiffness(const fs::path& folder)
     return std::abs(bar.mesh.point(v).z() - 37.5) < 9;
   };
   const auto stiff = [&](auto& deformation) {
-    expect_success(deformation.set_stiffness([=](auto v) { return is_middle(v) ? 100. : 1.; }));
+    expect_success(deformation.set_stiffness([=](Mesh::Vertex_index v) {
+      return is_middle(v) ? 100.0 : 1.0;
+    }));
   };
   const auto rigid = [&](auto& deformation) {
-    expect_success(deformation.set_groups([=](auto v) { return is_middle(v) ? 0 : -1; }));
+    expect_success(deformation.set_groups([=](Mesh::Vertex_index v) {
+      return is_middle(v) ? 0 : -1;
+    }));
   };
   CGAL::ARAP::Options spokes, rings;
   spokes.cells = CGAL::ARAP::Cell_scheme::spokes();
@@ -304,7 +305,7 @@ void draw_previews(const fs::path& folder)
         deformed_panel(plane, "Poisson editing", poisson),
         deformed_panel(plane, "Laplacian editing", laplacian),
         deformed_panel(plane, "as rigid as possible", {})},
-       plane.view, folder / "previews.png");
+       View{plane.view.from, plane.view.up, 420, 330}, folder / "previews.png");
 }
 
 // a row of the table, from the report of the command

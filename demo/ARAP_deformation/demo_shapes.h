@@ -293,8 +293,9 @@ inline Demo_shape make_biased_plane()
 }
 
 // A sheet whose border is fixed and whose middle vertex is pulled.
-inline Demo_shape make_pulled_sheet(int cells)
+inline Demo_shape make_pulled_sheet()
 {
+  const int cells = 40;
   const Mesh mesh = make_sheet(cells, cells, [&](const std::array<int, 3>& n) {
     return Point(double(n[0]) / cells, double(n[1]) / cells, 0);
   });
@@ -305,7 +306,7 @@ inline Demo_shape make_pulled_sheet(int cells)
     return (std::max)(std::abs(p.x() - 0.5), std::abs(p.y() - 0.5)) < 1e-9;
   };
   return {"pulled_sheet", mesh, select(mesh, is_border, is_middle), translation(Vector(0, 0, 0.3)),
-          View{Vector(0.25, -1, 0.35), Vector(0, 0, 1), 640, 420, true}};
+          View{Vector(0.25, -1, 0.35), Vector(0, 0, 1), 520, 340, true}};
 }
 
 // A strip that is fixed at one end; a single vertex near the other end is to stand upright.
