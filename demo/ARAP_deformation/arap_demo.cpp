@@ -30,6 +30,7 @@
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -122,6 +123,32 @@ void expect_success(const CGAL::ARAP::Outcome& outcome)
     throw std::runtime_error(outcome.message);
 }
 
+// The panel of a shape that is deformed here. `change` may say more of the deformation than the
+// options do; prints what the run has come to.
+template <typename Change>
+Panel deformed_panel(const Demo_shape& shape, const std::string& caption,
+                     const CGAL::ARAP::Options& options, const Change& change)
+{
+  Mesh mesh = shape.mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  expect_success(deformation.set_options(options));
+  insert_selection(deformation, shape.selection, shape.transform);
+  change(deformation);
+  const auto report = deformation.deform();
+  expect_success(report);
+  std::cout << "  " << shape.name << ", " << caption << ": " << report.iterations
+            << " iterations, energy " << report.final_energy() << ", edge error "
+            << CGAL::ARAP::relative_edge_length_error(mesh, shape.mesh.points(), mesh.points())
+            << '\n';
+  return panel(mesh, shape.selection, caption);
+}
+
+Panel deformed_panel(const Demo_shape& shape, const std::string& caption,
+                     const CGAL::ARAP::Options& options)
+{
+  return deformed_panel(shape, caption, options, [](const auto&) {});
+}
+
 using Traits = CGAL::ARAP_deformation_traits<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
@@ -204,6 +231,81 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
+// A pulled vertex is a spike without bending.
+void draw_bending(const fs::path& folder)
+{
+  const Demo_shape sheet = make_pulled_sheet();
+  CGAL::ARAP::Options bending;
+  bending.bending_length = 0.05 * std::sqrt(2.0); // a share of the diagonal
+  draw({deformed_panel(sheet, "without bending", {}),
+        deformed_panel(sheet, "with bending", bending)},
+       sheet.view, folder / "bending.png");
+}
+
+// One vertex that turns what is around it.
+void draw_frame(const fs::path& folder)
+{
+  const Demo_shape strip = make_strip();
+  const auto turn = [&](auto& deformation) {
+    const auto handle = std::find(strip.selection.begin(), strip.selection.end(), HANDLE);
+    const Mesh::Vertex_index v(unsigned(handle - strip.selection.begin()));
+    const Eigen::AngleAxisd rotation(-CGAL_PI / 2, Eigen::Vector3d::UnitY());
+    expect_success(deformation.set_target_rotation(v, rotation));
+  };
+  draw({panel(strip.mesh, strip.selection, "original"),
+        deformed_panel(strip, "one vertex, moved", {}),
+        deformed_panel(strip, "moved and turned", {}, turn)},
+       strip.view, folder / "frame.png");
+}
+
+// What stiffness, groups and larger cells make of a bent bar; the edges of its middle are drawn.
+void draw_stiffness(const fs::path& folder)
+{
+  Demo_shape bar = make_bar(2);
+  bar.transform = motion(0, 120, Point(0, 0, 71), Vector(0, -38, -24));
+  const auto is_middle = [&](Mesh::Vertex_index v) {
+    return std::abs(bar.mesh.point(v).z() - 37.5) < 9;
+  };
+  const auto stiff = [&](auto& deformation) {
+    expect_success(deformation.set_stiffness([=](Mesh::Vertex_index v) {
+      return is_middle(v) ? 100.0 : 1.0;
+    }));
+  };
+  const auto rigid = [&](auto& deformation) {
+    expect_success(deformation.set_groups([=](Mesh::Vertex_index v) {
+      return is_middle(v) ? 0 : -1;
+    }));
+  };
+  CGAL::ARAP::Options spokes, rings;
+  spokes.cells = CGAL::ARAP::Cell_scheme::spokes();
+  rings.cells = CGAL::ARAP::Cell_scheme::k_ring(3);
+  std::vector<Panel> panels = {deformed_panel(bar, "all cells alike", spokes),
+                               deformed_panel(bar, "stiff middle", spokes, stiff),
+                               deformed_panel(bar, "one group", spokes, rigid),
+                               deformed_panel(bar, "3-ring cells", rings)};
+  for(Panel& p : panels)
+    for(Mesh::Edge_index e : bar.mesh.edges())
+      if(const auto v = bar.mesh.vertex(e, 0), w = bar.mesh.vertex(e, 1);
+         is_middle(v) && is_middle(w))
+        p.lines.push_back({int(v), int(w)});
+  draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 400, 420}, folder / "stiffness.png");
+}
+
+// Figure 5 of the paper: a handle is only translated. Previews, which have no iteration, fail.
+void draw_previews(const fs::path& folder)
+{
+  const Demo_shape plane = make_spiky_plane();
+  CGAL::ARAP::Options poisson, laplacian;
+  poisson.initial_guess = CGAL::ARAP::Initial_guess::rotations;
+  laplacian.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
+  poisson.iterations = laplacian.iterations = 0;
+  draw({panel(plane.mesh, plane.selection, "original"),
+        deformed_panel(plane, "Poisson editing", poisson),
+        deformed_panel(plane, "Laplacian editing", laplacian),
+        deformed_panel(plane, "as rigid as possible", {})},
+       View{plane.view.from, plane.view.up, 420, 330}, folder / "previews.png");
+}
+
 // a row of the table, from the report of the command
 void print_row(const fs::path& folder, const std::string& name)
 {
@@ -261,6 +363,10 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
   draw_iterations(folder);
   draw_weights(folder);
   draw_embedding(folder);
+  draw_bending(folder);
+  draw_frame(folder);
+  draw_stiffness(folder);
+  draw_previews(folder);
 
   std::cout << "\nmodel         vertices   free  iterations    energy  edge error   seconds\n";
   for(const Demo_shape& model : all)

@@ -292,6 +292,39 @@ inline Demo_shape make_biased_plane()
           View{Vector(0, -1, 0.5), Vector(0, 0, 1), 640, 480, true}};
 }
 
+// A sheet whose border is fixed and whose middle vertex is pulled.
+inline Demo_shape make_pulled_sheet()
+{
+  const int cells = 40;
+  const Mesh mesh = make_sheet(cells, cells, [&](const std::array<int, 3>& n) {
+    return Point(double(n[0]) / cells, double(n[1]) / cells, 0);
+  });
+  const auto is_border = [](const Point& p) {
+    return (std::min)({p.x(), p.y(), 1 - p.x(), 1 - p.y()}) < 1e-9;
+  };
+  const auto is_middle = [](const Point& p) {
+    return (std::max)(std::abs(p.x() - 0.5), std::abs(p.y() - 0.5)) < 1e-9;
+  };
+  return {"pulled_sheet", mesh, select(mesh, is_border, is_middle), translation(Vector(0, 0, 0.3)),
+          View{Vector(0.25, -1, 0.35), Vector(0, 0, 1), 520, 340, true}};
+}
+
+// A strip that is fixed at one end; a single vertex near the other end is to stand upright.
+inline Demo_shape make_strip()
+{
+  const int cells = 8;
+  const Mesh mesh = make_sheet(10 * cells, cells, [&](const std::array<int, 3>& n) {
+    return Point(double(n[0]) / cells, double(n[1]) / cells - 0.5, 0);
+  });
+  const auto is_end = [](const Point& p) { return p.x() < 0.03; };
+  const auto is_handle = [](const Point& p) {
+    return (std::max)(std::abs(p.x() - 0.95), std::abs(p.y() - 0.5)) < 1e-9;
+  };
+  return {"strip", mesh, select(mesh, is_end, is_handle),
+          motion(1, -90, Point(9.5, 0, 0), Vector(-3.5, 0, 5)),
+          View{Vector(0.3, -1, 0.3), Vector(0, 0, 1), 560, 420}};
+}
+
 // A sheet with spikes, one edge of which is lifted and pulled over the opposite one.
 inline Demo_shape make_spiky_plane()
 {

@@ -233,6 +233,7 @@ private:
   bool m_is_in_place;
 };
 
+#ifndef DOXYGEN_RUNNING
 template <typename PolygonMesh, typename VertexPointMap>
 Face_graph_domain(PolygonMesh&, VertexPointMap) -> Face_graph_domain<PolygonMesh, VertexPointMap>;
 
@@ -244,6 +245,7 @@ template <typename PolygonMesh, typename VertexPointMap, typename VertexIndexMap
           typename OutputPointMap>
 Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
   -> Face_graph_domain<PolygonMesh, VertexPointMap, VertexIndexMap, OutputPointMap>;
+#endif
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface with the property maps of named parameters.

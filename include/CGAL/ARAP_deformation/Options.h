@@ -31,11 +31,11 @@ enum class Initial_guess
   automatic, ///< `previous`; but where a handle has been torn away from its neighbours by more than
              ///< a tenth of the bounding box, `rotations` if its energy is lower
   previous, ///< the current positions: for interaction, where each frame starts from the last
-  rotations, ///< Poisson editing \cgalCite{cgal:zrks-hgfd-05}: the rotations of the handles, from
-             ///< the rest shape, are interpolated harmonically, and one global step with them gives
-             ///< the positions. Costs two solves with the factor. A handle of several connected
-             ///< vertices has the rotation of its motion, one of a single vertex none unless it is
-             ///< a frame.
+  rotations, ///< Poisson editing \cgalCite{Zayer2005Harmonic}: the rotations of the handles against
+             ///< the rest shape are interpolated harmonically, and one global step with them gives
+             ///< the positions. Costs two or three solves with the factor. A handle of several
+             ///< connected vertices has the rotation of its motion, one of a single vertex none
+             ///< unless it is a frame.
   laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
             ///< where they are, and the control vertices, soft ones of positive weight included, at
             ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and

@@ -19,11 +19,10 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
-
-#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +111,7 @@ public:
     const auto is_handle = [&](int v) {
       return v >= n || constraints.is_fixed[v] || row_of[v] >= 0;
     };
-    boost::disjoint_sets_with_storage<> sets(region.rest.size());
+    Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
       const int* const begin = region.corners_of(s);
@@ -120,12 +119,12 @@ public:
       const int* const first = std::find_if(begin, end, is_handle);
       for(const int* v = first; v != end; ++v)
         if(is_handle(*v))
-          sets.union_set(*first, *v);
+          sets.unite(*first, *v);
     }
     std::map<int, std::vector<int>> handles;
     for(int v = 0; v < region.number_of_vertices(); ++v)
       if(is_handle(v))
-        handles[static_cast<int>(sets.find_set(v))].push_back(v);
+        handles[sets.find(v)].push_back(v);
     const auto place = [&](int v) {
       return v < n && !constraints.is_fixed[v] ? targets.soft[static_cast<std::size_t>(row_of[v])]
                                                : x[static_cast<std::size_t>(v)];

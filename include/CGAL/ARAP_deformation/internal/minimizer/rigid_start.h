@@ -19,11 +19,10 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
-
-#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -235,7 +234,6 @@ public:
 
 private:
   using Pairs = std::vector<std::pair<int, int>>;
-  using Sets = boost::disjoint_sets_with_storage<>;
 
   static constexpr double tolerance = 1e-12; // of squares, also of points of type float
 
@@ -385,7 +383,7 @@ private:
       });
     };
     for_each_constraint([&](int v, int) { is_turned[v] = false; });
-    Sets sets(is_turned.size());
+    Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
       const int* const begin = region.corners_of(s);
@@ -395,16 +393,16 @@ private:
       const int* const first = std::find_if(begin, end, [&](int v) { return !is_turned[v]; });
       for(const int* v = first; v != end; ++v)
         if(!is_turned[*v])
-          sets.union_set(*first, *v);
+          sets.unite(*first, *v);
     }
     constraints.for_each_row([&](auto begin, auto end, double, double weight) {
       for(auto v = begin; v != end && weight != 0; ++v)
-        sets.union_set(*begin, *v);
+        sets.unite(*begin, *v);
     });
     Array<int> count(is_turned.size(), 0);  // for each set, of its constraints
     Array<int> holder(m_free.size(), -1);   // for each part a set with several constraints
     for_each_constraint([&](int v, int part) {
-      const auto set = static_cast<int>(sets.find_set(v));
+      const auto set = sets.find(v);
       if(++count[set] < 2)
         return;
       motions[static_cast<std::size_t>(deformed[part])].is_twisted |=

@@ -16,10 +16,8 @@
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
-
-#include <algorithm>
-#include <numeric>
 
 namespace CGAL {
 namespace ARAP {
@@ -38,24 +36,14 @@ struct Free_components
 inline Free_components find_free_components(const Laplacian& laplacian,
                                             const Constraints& constraints)
 {
-  // union-find, in which the smallest vertex of each set is its root
   const int n = laplacian.size();
   Free_components result{Array<int>(n), laplacian.is_tied};
-  Array<int>& parent = result.component;
   Array<char>& is_tied = result.is_tied;
-  std::iota(parent.begin(), parent.end(), 0);
   const auto& is_fixed = constraints.is_fixed;
-  const auto find = [&parent](int v) {
-    while(parent[v] != v)
-      v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  Disjoint_sets sets(n);
   const auto tie = [&](int i, int j) {
     if(!is_fixed[i] && !is_fixed[j])
-    {
-      const int a = find(i), b = find(j);
-      parent[a] = parent[b] = (std::min)(a, b);
-    }
+      sets.unite(i, j);
     is_tied[i] |= is_fixed[j];
     is_tied[j] |= is_fixed[i];
   };
@@ -72,9 +60,9 @@ inline Free_components find_free_components(const Laplacian& laplacian,
   });
   for(int v = 0; v < n; ++v)
   {
-    parent[v] = is_fixed[v] ? -1 : find(v);
+    result.component[v] = is_fixed[v] ? -1 : sets.find(v);
     if(!is_fixed[v])
-      is_tied[parent[v]] |= is_tied[v];
+      is_tied[result.component[v]] |= is_tied[v];
   }
   return result;
 }
