@@ -18,7 +18,9 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation_traits.h>
 
 #include <Eigen/Dense>
 
@@ -450,6 +452,57 @@ void near_a_handle()
   CHECK(deformation.velocity(12)[0] > 0);
 }
 
+// A mesh, another solver and several threads: the same motion as with ranges. With threads alone,
+// the same bits.
+template <typename Deformed>
+std::vector<Point> falling_mesh(const Shape& shape, unsigned int threads)
+{
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformed deformation(mesh);
+  CGAL::ARAP::Options o;
+  o.threads = threads;
+  o.tolerance = 1e-10;
+  CHECK(deformation.set_options(o));
+  deformation.insert_roi_vertices(mesh.vertices());
+  deformation.insert_control_vertex(Mesh::Vertex_index(4));
+  Dynamics dynamics;
+  dynamics.acceleration = {0, 1, -10};
+  for(int step = 0; step < 20; ++step)
+    CHECK(deformation.advance(dynamics, [](Mesh::Vertex_index v) {
+      return Kernel::Vector_3(v == Mesh::Vertex_index(9) ? 0.1 : 0, 0, 0);
+    }));
+  return points_of(mesh);
+}
+
+void falling_meshes()
+{
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::ARAP::Eigen_LDLT_solver>;
+  const Shape shape = shapes()[5];
+  const auto one = falling_mesh<CGAL::ARAP_deformation<Mesh>>(shape, 1);
+  CHECK(one == falling_mesh<CGAL::ARAP_deformation<Mesh>>(shape, 4));
+  const auto ldlt = falling_mesh<CGAL::ARAP_deformation<Mesh, Traits>>(shape, 1);
+  CHECK_AT_MOST(largest_distance(one, ldlt), 1e-7);
+
+  std::vector<Point> points = points_of(shape.points);
+  Simplices triangles;
+  for(const auto& t : shape.triangles)
+    triangles.emplace_back(t.begin(), t.end());
+  Deformation<2> deformation(Soup<2>(points, triangles));
+  CGAL::ARAP::Options o;
+  o.tolerance = 1e-10;
+  CHECK(deformation.set_options(o));
+  deformation.insert_roi_vertices(numbers(points.size()));
+  deformation.insert_control_vertex(4);
+  Dynamics dynamics;
+  dynamics.acceleration = {0, 1, -10};
+  std::vector<Vector3d> forces(points.size(), Vector3d(0, 0, 0));
+  forces[9] = {0.1, 0, 0};
+  for(int step = 0; step < 20; ++step)
+    CHECK(deformation.advance(dynamics, forces));
+  CHECK_AT_MOST(largest_distance(points, one), 1e-7);
+  CHECK(largest_distance(points, shape.points) > 0.1);
+}
+
 template <int Dimension>
 void run_all()
 {
@@ -477,5 +530,6 @@ int main()
   test_case() = "";
   undo_and_refuse();
   near_a_handle();
+  falling_meshes();
   return checks_result();
 }
