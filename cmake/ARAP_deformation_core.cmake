@@ -11,9 +11,6 @@ if(NOT TARGET ARAP_deformation_core)
                              ${CMAKE_CURRENT_LIST_DIR}/../include)
   target_link_libraries(ARAP_deformation_core PUBLIC CGAL::CGAL CGAL::Eigen3_support
                                                      ARAP_deformation_accelerators)
-  # all that a Release computes with, whatever its programs are compiled for
-  target_compile_options(ARAP_deformation_core PRIVATE
-                         $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O3>)
   # optimized too where nothing says how
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES
      AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_FLAGS MATCHES "-O")

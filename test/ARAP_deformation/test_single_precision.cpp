@@ -249,6 +249,7 @@ void test_minima()
       test_case() = shape.name;
       Options options;
       options.cells = cells;
+      options.initial_guess = CGAL::ARAP::Initial_guess::previous;
       options.minimizer = Minimizer::local_global;
       const Run few = run<Single_precision_solver>(shape, options, 10, 0);
       const Run few_expected = run<Multifrontal_cholesky_solver>(shape, options, 10, 0);

@@ -135,44 +135,81 @@ inline std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinate
 
 // Starts a run at its minimum where that is known to be zero: where all that constrains a part of
 // the free vertices is a rigid copy of the rest shape, the whole part can be one. Any minimizer
-// would need many iterations.
+// would need many iterations. Vertices that share cells or rows are in one part.
 class Rigid_start
 {
 public:
-  // For each movable vertex `parts` has a vertex of its part, which all that are tied together
-  // share; -1 if it is fixed, and -2 if nothing ties it to free vertices.
-  Rigid_start(const Region& region, const Constraints& constraints, const Array<int>& parts)
-    : m_part(parts)
+  // For each movable vertex `components` has its component, a vertex which all that are tied
+  // together share; -1 if it is fixed, and -2 if nothing ties it to free vertices.
+  Rigid_start(const Region& region, const Constraints& constraints, const Array<int>& components)
+    : m_part(components)
   {
     const int n = region.number_of_movable_vertices;
+    const auto is_free = [&](int v) { return v < n && components[v] >= 0; };
+    const auto is_constraint = [&](int v) { return v >= n || components[v] == -1; };
+    Disjoint_sets sets(n); // of components
+    // unites the components of a range, and returns one of them, or -1
+    const auto unite = [&](auto begin, auto end) {
+      const auto first = std::find_if(begin, end, is_free);
+      for(auto v = first; v != end; ++v)
+        if(is_free(*v) && components[*v] != components[*first])
+          sets.unite(components[*v], components[*first]);
+      return first == end ? -1 : components[*first];
+    };
+    // All that is in simplices at a vertex, free or not, may share a cell.
+    Array<int> around(region.number_of_vertices(), -1); // a component in a simplex there
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(const int component = unite(begin, end); component >= 0)
+        for(const int* v = begin; v != end; ++v)
+        {
+          if(around[*v] >= 0 && around[*v] != component)
+            sets.unite(around[*v], component);
+          around[*v] = component;
+        }
+    }
+    constraints.for_each_row([&](auto begin, auto end, double, double weight) {
+      if(weight != 0)
+        unite(begin, end);
+    });
+
     int count = 0;
     Array<int> number(n, -1);
     for(int v = 0; v < n; ++v)
-      if(m_part[v] >= 0)
+      if(components[v] >= 0)
       {
-        int& part = number[m_part[v]];
+        int& part = number[sets.find(components[v])];
         part = part < 0 ? count++ : part;
         m_part[v] = part;
       }
-    const auto is_free = [&](int v) { return v < n && m_part[v] >= 0; };
-    const auto is_constraint = [&](int v) { return v >= n || m_part[v] == -1; };
     Pairs free, fixed, rows; // each with its part
-    const auto add_fixed = [&](auto begin, auto end) { // returns a part, or -1
-      const auto first = std::find_if(begin, end, is_free);
-      if(first == end)
-        return -1;
+    const auto add_fixed = [&](int part, auto begin, auto end) {
       for(auto v = begin; v != end; ++v)
         if(is_constraint(*v))
-          fixed.emplace_back(m_part[*first], *v);
-      return m_part[*first];
+          fixed.emplace_back(part, *v);
     };
     for(int s = 0; s < region.number_of_simplices(); ++s)
-      add_fixed(region.corners_of(s), region.corners_of(s) + region.number_of_corners(s));
+    {
+      const int* const begin = region.corners_of(s);
+      const int* const end = begin + region.number_of_corners(s);
+      if(std::any_of(begin, end, is_constraint))
+        for(const int* v = begin; v != end; ++v)
+          if(around[*v] >= 0)
+          {
+            add_fixed(m_part[around[*v]], begin, end);
+            break;
+          }
+    }
     m_can_be_rigid = Array<char>(count, true);
     int r = 0;
     constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
-      if(const int part = weight == 0 ? -1 : add_fixed(begin, end); part >= 0)
+      const auto first = std::find_if(begin, end, is_free);
+      if(weight != 0 && first != end)
       {
+        const int part = m_part[*first];
+        add_fixed(part, begin, end);
         rows.emplace_back(part, r);
         if(!(std::abs(sum - 1) <= 1e-12))
           m_can_be_rigid[part] = false; // it is not invariant under translations
