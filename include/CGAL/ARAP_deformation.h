@@ -703,7 +703,8 @@ public:
   /// the weights of the targets. Targets that are sets become points.
   void reset() { m_session.reset(); }
 
-  /// makes the current shape the rest shape. Keeps the targets and their weights.
+  /// makes the current shape the rest shape. Keeps the targets and their weights, and no rotation
+  /// that a control vertex prescribes.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
 
 #ifdef DOXYGEN_RUNNING

@@ -496,10 +496,11 @@ void test_changes(const Model& model)
   report = d.deform(3, 0);
   CHECK(!report.stages.weights && !report.stages.factor && !report.stages.border);
   const auto state = d.state();
-  d.reset();
+  d.reset(); // erases rotations that are prescribed, and puts targets back
+  for(const auto& frame : terms.frames)
+    CHECK(d.set_target_rotation(frame.first, frame.second));
   report = d.deform(4, 0);
   Run<2> fresh(model, s, Cell_scheme::spokes_and_rims(), terms);
-  // reset() puts the targets back, too
   for(std::size_t v = 0; v < model.points.size(); ++v)
     if(s.selection[v] == 2)
       fresh.deformation.set_target_position(v, point(model.points[v]));
@@ -517,6 +518,86 @@ void test_changes(const Model& model)
   plain.deformation.reset();
   CHECK(plain.deformation.deform(4, 0));
   CHECK_AT_MOST(largest_distance(run.points, plain.points), 1e-8);
+}
+
+// Rigid motions with smooth rotations, and starts that are taken only where they lower the energy.
+void test_rigid_motions(const Model& model)
+{
+  const double diameter = diameter_of(model.points);
+  const Eigen::Matrix3d q = turn(2, {1, 2, 0});
+  for(const double length : {0.03, 0.3, 3.0})
+  {
+    test_case() = "smooth rotations, rigid, length " + std::to_string(length);
+    Scenario s{std::vector<int>(model.points.size(), 1), model.points};
+    for(std::size_t v = 0; v < model.points.size() / 5; ++v)
+    {
+      s.selection[v] = 2;
+      s.targets[v] = q * model.points[v];
+    }
+    Terms terms;
+    terms.smoothing_length = length * diameter;
+    Run<2> run(model, s, Cell_scheme::spokes_and_rims(), terms);
+    const Report report = run.deformation.deform(100, 1e-3);
+    CHECK(report.iterations <= 30);
+    CHECK_AT_MOST(report.final_energy(), 1e-9 * report.energy_scale);
+    std::vector<Eigen::Vector3d> expected;
+    for(const Eigen::Vector3d& p : model.points)
+      expected.push_back(q * p);
+    CHECK_AT_MOST(largest_distance(run.points, expected), 1e-6 * diameter);
+  }
+
+  test_case() = "a group over two sheets that are turned differently";
+  Model two = model;
+  for(const Eigen::Vector3d& p : model.points)
+    two.points.push_back(p + Eigen::Vector3d(0, 0, 2 * diameter));
+  for(Dense_reference::Simplex simplex : model.simplices)
+  {
+    for(std::size_t& v : simplex)
+      v += model.points.size();
+    two.simplices.push_back(simplex);
+  }
+  Scenario s{std::vector<int>(two.points.size(), 1), two.points};
+  Terms terms;
+  for(std::size_t v = 0; v < two.points.size(); ++v)
+  {
+    const std::size_t k = v % model.points.size();
+    terms.group.push_back(k < model.points.size() / 2 ? 0 : -1);
+    if(k < model.points.size() / 5)
+    {
+      s.selection[v] = 2;
+      s.targets[v] = v < model.points.size() ? two.points[v] : Eigen::Vector3d(q * two.points[v]);
+    }
+  }
+  Run<2> run(two, s, Cell_scheme::spokes_and_rims(), terms);
+  const Report first = run.deformation.deform(200, 0), again = run.deformation.deform(0, 0);
+  CHECK(first.final_energy() > 1e-3);
+  CHECK_AT_MOST(again.final_energy(), first.final_energy() * (1 + 1e-9));
+}
+
+// cells of stiffness 0, now here and now there, keep the pattern of the matrix
+void test_no_stiffness(const Model& model)
+{
+  test_case() = "stiffness 0";
+  const Scenario s = whole_scenario(model);
+  Terms terms;
+  terms.bending_length = 0.1 * diameter_of(model.points);
+  Run<2> run(model, s, Cell_scheme::spokes_and_rims(), terms);
+  std::vector<std::size_t> free;
+  for(std::size_t v = 0; v < model.points.size(); ++v)
+    if(s.selection[v] == 1)
+      free.push_back(v);
+  for(std::size_t v : {free[free.size() / 3], free[free.size() / 2]})
+  {
+    terms.stiffness.assign(model.points.size(), 1);
+    terms.stiffness[v] = 0;
+    apply(run.deformation, Cell_scheme::spokes_and_rims(), terms);
+    run.deformation.reset();
+    prepare(run.deformation, s, numbers(model.points.size()));
+    CHECK(run.deformation.deform(5, 0));
+    Run<2> fresh(model, s, Cell_scheme::spokes_and_rims(), terms);
+    CHECK(fresh.deformation.deform(5, 0));
+    CHECK_AT_MOST(largest_distance(run.points, fresh.points), 1e-9);
+  }
 }
 
 void test_wrong_values(const Model& model)
@@ -547,6 +628,9 @@ void test_wrong_values(const Model& model)
   options.bending_length = 0.1;
   CHECK(d.set_options(options).status == CGAL::ARAP::Status::invalid_option);
   d.clear_stiffness();
+  options = d.options();
+  options.cells = Cell_scheme::k_ring(101);
+  CHECK(d.set_options(options).status == CGAL::ARAP::Status::invalid_option);
   const std::size_t v = d.control_vertices()[0];
   CHECK(d.set_target_rotation(v, Eigen::Matrix3d(-Eigen::Matrix3d::Identity())).status ==
         CGAL::ARAP::Status::invalid_rotation);
@@ -606,6 +690,8 @@ void test_all()
   test_frames_of_motions(models.front());
   test_groups(models.front());
   test_changes(models.front());
+  test_rigid_motions(models.front());
+  test_no_stiffness(models.front());
   test_wrong_values(models.front());
   test_mesh(shapes()[1]);
 }

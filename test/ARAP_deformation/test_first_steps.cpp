@@ -449,6 +449,32 @@ struct Session
   }
 };
 
+// two branches of a history, with a vertex each that the other does not know
+void test_branches()
+{
+  test_case() = "branches of a history";
+  Mesh mesh = make_mesh<Mesh>(sheet(12));
+  Deformation d(mesh);
+  for(Vertex v : mesh.vertices())
+    if(v < Vertex(60))
+      d.insert_roi_vertex(v);
+  d.insert_control_vertex(Vertex(0));
+  const auto start = d.state();
+  d.insert_control_vertex(Vertex(100), Point(0, 0, 0.7));
+  CHECK(d.set_target_weight(Vertex(100), 1));
+  CHECK(d.deform(3, 0));
+  const Mesh first = mesh;
+  const auto first_state = d.state();
+  CHECK(d.restore(start));
+  d.insert_control_vertex(Vertex(120), Point(0, 0, 0.7));
+  CHECK(d.deform(3, 0));
+  CHECK(d.restore(first_state));
+  CHECK(same_points(mesh, first));
+  CHECK(d.is_control_vertex(Vertex(100)) && !d.is_control_vertex(Vertex(120)));
+  CHECK(!d.is_roi_vertex(Vertex(120)));
+  CHECK(d.deform(3, 0));
+}
+
 void test_state()
 {
   Session s;
@@ -1090,6 +1116,7 @@ int main()
   rigid::test_line();
   rigid::test_rows();
   undo::test_state();
+  undo::test_branches();
   undo::test_points_of_others();
   user_weights::test_changes();
   user_weights::test_singular();

@@ -529,10 +529,8 @@ private:
       Eigen::Matrix3d given = Eigen::Matrix3d::Zero();
       for(const auto& [v, rotation] : m_terms.frames)
         for(std::size_t name : m_cells[c].names)
-          if(!m_is_element && name == v)
-            given = rotation;
-          else if(m_is_element && contains(m_simplices[name], v))
-            given += rotation;
+          if(m_is_element ? contains(m_simplices[name], v) : name == v)
+            given += rotation; // the closest one to the mean
       if(!given.isZero())
         m_rotations[c] = closest_rotation(given.transpose());
     }

@@ -148,7 +148,7 @@ inline void compare(const Result& a, const Result& b, double diameter, double en
   CHECK(a.energy.size() == b.energy.size() && a.points.size() == b.points.size());
   for(std::size_t k = 0; k < a.energy.size() && k < b.energy.size(); ++k)
     CHECK_AT_MOST(std::abs(a.energy[k] - b.energy[k]),
-                  energy_tolerance * a.energy[0] + 1e-20 * diameter * diameter); // it may be zero
+                  energy_tolerance * a.energy[0] + std::pow(position_tolerance * diameter, 2));
   for(std::size_t v = 0; v < a.points.size() && v < b.points.size(); ++v)
     CHECK_AT_MOST((a.points[v] - b.points[v]).norm(), position_tolerance * diameter);
 }

@@ -138,7 +138,7 @@ public:
   {
     for(int i = 0; i < size(); ++i)
     {
-      if(!(m_factors[i] > 0))
+      if(!(m_inverse_masses[i] > 0)) // one of stiffness 0 counts: the pattern is that of the region
         continue;
       const double factor = m_factors[i] * m_inverse_masses[i];
       const int begin = m_stars.neighbours.begin[i], end = m_stars.neighbours.begin[i + 1];

@@ -28,6 +28,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <algorithm>
@@ -35,6 +36,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -76,10 +78,28 @@ public:
         m_group_of[m_groups.items[k]] = g;
   }
 
-  // The rotations of some cells are given, not fitted. For two of one group the last counts.
+  // The rotations of some cells are given, not fitted; a group has the mean of those of its cells.
   void set_given_rotations(std::vector<std::pair<int, Matrix_3x3>> given)
   {
     m_given = std::move(given);
+    if(m_groups.size() == 0)
+      return;
+    std::map<int, Matrix_3x3> sums; // for each group
+    for(const auto& [c, rotation] : m_given)
+      if(const int g = m_group_of[c]; g >= 0)
+        for(std::size_t entry = 0; entry < 9; ++entry)
+          sums[g][entry] += rotation[entry];
+    for(auto& [c, rotation] : m_given)
+      if(const int g = m_group_of[c]; g >= 0)
+        rotation = Svd_rotation::closest(sums[g]);
+  }
+
+  // What does not count has the identity.
+  void clear_others(std::vector<Matrix_3x3>& rotations) const
+  {
+    for(std::size_t c = 0; c < m_is_chosen.size(); ++c)
+      if(!m_is_chosen[c])
+        rotations[c] = identity_matrix();
   }
 
   // whether the fit depends on the rotations before
@@ -192,9 +212,10 @@ public:
 
   // Fits the rotations to the positions x, starting from those given, and returns the energy.
   // `force` becomes minus half the gradient for each free vertex, and anything for a fixed one.
+  // Without `is_smooth` rotations are fitted as if they need not be smooth.
   double fit_and_evaluate(const Closest_rotations& closest_rotations,
                           const std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
-                          std::vector<Coordinates>& force)
+                          std::vector<Coordinates>& force, bool is_smooth = true)
   {
     assign(m_x, x);
     m_bending.prepare(m_x.data());
@@ -204,7 +225,8 @@ public:
       const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
         cells.compute_covariances(m_rest.data(), m_x.data(), begin, end, covariances);
         m_bending.add_covariances(begin, end, covariances);
-        m_smooth.add_covariances(begin, end, covariances);
+        if(is_smooth)
+          m_smooth.add_covariances(begin, end, covariances);
       };
       for(int c : m_sequential_fit.order())
       {

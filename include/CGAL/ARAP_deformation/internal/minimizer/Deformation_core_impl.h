@@ -262,6 +262,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
 {
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
+  // where cells depend on others that are far away, a part is not all that its energy depends on
+  const bool is_certain = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
+                          m_energy_model.cells.rings() == 0 && targets.frames.empty();
+  std::vector<Coordinates> unplaced = is_certain ? std::vector<Coordinates>() : x;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     targets.project(m_constraints.rows, x);
@@ -273,10 +277,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                           is_laplacian, x);
     }
   }
-  const bool are_all_placed =
-    std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
-               [](char placed, char fixed) { return placed || fixed; });
-  if(is_laplacian && !are_all_placed)
+  const auto are_all_placed = [&] {
+    return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
+                      [](char placed, char fixed) { return placed || fixed; });
+  };
+  if(is_laplacian && !are_all_placed())
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!m_state->stars)
@@ -294,27 +299,34 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     box.include(targets.hard);
     const double size = box.squared_length();
     box.include(x);
-    if(!(box.squared_length() <= 4 * size))
+    if(!guess.is_found() || !(box.squared_length() <= 4 * size))
       x = before;
   }
   m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!m_state->system.meet(targets.hard, x))
+    if(!m_state->system.meet(targets.hard, x) ||
+       (!is_certain && !m_state->system.meet(targets.hard, unplaced)))
       return {Status::solver_failed};
   }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, targets, x, rotations, report);
+  if(!is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end())
+  {
+    x.swap(unplaced);
+    if(!minimization.try_positions(std::move(unplaced)))
+      is_placed.assign(is_placed.size(), false);
+  }
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
                         is_torn(m_region, m_constraints, m_squared_size, targets, x);
-  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed)
+  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
     const Array<Matrix_3x3> of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
       return Harmonic_rotations(m_region, m_constraints, targets, x)(m_state->energy,
-                                                                             m_state->system);
+                                                                     m_state->system);
     }();
     if(!of_vertices.empty() &&
        !minimization.start_with(rotations_of_cells(of_vertices), is_placed, is_tried))

@@ -107,10 +107,12 @@ public:
     return true;
   }
 
+  // whether iterations were enough: not where bending makes the factor a bad preconditioner
+  bool is_found() const { return m_is_found; }
+
 private:
-  // The solution for a right-hand side, for each coordinate a system of its own. What is reached
-  // after the last iteration will do, as each of them comes nearer. Returns false if the solver
-  // failed.
+  // The solution for a right-hand side, for each coordinate a system of its own. Returns false if
+  // the solver failed.
   bool solve(std::vector<Coordinates> residual, std::vector<Coordinates>& x)
   {
     const std::size_t n = residual.size();
@@ -131,7 +133,7 @@ private:
       for(std::size_t c = 0; c < 3; ++c)
         is_done &= !(size[c] > 1e-14 * first[c]);
       if(is_done)
-        break;
+        return true;
       for(std::size_t v = 0; v < n; ++v)
         for(std::size_t c = 0; c < 3; ++c)
           direction[v][c] = preconditioned[v][c] +
@@ -149,6 +151,7 @@ private:
         }
       }
     }
+    m_is_found = false;
     return true;
   }
 
@@ -195,6 +198,7 @@ private:
   Constrained_system& m_system;
   Array<char> m_is_solved_for; // for each vertex
   Array<double> m_bound;       // for each vertex, what is added to the diagonal of L^T L
+  bool m_is_found = true;
 };
 
 } // namespace internal

@@ -93,6 +93,7 @@ public:
     const double energy = is_tried ? evaluate() : 0;
     std::vector<Matrix_3x3> fitted = m_rotations;
     m_rotations.swap(rotations);
+    m_energy.clear_others(m_rotations);
     evaluate_without_fit();
     {
       Scoped_seconds seconds(report.seconds.initial_guess);
@@ -110,6 +111,23 @@ public:
       m_last_rotations = m_rotations;
     }
     return true;
+  }
+
+  // Replaces x by other positions, with rotations that are fitted to these alone, if that lowers
+  // the energy.
+  bool try_positions(std::vector<Coordinates> other)
+  {
+    const double energy = evaluate();
+    std::vector<Matrix_3x3> fitted = m_rotations;
+    x.swap(other);
+    m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force, false);
+    m_last_rotations = m_rotations;
+    if(evaluate_without_fit() < energy)
+      return true;
+    x.swap(other);
+    m_rotations.swap(fitted);
+    m_last_rotations = m_rotations;
+    return false;
   }
 
   bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }

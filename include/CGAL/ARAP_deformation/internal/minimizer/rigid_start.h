@@ -75,7 +75,8 @@ public:
     for(std::size_t k = 0; k < n; ++k)
     {
       const Coordinates error = difference(to(k), (*this)(from(k)));
-      m_squared_error = (std::max)(m_squared_error, dot(error, error));
+      if(!(dot(error, error) <= m_squared_error)) // nor if it is no number
+        m_squared_error = dot(error, error);
     }
   }
 

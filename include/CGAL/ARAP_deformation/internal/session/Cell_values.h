@@ -89,11 +89,11 @@ private:
     template <typename Map>
     void set(Map map, T otherwise)
     {
-      *this = Values();
+      Values next; // a map of the user may throw
       constexpr bool are_both_indices = std::is_same_v<simplex_descriptor, std::size_t>;
       constexpr bool has_simplices = are_both_indices || is_value_of<Map, simplex_descriptor>;
       if constexpr(has_simplices)
-        m_of_simplex = [map, otherwise](simplex_descriptor s) {
+        next.m_of_simplex = [map, otherwise](simplex_descriptor s) {
           std::size_t index = 0;
           if constexpr(are_both_indices)
             index = s;
@@ -102,11 +102,12 @@ private:
           return result;
         };
       if constexpr(are_both_indices || !has_simplices || is_value_of<Map, vertex_descriptor>)
-        m_of_vertex = [map, otherwise](vertex_descriptor v, std::size_t index) {
+        next.m_of_vertex = [map, otherwise](vertex_descriptor v, std::size_t index) {
           T result = otherwise;
           with_value(map, v, index, [&](T value) { result = value; });
           return result;
         };
+      *this = std::move(next);
     }
 
     Array<T> of(bool is_at_vertices, const Domain& domain, const Domain_region<Domain>& region,

@@ -197,6 +197,9 @@ public:
     return {m_present, m_prepared->numbering, m_prepared->positions, core().rotations(), m_inertia};
   }
 
+  // whether stiffness and lengths are those of a state
+  bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
+
   // The entries of the vertices have been restored before. Stages that are the same stay ready.
   void restore(State state, const Vertices& vertices)
   {

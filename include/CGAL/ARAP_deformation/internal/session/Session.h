@@ -24,6 +24,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
@@ -271,6 +272,8 @@ public:
     if(rotation && !is_rotation(*rotation))
       return outcome(Status::invalid_rotation, name(v));
     m_vertices.rotation(*entry) = rotation;
+    if(rotation)
+      m_vertices.rotation(*entry) = Svd_rotation::closest(*rotation);
     return Outcome(Status::success, std::string());
   }
 
@@ -390,7 +393,10 @@ public:
     move_to(&Entry::present, points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
+      {
         replace_target(m_vertices.whole_target(entry), std::move(targets[k]));
+        m_vertices.rotation(entry).reset();
+      }
     std::size_t number = 0;
     for(auto& held : m_vertices.points())
       replace_target(held.second.target, std::move(held_targets[number++]));
@@ -413,6 +419,9 @@ public:
     std::vector<Point> rest = points;
     m_vertices.read_surroundings_again();
     m_prepared.reset_rotations();
+    for(const Entry& entry : m_vertices.entries()) // they were those from the other rest shape
+      if(entry.is_control)
+        m_vertices.rotation(entry).reset();
     region_changed();
     move_to(&Entry::present, points);
     move_to(&Entry::rest, rest);
@@ -450,15 +459,17 @@ public:
       return outcome(Status::foreign_state);
     const std::vector<Entry>& before = m_vertices.entries();
     const std::vector<Entry>& after = state.vertices.entries;
+    for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
+      if(k >= after.size() || before[k].vertex != after[k].vertex)
+        domain().set_point(before[k].vertex, m_vertices.first_point(k));
     for(const Entry& entry : after)
       domain().set_point(entry.vertex, entry.present);
-    for(std::size_t k = after.size(); k < before.size(); ++k)
-      domain().set_point(before[k].vertex, m_vertices.first_point(k));
+    const bool are_values_same = m_prepared.has_values_of(state.prepared);
     m_vertices.restore(std::move(state.vertices));
     m_prepared.restore(std::move(state.prepared), m_vertices);
     if(state.cells != m_options.cells)
       region_changed();
-    m_energy = state.energy;
+    m_energy = are_values_same && state.cells == m_options.cells ? state.energy : not_a_number;
     return Outcome(Status::success, std::string());
   }
 

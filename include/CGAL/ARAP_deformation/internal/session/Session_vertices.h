@@ -383,10 +383,14 @@ public:
   {
     for(Surrounding& v : state.surroundings) // what others have is what was found since
       keep_rest(std::move(v));
-    for(std::size_t k = m_entries.size(); k < state.entries.size(); ++k)
-      m_slots.set(m_domain.index(state.entries[k].vertex), static_cast<int>(k));
-    for(std::size_t k = state.entries.size(); k < m_entries.size(); ++k)
-      m_slots.set(m_domain.index(m_entries[k].vertex), Paged_index_map::none);
+    const auto set_slots = [this](const auto& own, const auto& other, bool is_own) {
+      for(std::size_t k = 0; k < own.size(); ++k)
+        if(k >= other.size() || own[k].vertex != other[k].vertex)
+          m_slots.set(m_domain.index(own[k].vertex),
+                      is_own ? static_cast<int>(k) : Paged_index_map::none);
+    };
+    set_slots(m_entries, state.entries, false);
+    set_slots(state.entries, m_entries, true);
     m_entries.swap(state.entries);
     m_targets.swap(state.targets);
     m_first_points.swap(state.first_points);
