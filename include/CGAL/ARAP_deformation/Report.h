@@ -69,8 +69,9 @@ struct Report : Outcome
 
   /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
-  /// \f$w \|e' - R e\|^2\f$, without any further factor, and each soft control vertex or control
-  /// point \f$m \|p' - t\|^2\f$.
+  /// \f$k w \|e' - R e\|^2\f$ with the stiffness \f$k\f$ of the cell, without any further factor,
+  /// and each soft control vertex or control point \f$m \|p' - t\|^2\f$; bending and smooth
+  /// rotations add their terms. Smooth rotations are those that one fit makes of the last ones.
   std::vector<double> energy;
 
   /// \f$s\f$, the natural unit of the energy: the sum of \f$|w| \|e\|^2\f$ over the edges of all
