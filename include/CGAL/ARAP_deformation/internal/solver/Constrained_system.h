@@ -59,9 +59,11 @@ public:
     : m_prototype(std::move(prototype))
   {}
 
-  // Any other Laplacian must have the pattern of the first one, whose order is kept.
+  // The order is kept if the pattern is.
   void set_laplacian(Laplacian laplacian)
   {
+    if(!has_pattern(laplacian.matrix, m_laplacian.matrix))
+      m_solver.reset();
     m_laplacian = std::move(laplacian);
     m_has_factor = false;
   }

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace CGAL {
@@ -43,6 +44,14 @@ inline double diagonal_entry(const Sparse_matrix& matrix, int column)
 inline double& diagonal_entry(Sparse_matrix& matrix, int column)
 {
   return matrix.valuePtr()[matrix.outerIndexPtr()[column]];
+}
+
+// whether two compressed matrices have entries at the same places
+inline bool has_pattern(const Sparse_matrix& a, const Sparse_matrix& b)
+{
+  return a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
 }
 
 // a bound of the rounding error of a sum, as a share of the sum of the absolute values
