@@ -129,18 +129,17 @@ public:
       if(std::any_of(begin, end, [&](int c) { return is_chosen[c] != 0; }))
         std::for_each(begin, end, [&](int c) { is_chosen[c] = true; });
     });
-    for(std::size_t c = 0; c < is_chosen.size(); ++c)
-      if(!is_chosen[c])
-        rotations[c] = identity_matrix();
     m_number_of_free_vertices = static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
-    if(is_chosen == m_is_chosen)
-      return;
-    std::visit([&](auto& cells) { cells.choose_cells(is_chosen); }, m_cells);
-    if(!m_bending.is_none())
-      m_bending.choose_cells(is_chosen);
-    m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
-    m_is_chosen = std::move(is_chosen);
-    measure();
+    if(is_chosen != m_is_chosen)
+    {
+      std::visit([&](auto& cells) { cells.choose_cells(is_chosen); }, m_cells);
+      if(!m_bending.is_none())
+        m_bending.choose_cells(is_chosen);
+      m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
+      m_is_chosen = std::move(is_chosen);
+      measure();
+    }
+    clear_others(rotations);
   }
 
   // the bounding box of the points of all vertices that cells that count are at

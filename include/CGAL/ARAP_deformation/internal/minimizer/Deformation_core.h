@@ -28,6 +28,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -127,6 +128,8 @@ private:
   Diagnosis run_in_arena(const Options& options, const Observer& observe, Targets& targets,
                          std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
                          Report& report);
+  template <typename Function>
+  std::optional<Matrix_3x3> mean_at_corners(int s, const Function& rotation_at) const;
   Array<Matrix_3x3> rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;

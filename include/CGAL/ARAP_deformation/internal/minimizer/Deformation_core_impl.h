@@ -197,6 +197,24 @@ Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
   return diagnosis;
 }
 
+// The closest rotation to the mean of those at the corners of a simplex, if there is one;
+// rotation_at(v) may be null.
+template <typename Function>
+std::optional<Matrix_3x3> Deformation_core::mean_at_corners(int s,
+                                                            const Function& rotation_at) const
+{
+  Matrix_3x3 sum{};
+  bool has_one = false;
+  for(int k = 0; k < m_region.number_of_corners(s); ++k)
+    if(const Matrix_3x3* const rotation = rotation_at(m_region.corners_of(s)[k]))
+    {
+      has_one = true;
+      for(std::size_t entry = 0; entry < 9; ++entry)
+        sum[entry] += (*rotation)[entry];
+    }
+  return has_one ? std::optional<Matrix_3x3>(Svd_rotation::closest(sum)) : std::nullopt;
+}
+
 // A frame holds for the cell of its vertex, or for all simplices at it; a simplex with several
 // frames gets their mean.
 CGAL_ARAP_INLINE_FUNCTION
@@ -217,19 +235,8 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   for(const Frame& frame : frames)
     frame_of[frame.vertex] = &frame.rotation;
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-  {
-    Matrix_3x3 sum{};
-    bool is_given = false;
-    for(int k = 0; k < m_region.number_of_corners(s); ++k)
-      if(const Matrix_3x3* const rotation = frame_of[m_region.corners_of(s)[k]])
-      {
-        is_given = true;
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sum[entry] += (*rotation)[entry];
-      }
-    if(is_given)
-      given.emplace_back(s, Svd_rotation::closest(sum));
-  }
+    if(const auto mean = mean_at_corners(s, [&](int v) { return frame_of[v]; }))
+      given.emplace_back(s, *mean);
   return given;
 }
 
@@ -245,13 +252,7 @@ Deformation_core::rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const
   }
   Array<Matrix_3x3> rotations;
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-  {
-    Matrix_3x3 sum{};
-    for(int k = 0; k < m_region.number_of_corners(s); ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        sum[entry] += of_vertices[m_region.corners_of(s)[k]][entry];
-    rotations.push_back(Svd_rotation::closest(sum));
-  }
+    rotations.push_back(*mean_at_corners(s, [&](int v) { return &of_vertices[v]; }));
   return rotations;
 }
 

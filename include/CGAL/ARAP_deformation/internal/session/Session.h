@@ -264,17 +264,14 @@ public:
   // the rotation of the cells at a control vertex, or none: then it is fitted
   Outcome set_rotation(vertex_descriptor v, const std::optional<Matrix_3x3>& rotation)
   {
-    if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    auto* entry = m_vertices.find_control(v);
-    if(entry == nullptr)
-      return outcome(Status::not_a_control_vertex, name(v));
-    if(rotation && !is_rotation(*rotation))
-      return outcome(Status::invalid_rotation, name(v));
-    m_vertices.rotation(*entry) = rotation;
-    if(rotation)
-      m_vertices.rotation(*entry) = Svd_rotation::closest(*rotation);
-    return Outcome(Status::success, std::string());
+    return with_target(v, [&](auto& target) {
+      if(rotation && !is_rotation(*rotation))
+        return outcome(Status::invalid_rotation, name(v));
+      target.rotation = rotation;
+      if(rotation)
+        target.rotation = Svd_rotation::closest(*rotation);
+      return Outcome(Status::success, std::string());
+    });
   }
 
   // the same for each of some control vertices: the rotation of their rigid motion

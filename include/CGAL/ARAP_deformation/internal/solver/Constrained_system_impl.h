@@ -73,8 +73,6 @@ CGAL_ARAP_INLINE_FUNCTION
 Constraints Constrained_system::without_hard_rows(const Constraints& constraints) const
 {
   Constraints result = {constraints.is_fixed, constraints.rows, {}};
-  if(constraints.hard_rows.size() == 0)
-    return result;
   const Free_components components = find_free_components(m_laplacian, result);
   for(int r = 0; r < constraints.hard_rows.size(); ++r)
   {
@@ -190,9 +188,8 @@ bool Constrained_system::set_border(const Constraints& constraints, bool are_har
 
   Array<Eigen::Triplet<double, int>> entries;
   Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(size, size);
-  Array<int> column; // of each vertex that is a further unknown, -1 of any other
-  if(number_of_unknowns > 0)
-    column = Array<int>(n, -1);
+  // of each vertex that is a further unknown, -1 of any other; empty if there is none
+  Array<int> column(number_of_unknowns > 0 ? n : 0, -1);
   for(int k = 0; k < number_of_unknowns; ++k)
     column[further_unknowns[k]] = k;
   if(number_of_unknowns > 0)
