@@ -476,7 +476,7 @@ private:
   Array<Entry> m_entries;
   Array<Target> m_targets;
   Paged_index_map m_surrounding_slots; // the same for m_surroundings
-  std::vector<Surrounding> m_surroundings;
+  Array<Surrounding> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::map<Control_point, Held_point> m_points;
   Array<Coordinates> m_velocities;

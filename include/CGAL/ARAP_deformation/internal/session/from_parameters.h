@@ -80,8 +80,8 @@ Options options_from_parameters(const NamedParameters& np)
 {
   Options options = parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::deformation_options), Options());
-  options.iterations = parameters::choose_parameter(
-    parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
+  options.iterations = static_cast<unsigned int>(parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations));
   return options;
 }
 
