@@ -211,9 +211,7 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
             const ARAP::Options& options, const CGAL_NP_CLASS& np = parameters::default_values())
 {
   using ARAP::internal::with_value;
-  ARAP::Options all_options = options;
-  all_options.iterations = parameters::choose_parameter(
-    parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations);
+  const ARAP::Options all_options = ARAP::internal::options_from_parameters(np, options);
   const auto insert = [&](auto& deformation, const auto& set_weight) {
     const auto& domain = deformation.domain();
     ARAP::Outcome outcome(ARAP::Status::success, "");

@@ -75,14 +75,21 @@ auto traits_from_parameters(const NamedParameters& np)
   }
 }
 
+// the options given, but for the number of iterations that is a parameter of its own
 template <typename NamedParameters>
-Options options_from_parameters(const NamedParameters& np)
+Options options_from_parameters(const NamedParameters& np, Options options)
 {
-  Options options = parameters::choose_parameter(
-    parameters::get_parameter(np, internal_np::deformation_options), Options());
   options.iterations = static_cast<unsigned int>(parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations));
   return options;
+}
+
+template <typename NamedParameters>
+Options options_from_parameters(const NamedParameters& np)
+{
+  return options_from_parameters(
+    np, parameters::choose_parameter(
+          parameters::get_parameter(np, internal_np::deformation_options), Options()));
 }
 
 // inserts the vertices that stay where they are
