@@ -72,7 +72,7 @@ int main()
   {
     const Eigen::Vector3d axis(0.3, 0, 1), center(0, -8, 15);
     const Eigen::Quaterniond rotation(Eigen::AngleAxisd(CGAL_PI / 18, axis.normalized()));
-    deformation.rotate(top.begin(), top.end(), center, rotation);
+    deformation.rotate(top, center, rotation);
     report = deformation.deform();
     if(!report)
     {

@@ -95,9 +95,6 @@ class ARAP_deformation
   using Domain_ =
     typename Default::Lazy_get<Domain, ARAP::internal::Default_domain<Mesh>>::type;
 
-  template <typename T>
-  using Enable_if_range = std::enable_if_t<ARAP::internal::is_range<T>>;
-
   static_assert(ARAP::internal::Deformation_traits_requirements<Traits_>::are_met);
   static_assert(
     ARAP::internal::Domain_requirements<Domain_, typename Traits_::Edge_weight>::are_met);
@@ -352,27 +349,22 @@ public:
   /// @}
 
   /// \name Targets
-  /// Targets are absolute positions; `translate()` and `rotate()` move the current target. Passing
-  /// what is not a control vertex or a control point violates a precondition; in Release the call
-  /// returns `ARAP::Status::not_a_control_vertex`. The functions on ranges, of vertices or of
-  /// control points, stop at the first error.
+  /// Targets are absolute positions; `translate()` and `rotate()` move the current target. `Handles`
+  /// is a control vertex, a control point, or a range of either. Passing what is neither violates a
+  /// precondition; in Release the call returns `ARAP::Status::not_a_control_vertex`. Functions on
+  /// ranges stop at the first error.
   /// @{
 
-  /// sets the target of the control vertex `v`. A hard target becomes the point of `v` without any
-  /// rounding.
-  ARAP::Outcome set_target_position(vertex_descriptor v, const Point& target)
+  /// sets the target of a control vertex or a control point. A hard target becomes the point of the
+  /// vertex without any rounding.
+  template <typename Handle>
+  ARAP::Outcome set_target_position(const Handle& handle, const Point& target)
   {
-    return change_target(v, [&target](const Point&) { return target; });
+    return change_targets(handle, [&target](auto, const Point&) { return target; });
   }
 
-  /// sets the target of a control point.
-  ARAP::Outcome set_target_position(ARAP::Control_point point, const Point& target)
-  {
-    return change_target(point, [&target](const Point&) { return target; });
-  }
-
-  /// \brief makes the target of the control vertex `v` a set, such as a plane or a surface: it is
-  /// pulled towards the nearest point of the set, along which it can glide.
+  /// \brief makes the target of a control vertex or a control point a set, such as a plane or a
+  /// surface: it is pulled towards the nearest point of the set, along which it can glide.
   ///
   /// `projection(p)` returns the point of the set that is nearest to `p`, such as
   /// `ARAP::projection_onto(plane)`. Each evaluation of the energy calls it for the present
@@ -383,96 +375,60 @@ public:
   /// The weight must be finite, see `set_target_weight()`; if not, the call returns
   /// `ARAP::Status::invalid_weight` and changes nothing. Functions that set or move a target, and
   /// `reset()`, make it a point again.
-  template <typename Projection>
-  [[nodiscard]] ARAP::Outcome set_target_set(vertex_descriptor v, Projection projection)
+  template <typename Handles, typename Projection>
+  [[nodiscard]] ARAP::Outcome set_target_set(const Handles& handles, const Projection& projection)
   {
-    CGAL_precondition(is_control_vertex(v));
-    return m_session.set_target_set(v, std::move(projection));
-  }
-
-  /// makes the target of a control point a set.
-  template <typename Projection>
-  [[nodiscard]] ARAP::Outcome set_target_set(ARAP::Control_point point, Projection projection)
-  {
-    CGAL_precondition(is_control_point(point));
-    return m_session.set_target_set(point, std::move(projection));
-  }
-
-  /// translates the target of the control vertex `v` by `t`, whose type has `operator[]`.
-  template <typename Vector>
-  ARAP::Outcome translate(vertex_descriptor v, const Vector& t)
-  {
-    return translate_target(v, t);
-  }
-
-  /// translates the target of a control point.
-  template <typename Vector>
-  ARAP::Outcome translate(ARAP::Control_point point, const Vector& t)
-  {
-    return translate_target(point, t);
-  }
-
-  /// translates the targets of the control vertices of a range.
-  template <typename VertexRange, typename Vector, typename = Enable_if_range<VertexRange>>
-  ARAP::Outcome translate(const VertexRange& vertices, const Vector& t)
-  {
-    return translate(std::begin(vertices), std::end(vertices), t);
-  }
-
-  /// translates the targets of the control vertices of a range.
-  template <typename InputIterator, typename Vector>
-  ARAP::Outcome translate(InputIterator begin, InputIterator end, const Vector& t)
-  {
-    return for_each_until_refused(begin, end, [&](auto v) { return translate(v, t); });
-  }
-
-  /// rotates the target of the control vertex `v` about `center`, to
-  /// `center + q * (target - center)`. `Vector` has `operator[]` and a constructor from three
-  /// coordinates, and `q * vector` is a `Vector`, as with Eigen's quaternions and vectors.
-  template <typename Vector, typename Quaternion>
-  ARAP::Outcome rotate(vertex_descriptor v, const Vector& center, const Quaternion& q)
-  {
-    return rotate_target(v, center, q);
-  }
-
-  /// rotates the target of a control point about `center`.
-  template <typename Vector, typename Quaternion>
-  ARAP::Outcome rotate(ARAP::Control_point point, const Vector& center, const Quaternion& q)
-  {
-    return rotate_target(point, center, q);
-  }
-
-  /// rotates the targets of the control vertices of a range.
-  template <typename VertexRange, typename Vector, typename Quaternion,
-            typename = Enable_if_range<VertexRange>>
-  ARAP::Outcome rotate(const VertexRange& vertices, const Vector& center, const Quaternion& q)
-  {
-    return rotate(std::begin(vertices), std::end(vertices), center, q);
-  }
-
-  /// rotates the targets of the control vertices of a range.
-  template <typename InputIterator, typename Vector, typename Quaternion>
-  ARAP::Outcome rotate(InputIterator begin, InputIterator end, const Vector& center,
-                       const Quaternion& q)
-  {
-    return for_each_until_refused(begin, end, [&](auto v) { return rotate(v, center, q); });
-  }
-
-  /// transforms the targets of the control vertices of a range, or puts them where the
-  /// transformation takes the points of the rest shape, which does not add up over the frames of a
-  /// drag. `t(point)` is a `Point`, as for `CGAL::Aff_transformation_3`.
-  template <typename VertexRange, typename Transformation>
-  ARAP::Outcome transform(const VertexRange& vertices, const Transformation& t,
-                          ARAP::Transformed transformed = ARAP::Transformed::targets)
-  {
-    return for_each_until_refused(std::begin(vertices), std::end(vertices), [&](auto v) {
-      return change_target(v, [&](const Point& p) -> Point {
-        return t(transformed == ARAP::Transformed::targets ? p : m_session.rest_point(v));
-      });
+    return for_each_handle(handles, [&](auto handle) {
+      return m_session.set_target_set(handle, projection);
     });
   }
 
-  /// \brief sets the weight \f$m \geq 0\f$ of the target \f$t\f$ of the control vertex `v`.
+  /// translates targets by `t`, whose type has `operator[]`.
+  template <typename Handles, typename Vector>
+  ARAP::Outcome translate(const Handles& handles, const Vector& t)
+  {
+    return change_targets(handles, [&t](auto, const Point& p) {
+      return ARAP::internal::translated(p, t);
+    });
+  }
+
+  /// rotates targets about `center`, to `center + q * (target - center)`. `Vector` has `operator[]`
+  /// and a constructor from three coordinates, and `q * vector` is a `Vector`, as with Eigen's
+  /// quaternions and vectors.
+  template <typename Handles, typename Vector, typename Quaternion>
+  ARAP::Outcome rotate(const Handles& handles, const Vector& center, const Quaternion& q)
+  {
+    constexpr bool can_turn =
+      ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>;
+    static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
+                            "vector of the type of center, as with Eigen; for a transformation of "
+                            "CGAL use transform()");
+    return change_targets(handles, [&](auto, const Point& point) {
+      if constexpr(!can_turn)
+        return point;
+      else
+      {
+        const ARAP::Coordinates p = Domain_::coordinates(point);
+        const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
+        return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
+      }
+    });
+  }
+
+  /// transforms targets, or puts them where the transformation takes the points of the rest shape,
+  /// which does not add up over the frames of a drag. `t(point)` is a `Point`, as for
+  /// `CGAL::Aff_transformation_3`.
+  template <typename Handles, typename Transformation>
+  ARAP::Outcome transform(const Handles& handles, const Transformation& t,
+                          ARAP::Transformed transformed = ARAP::Transformed::targets)
+  {
+    return change_targets(handles, [&](auto handle, const Point& p) -> Point {
+      return t(transformed == ARAP::Transformed::targets ? p : m_session.rest_point(handle));
+    });
+  }
+
+  /// \brief sets the weight \f$m \geq 0\f$ of the target \f$t\f$ of a control vertex or a control
+  /// point.
   ///
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
@@ -483,47 +439,29 @@ public:
   ///
   /// A new weight requires preprocessing again, a new target does not. Returns
   /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
-  [[nodiscard]] ARAP::Outcome set_target_weight(vertex_descriptor v, double weight)
+  template <typename Handles>
+  [[nodiscard]] ARAP::Outcome set_target_weight(const Handles& handles, double weight)
   {
-    CGAL_precondition(is_control_vertex(v));
-    return m_session.set_weight(v, weight);
+    return for_each_handle(handles, [&](auto handle) {
+      return m_session.set_weight(handle, weight);
+    });
   }
 
-  /// sets the weight of the target of a control point.
-  [[nodiscard]] ARAP::Outcome set_target_weight(ARAP::Control_point point, double weight)
+  /// returns the weight of the target of a control vertex or a control point; in Release, 0 for
+  /// what is neither. \pre `handle` is a control vertex or a control point.
+  template <typename Handle>
+  double target_weight(const Handle& handle) const
   {
-    CGAL_precondition(is_control_point(point));
-    return m_session.set_weight(point, weight);
+    return m_session.weight(control(handle));
   }
 
-  /// sets the weights of the targets of the control vertices of a range.
-  template <typename VertexRange, typename = Enable_if_range<VertexRange>>
-  [[nodiscard]] ARAP::Outcome set_target_weight(const VertexRange& vertices, double weight)
+  /// returns the target of a control vertex or a control point, or if it is a set, the projection
+  /// of the current position; in Release, the point of any other vertex. \pre `handle` is a
+  /// control vertex or a control point.
+  template <typename Handle>
+  Point target_position(const Handle& handle) const
   {
-    return set_target_weight(std::begin(vertices), std::end(vertices), weight);
-  }
-
-  /// sets the weights of the targets of the control vertices of a range.
-  template <typename InputIterator>
-  [[nodiscard]] ARAP::Outcome set_target_weight(InputIterator begin, InputIterator end,
-                                                double weight)
-  {
-    return for_each_until_refused(begin, end, [&](auto v) { return set_target_weight(v, weight); });
-  }
-
-  /// returns the weight of the target of the control vertex `v`; in Release, 0 for other vertices.
-  /// \pre `is_control_vertex(v)`
-  double target_weight(vertex_descriptor v) const
-  {
-    CGAL_precondition(is_control_vertex(v));
-    return m_session.weight(v);
-  }
-
-  /// returns the weight of the target of a control point. \pre `is_control_point(point)`
-  double target_weight(ARAP::Control_point point) const
-  {
-    CGAL_precondition(is_control_point(point));
-    return m_session.weight(point);
+    return m_session.target(control(handle));
   }
 
   /// \brief makes the control vertex `v` a *frame*: it prescribes the rotation of its cell, or of
@@ -558,22 +496,6 @@ public:
   {
     CGAL_precondition(is_control_vertex(v));
     return m_session.set_rotation(v, std::nullopt);
-  }
-
-  /// returns the target of the control vertex `v`, or if it is a set, the projection of the current
-  /// position; in Release, the point of any other vertex. \pre `is_control_vertex(v)`
-  Point target_position(vertex_descriptor v) const
-  {
-    CGAL_precondition(is_control_vertex(v));
-    return m_session.target(v);
-  }
-
-  /// returns the target of a control point, or if it is a set, the projection of its current
-  /// position. \pre `is_control_point(point)`
-  Point target_position(ARAP::Control_point point) const
-  {
-    CGAL_precondition(is_control_point(point));
-    return m_session.target(point);
   }
   /// @}
 
@@ -752,49 +674,39 @@ public:
   /// @}
 
 private:
-  template <typename Handle, typename Function>
-  ARAP::Outcome change_target(Handle handle, const Function& f)
+  // a handle as the type that the session knows, which is a control vertex or a control point
+  template <typename Handle>
+  auto control(const Handle& handle) const
   {
-    CGAL_precondition(m_session.vertices().find_target(handle) != nullptr);
-    return m_session.change_target(handle, f);
+    using Known = std::conditional_t<std::is_same_v<Handle, ARAP::Control_point>,
+                                     ARAP::Control_point, vertex_descriptor>;
+    const Known known = static_cast<Known>(handle);
+    CGAL_precondition(m_session.vertices().find_target(known) != nullptr);
+    return known;
   }
 
-  template <typename Handle, typename Vector>
-  ARAP::Outcome translate_target(Handle handle, const Vector& t)
+  // calls f with a handle, or those of a range, until it refuses one
+  template <typename Handles, typename Function>
+  ARAP::Outcome for_each_handle(const Handles& handles, const Function& f)
   {
-    return change_target(handle, [&t](const Point& p) {
-      return ARAP::internal::translated(p, t);
+    if constexpr(ARAP::internal::is_range<Handles>)
+    {
+      ARAP::Outcome outcome(ARAP::Status::success, std::string());
+      for(auto handle = std::begin(handles); handle != std::end(handles) && outcome; ++handle)
+        outcome = f(control(*handle));
+      return outcome;
+    }
+    else
+      return f(control(handles));
+  }
+
+  // replaces each target p by f(handle, p)
+  template <typename Handles, typename Function>
+  ARAP::Outcome change_targets(const Handles& handles, const Function& f)
+  {
+    return for_each_handle(handles, [&](auto handle) {
+      return m_session.change_target(handle, [&](const Point& p) { return f(handle, p); });
     });
-  }
-
-  template <typename Handle, typename Vector, typename Quaternion>
-  ARAP::Outcome rotate_target(Handle handle, const Vector& center, const Quaternion& q)
-  {
-    constexpr bool can_turn =
-      ARAP::internal::is_valid<ARAP::internal::Call_turn, Quaternion, Vector>;
-    static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
-                            "vector of the type of center, as with Eigen; for a transformation of "
-                            "CGAL use transform()");
-    return change_target(handle, [&](const Point& point) {
-      if constexpr(!can_turn)
-        return point;
-      else
-      {
-        const ARAP::Coordinates p = Domain_::coordinates(point);
-        const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
-        return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
-      }
-    });
-  }
-
-  template <typename InputIterator, typename Function>
-  static ARAP::Outcome for_each_until_refused(InputIterator begin, InputIterator end,
-                                              const Function& f)
-  {
-    ARAP::Outcome outcome(ARAP::Status::success, std::string());
-    for(; begin != end && outcome; ++begin)
-      outcome = f(*begin);
-    return outcome;
   }
 
   ARAP::internal::Session<Domain_, Traits_> m_session;

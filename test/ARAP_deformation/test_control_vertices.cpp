@@ -315,7 +315,7 @@ void test_targets_and_weights()
 
   // a range, up to the first that is refused
   const std::size_t both[] = {a, b};
-  CHECK(d.set_target_weight(std::begin(both), std::end(both), 7));
+  CHECK(d.set_target_weight(both, 7));
   CHECK(d.target_weight(a) == 7 && d.target_weight(b) == 7);
 
   // a control vertex that was none begins hard
@@ -953,14 +953,15 @@ void test_weights_of_targets()
     const std::vector<std::size_t> controls = numbers(500);
     hold(pair, controls); // and then nothing
     pair.with_both([&](auto& d) {
-      CHECK(d.set_target_weight(controls.begin(), controls.end(), 1));
+      CHECK(d.set_target_weight(controls, 1));
     });
     CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
     CHECK(pair.factorizations() == 1 && pair.analyses() == 1);
     for(double weight : {1e-3, 1e3})
     {
       pair.with_both([&](auto& d) {
-        CHECK(d.set_target_weight(controls.begin(), controls.begin() + number_of_changes, weight));
+        CHECK(d.set_target_weight(
+          CGAL::make_range(controls.begin(), controls.begin() + number_of_changes), weight));
       });
       CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
     }
@@ -968,13 +969,13 @@ void test_weights_of_targets()
     CHECK(pair.analyses() == 1);
     // none at all, of as many as a border takes
     pair.with_both([&](auto& d) {
-      CHECK(d.set_target_weight(controls.begin(), controls.begin() + 100, 0));
+      CHECK(d.set_target_weight(CGAL::make_range(controls.begin(), controls.begin() + 100), 0));
     });
     CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
     CHECK(pair.analyses() == 1);
     // and hard ones again
     pair.with_both([&](auto& d) {
-      CHECK(d.set_target_weight(controls.begin(), controls.end(),
+      CHECK(d.set_target_weight(controls,
                                 std::numeric_limits<double>::infinity()));
     });
     CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));

@@ -119,8 +119,8 @@ void test_targets()
   CHECK(mesh.point(v) == p); // until deform() is called
   const std::vector<Vertex> both = {v, w};
   d.set_target_position(v, p);
-  CHECK(d.translate(both.begin(), both.end(), Eigen::Vector3d(0, 0, 1)));
-  CHECK(d.rotate(both.begin(), both.end(), Eigen::Vector3d(0, 0, 1), quarter));
+  CHECK(d.translate(both, Eigen::Vector3d(0, 0, 1)));
+  CHECK(d.rotate(both, Eigen::Vector3d(0, 0, 1), quarter));
   CHECK((vector(d.target_position(v)) - Eigen::Vector3d(-p.y(), p.x(), 1)).norm() < 1e-14);
   CHECK((vector(d.target_position(w)) - Eigen::Vector3d(-q.y(), q.x(), 1)).norm() < 1e-14);
   d.erase_control_vertex(v);
@@ -143,7 +143,7 @@ void test_region()
   const auto middle = strip(rest, 0.5, 1.5), handle = strip(rest, 0.95, 1.05);
   d.insert_roi_vertices(middle.begin(), middle.end());
   d.insert_control_vertices(handle.begin(), handle.end());
-  d.translate(handle.begin(), handle.end(), Eigen::Vector3d(0, 0, 0.3));
+  d.translate(handle, Eigen::Vector3d(0, 0, 0.3));
   const auto report = d.deform();
   CHECK(report);
   CHECK(report.free_vertices == middle.size() - handle.size());
@@ -158,7 +158,7 @@ void test_region()
   const auto edge = strip(rest, 1.6, 2), tip = strip(rest, 1.9, 2);
   d.insert_roi_vertices(edge.begin(), edge.end());
   d.insert_control_vertices(tip.begin(), tip.end());
-  d.translate(tip.begin(), tip.end(), Eigen::Vector3d(0, 0, 0.2));
+  d.translate(tip, Eigen::Vector3d(0, 0, 0.2));
   CHECK(d.deform());
   for(Vertex v : mesh.vertices())
     CHECK((mesh.point(v) == deformed.point(v)) == !d.is_roi_vertex(v));
@@ -958,7 +958,7 @@ void test_nothing_free()
   CHECK(d.deform()); // not even a region
   CHECK(same_or_bad_points(mesh, rest));
   d.insert_control_vertices(mesh.vertices().begin(), mesh.vertices().end());
-  d.translate(mesh.vertices().begin(), mesh.vertices().end(), Kernel::Vector_3(1, 0, 0));
+  d.translate(mesh.vertices(), Kernel::Vector_3(1, 0, 0));
   CGAL::ARAP::Options options;
   for(auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::laplacian})
   {

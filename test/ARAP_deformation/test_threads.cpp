@@ -74,7 +74,7 @@ Bits run(const std::vector<Eigen::Vector3d>& vectors, const Simplices& simplices
   deformation.erase_control_vertex(deformation.control_vertices().front());
   deformation.insert_control_vertex(vectors.size() / 2);
   const auto controls = deformation.control_vertices();
-  CHECK(deformation.set_target_weight(controls.begin() + 1, controls.end(), 2));
+  CHECK(deformation.set_target_weight(CGAL::make_range(controls.begin() + 1, controls.end()), 2));
   const std::vector<double> energy = deformation.deform().energy;
   bits.energy.insert(bits.energy.end(), energy.begin(), energy.end());
   CHECK(bits.energy.size() > 4);

@@ -193,7 +193,7 @@ struct Steps
     return {"set weights of targets", [weight, n](Session& s) {
       auto controls = s.deformation->control_vertices();
       controls.resize((std::min)(n, controls.size()), controls.front());
-      return bool(s.deformation->set_target_weight(controls.begin(), controls.end(), weight));
+      return bool(s.deformation->set_target_weight(controls, weight));
     }, false};
   }
 

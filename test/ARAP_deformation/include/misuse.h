@@ -38,10 +38,10 @@ void test_misuse(const CheckRefused& check_refused)
     check_refused([&] { return d.set_target_position(free, Point(1, 2, 3)); });
     check_refused([&] { return d.translate(free, t); });
     check_refused([&] { return d.rotate(free, t, q); });
-    check_refused([&] { return d.translate(vertices.begin(), vertices.end(), t); });
-    check_refused([&] { return d.rotate(vertices.begin(), vertices.end(), t, q); });
+    check_refused([&] { return d.translate(vertices, t); });
+    check_refused([&] { return d.rotate(vertices, t, q); });
     check_refused([&] { return d.set_target_weight(free, 1); });
-    check_refused([&] { return d.set_target_weight(vertices.begin(), vertices.end(), 1); });
+    check_refused([&] { return d.set_target_weight(vertices, 1); });
     check_refused([&] { return d.set_target_set(free, [](const Point& p) { return p; }); });
     const CGAL::ARAP::Control_point none(1);
     check_refused([&] { return d.set_target_position(none, Point(1, 2, 3)); });

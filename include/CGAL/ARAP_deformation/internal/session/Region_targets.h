@@ -1,0 +1,195 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_TARGETS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_TARGETS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
+#include <CGAL/ARAP_deformation/internal/session/Time_step.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// What the control vertices and control points of a session mean for the vertices of its prepared
+// region: where a run starts, and what its rows ask for.
+template <typename Domain, typename Traits>
+class Region_targets
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using Vertices = Session_vertices<Domain>;
+  using Entry = typename Vertices::Entry;
+  using Prepared = Prepared_region<Domain, Traits>;
+
+  Region_targets(const Vertices& vertices, const Prepared& prepared)
+    : m_vertices(vertices), m_prepared(prepared)
+  {}
+
+  // The positions at which a run starts, with the hard control vertices at their targets, and the
+  // targets of the others.
+  Outcome read(Array<Coordinates>& positions, Targets& targets) const
+  {
+    const auto& region = m_prepared.region();
+    positions = m_prepared.positions();
+    for(const auto& entry : m_vertices.entries())
+    {
+      if(!entry.is_control)
+        continue;
+      const Coordinates target = Domain::coordinates(m_vertices.target(entry));
+      if(!is_finite(target))
+        return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
+      const int v = region.find_vertex(domain(), entry.vertex);
+      if(v >= 0 && m_vertices.is_hard_control(entry))
+        positions[v] = target;
+    }
+    const auto& rows = m_prepared.rows();
+    targets.soft.reserve(rows.soft_vertices.size() + rows.soft_points.size());
+    for(int v : rows.soft_vertices)
+      append_target(*m_vertices.find_target(region.vertices[v]), {0, 0, 0}, targets);
+    for(const auto* points : {&rows.soft_points, &rows.hard_points})
+      for(Control_point point : *points)
+      {
+        const auto& held = m_vertices.points().at(point);
+        if(!is_finite(Domain::coordinates(held.target.point)))
+          return outcome(Status::non_finite_point, "the target of " + name(point));
+        const Coordinates fixed = fixed_share(held, positions);
+        if(points == &rows.soft_points)
+          append_target(held.target, fixed, targets);
+        else
+          targets.hard.push_back(difference(Domain::coordinates(held.target.point), fixed));
+      }
+    targets.frames = frames();
+    return outcome(Status::success);
+  }
+
+  // Moves the free vertices to where their inertia takes them, which the last soft rows ask for.
+  Outcome begin(Time_step<vertex_descriptor>& step, Array<Coordinates>& positions,
+                Targets& targets) const
+  {
+    const auto& region = m_prepared.region();
+    const Array<double>& contents = m_prepared.rows().contents;
+    step.start = m_prepared.positions();
+    step.goals = positions;
+    for(std::size_t v = 0; v < contents.size(); ++v)
+    {
+      if(contents[v] == 0)
+        continue;
+      const vertex_descriptor vertex = region.vertices[v];
+      step.goals[v] = step.goal(vertex, positions[v],
+                                m_vertices.velocity(m_vertices.find(vertex)), contents[v]);
+      if(!is_finite(step.goals[v]))
+        return outcome(Status::non_finite_point,
+                       "where velocity and forces take " + name(vertex));
+      targets.soft.push_back(step.goals[v]);
+    }
+    positions = step.goals;
+    return outcome(Status::success);
+  }
+
+  // Of all entries; hard control vertices are moved to their targets at once
+  Array<Coordinates> velocities_after(const Time_step<vertex_descriptor>& step,
+                                      const Array<Coordinates>& positions) const
+  {
+    const std::vector<Entry>& entries = m_vertices.entries();
+    Array<Coordinates> velocities(entries.size(), Coordinates{0, 0, 0});
+    for(std::size_t k = 0; k < entries.size(); ++k)
+    {
+      if(!entries[k].is_roi)
+        continue;
+      Coordinates way = {0, 0, 0};
+      if(m_vertices.is_hard_control(entries[k]))
+        way = difference(Domain::coordinates(m_vertices.target(entries[k])),
+                         Domain::coordinates(entries[k].present));
+      else if(const int v = m_prepared.region().find_vertex(domain(), entries[k].vertex); v >= 0)
+        way = difference(positions[v], step.start[v]);
+      velocities[k] = scaled(way, 1 / step.dynamics.time_step);
+    }
+    return velocities;
+  }
+
+  // what a soft row is about
+  std::string name_of_row(int r) const
+  {
+    const auto& rows = m_prepared.rows();
+    const std::size_t row = static_cast<std::size_t>(r), n = rows.soft_vertices.size();
+    return row < n ? name(m_prepared.region().vertices[rows.soft_vertices[row]])
+                   : name(rows.soft_points[row - n]);
+  }
+
+private:
+  // the rotations that are given to cells at control vertices
+  std::vector<Frame> frames() const
+  {
+    std::vector<Frame> frames;
+    for(const auto& entry : m_vertices.entries())
+      if(entry.is_control && m_vertices.rotation(entry))
+        if(const int v = m_prepared.region().find_vertex(domain(), entry.vertex); v >= 0)
+          frames.push_back({v, *m_vertices.rotation(entry)});
+    return frames;
+  }
+
+  // What corners that are not movable add to the position of a control point: they are no part of
+  // its row.
+  Coordinates fixed_share(const typename Vertices::Held_point& held,
+                          const Array<Coordinates>& positions) const
+  {
+    return Vertices::position(held, [&](vertex_descriptor v) {
+      const int number = m_prepared.region().find_vertex(domain(), v);
+      if(number >= 0)
+        return number < m_prepared.core().region().number_of_movable_vertices
+                 ? Coordinates{0, 0, 0} : positions[number];
+      const Entry& entry = *m_vertices.find(v);
+      return Domain::coordinates(m_vertices.is_hard_control(entry) ? m_vertices.target(entry)
+                                                                   : entry.present);
+    });
+  }
+
+  // adds the target of a soft row that lacks a share of its position
+  static void append_target(const typename Vertices::Target& target, const Coordinates& share,
+                            Targets& targets)
+  {
+    if(target.set)
+      targets.sets.push_back(
+        {static_cast<int>(targets.soft.size()), [&target, share](Coordinates c) {
+           add(c, 1, share);
+           return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
+         }});
+    targets.soft.push_back(difference(Domain::coordinates(target.point), share));
+  }
+
+  const Domain& domain() const { return m_vertices.domain(); }
+
+  std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+  std::string name(Control_point point) const { return control_point_name(point); }
+
+  const Vertices& m_vertices;
+  const Prepared& m_prepared;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_TARGETS_H

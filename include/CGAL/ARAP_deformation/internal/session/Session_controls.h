@@ -1,0 +1,305 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_CONTROLS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_CONTROLS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
+#include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename Domain>
+using Call_is_simplex = decltype(std::declval<const Domain&>().is_simplex(
+  std::declval<const typename Domain::simplex_descriptor&>()));
+
+// The options, the region of interest, and its control vertices and control points. What is changed
+// here tells the prepared region which stages are out of date. No call is taken while a run works.
+template <typename Domain, typename Traits>
+class Session_controls
+{
+public:
+  using vertex_descriptor = typename Domain::vertex_descriptor;
+  using simplex_descriptor = typename Domain::simplex_descriptor;
+  using Point = typename Domain::Point;
+  using Vertices = Session_vertices<Domain>;
+
+  using Entry = typename Vertices::Entry;
+
+  // Options that are out of range are refused by what uses them.
+  Session_controls(Domain mesh, const Session_rules& rules, const Options& options)
+    : m_vertices(std::move(mesh)), m_rules(rules), m_options(options), m_prepared(rules)
+  {}
+
+  const Options& options() const { return m_options; }
+
+  Outcome set_options(const Options& options)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    Outcome checked = options.check();
+    if(checked)
+    {
+      if(options.cells != m_options.cells ||
+         (options.smoothing_length > 0) != (m_options.smoothing_length > 0))
+        region_changed();
+      else if(options.bending_length != m_options.bending_length ||
+              options.smoothing_length != m_options.smoothing_length)
+        values_changed();
+      m_options = options;
+    }
+    return checked;
+  }
+
+  const Vertices& vertices() const { return m_vertices; }
+
+  Point present(vertex_descriptor v) const
+  {
+    return takes_points() ? Point(domain().point(v)) : m_vertices.present(v);
+  }
+
+  Point present(Control_point point) const
+  {
+    return point_at(point, [this](vertex_descriptor v) { return present(v); });
+  }
+
+  // the point of a vertex of the region of interest in the rest shape
+  const Point& rest_point(vertex_descriptor v) const { return m_vertices.find(v)->rest; }
+
+  Point rest_point(Control_point point) const
+  {
+    return point_at(point, [this](vertex_descriptor v) { return rest_point(v); });
+  }
+
+  // The functions that change the sets of vertices return whether they did.
+
+  bool insert_roi(vertex_descriptor v)
+  {
+    return !refuse_in_a_run() && m_vertices.insert_roi(v) && region_changed();
+  }
+
+  bool erase_roi(vertex_descriptor v)
+  {
+    return !refuse_in_a_run() && m_vertices.erase_roi(v) && region_changed();
+  }
+
+  void clear_roi()
+  {
+    clear_points();
+    if(!refuse_in_a_run() && m_vertices.clear_roi())
+      region_changed();
+  }
+
+  bool insert_control(vertex_descriptor v)
+  {
+    if(refuse_in_a_run())
+      return false;
+    const bool was_roi = m_vertices.is_roi(v);
+    std::optional<Point> moved; // others may have moved it
+    if(takes_points() && m_vertices.find(v) != nullptr)
+      moved = domain().point(v);
+    if(!m_vertices.insert_control(v))
+      return false;
+    if(moved)
+      m_vertices.target(*m_vertices.find(v)) = std::move(*moved);
+    return was_roi ? constraints_changed() : region_changed();
+  }
+
+  bool erase_control(vertex_descriptor v)
+  {
+    return !refuse_in_a_run() && m_vertices.erase_control(v) && constraints_changed();
+  }
+
+  void clear_control()
+  {
+    clear_points();
+    if(!refuse_in_a_run() && m_vertices.clear_control())
+      constraints_changed();
+  }
+
+  // The corners are given by their barycentric coordinates.
+  template <typename CoordinateRange>
+  Control_point_insertion insert_point(const simplex_descriptor& s,
+                                       const CoordinateRange& coordinates)
+  {
+    if(refuse_in_a_run())
+      return Control_point_insertion(outcome(Status::in_a_run));
+    typename Vertices::Held_point held = {{}, {}, {Domain::make_point({0, 0, 0}), Vertices::hard}};
+    if(!collect_corners(s, held.corners))
+      return Control_point_insertion(Outcome(
+        Status::not_a_simplex, "the simplex that was given for a control point is not there"));
+    held.coordinates.assign(std::begin(coordinates), std::end(coordinates));
+    const double sum = std::accumulate(held.coordinates.begin(), held.coordinates.end(), 0.0);
+    if(held.coordinates.size() != held.corners.size() || !(std::abs(sum - 1) <= 1e-9) ||
+       !std::all_of(held.coordinates.begin(), held.coordinates.end(),
+                    [](double c) { return is_finite(c); }))
+      return Control_point_insertion(outcome(Status::invalid_coordinates, "a control point"));
+    for(std::size_t k = held.corners.size(); k-- > 0;)
+      if(held.coordinates[k] == 0)
+      {
+        held.corners.erase(held.corners.begin() + static_cast<std::ptrdiff_t>(k));
+        held.coordinates.erase(held.coordinates.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+      else
+        held.coordinates[k] /= sum;
+    held.target.point = Domain::make_point(Vertices::position(
+      held, [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
+    for(vertex_descriptor v : held.corners)
+      insert_roi(v);
+    constraints_changed();
+    return Control_point_insertion(Outcome(Status::success, std::string()),
+                                   m_vertices.insert_point(std::move(held)));
+  }
+
+  bool erase_point(Control_point point)
+  {
+    return !refuse_in_a_run() && m_vertices.erase_point(point) && constraints_changed();
+  }
+
+  void clear_points()
+  {
+    if(!refuse_in_a_run() && m_vertices.clear_points())
+      constraints_changed();
+  }
+
+  // replaces the target t of a control vertex or a control point by f(t)
+  // The stiffness of cells, and which share a rotation. `change` is called with the values.
+  template <typename Function>
+  Outcome change_cell_values(const Function& change)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    const bool had_groups = m_cell_values.has_groups();
+    change(m_cell_values);
+    if(had_groups || m_cell_values.has_groups())
+      region_changed();
+    else
+      values_changed();
+    return Outcome(Status::success, std::string());
+  }
+
+  double energy() const { return m_energy; }
+
+protected:
+  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+  const Domain& domain() const { return m_vertices.domain(); }
+
+  std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+  std::string name(Control_point point) const { return control_point_name(point); }
+
+  // the control point if its corners are where a function of vertices tells
+  template <typename Function>
+  Point point_at(Control_point point, const Function& f) const
+  {
+    const auto found = m_vertices.points().find(point);
+    return Domain::make_point(
+      found == m_vertices.points().end()
+        ? Coordinates{0, 0, 0}
+        : Vertices::position(found->second,
+                             [&](vertex_descriptor v) { return Domain::coordinates(f(v)); }));
+  }
+
+  // the corners of a simplex; false if it is not one of the domain
+  bool collect_corners(const simplex_descriptor& s, std::vector<vertex_descriptor>& corners) const
+  {
+    if constexpr(is_valid<Call_is_simplex, Domain>)
+      if(!domain().is_simplex(s))
+        return false;
+    for(vertex_descriptor v : domain().simplex_vertices(s))
+      corners.push_back(v);
+    bool is_there = false;
+    if(!corners.empty())
+      domain().for_each_incident_simplex(
+        corners[0], [&](const simplex_descriptor& t, const auto&) { is_there |= t == s; });
+    return is_there;
+  }
+
+  // Whether a visitor has called: it works on what the run is working on.
+  bool refuse_in_a_run() const
+  {
+    CGAL_precondition(!m_is_in_a_run);
+    return m_is_in_a_run;
+  }
+
+  // these return true, for the functions that say whether they changed something
+
+  bool region_changed()
+  {
+    m_prepared.region_changed();
+    m_is_region_written = false;
+    m_energy = not_a_number;
+    return true;
+  }
+
+  bool values_changed()
+  {
+    m_prepared.values_changed();
+    m_energy = not_a_number;
+    return true;
+  }
+
+  bool constraints_changed()
+  {
+    m_prepared.constraints_changed();
+    m_energy = not_a_number;
+    return true;
+  }
+
+  // Whether points are looked at that others may have moved. CGAL's class does not look at them,
+  // and after a run that failed in writing, some may be the run's own.
+  bool takes_points() const
+  {
+    return m_rules.order == Minimization_order::local_first && domain().is_in_place() &&
+           m_are_points_written;
+  }
+
+  Vertices m_vertices;
+  Session_rules m_rules;
+  Options m_options;
+  double m_energy = not_a_number;
+  bool m_is_in_a_run = false;
+  bool m_are_points_written = true; // those of the last run, all of them
+  bool m_is_region_written = true;  // whether note_region_as_written() was called since its change
+  Cell_values<Domain> m_cell_values;
+  Prepared_region<Domain, Traits> m_prepared;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_CONTROLS_H

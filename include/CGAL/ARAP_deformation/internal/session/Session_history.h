@@ -1,0 +1,185 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_HISTORY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_HISTORY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Cell_scheme.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_targets.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Back to the rest shape, a new rest shape, and back to an earlier state.
+template <typename Domain, typename Traits>
+class Session_history : public Session_targets<Domain, Traits>
+{
+  using Base = Session_targets<Domain, Traits>;
+
+public:
+  using typename Base::Entry;
+  using typename Base::Point;
+  using typename Base::Vertices;
+
+  using Base::Base;
+  using Base::rest_point;
+
+  void reset()
+  {
+    if(refuse_in_a_run())
+      return;
+    std::vector<Coordinates> positions;
+    if(m_prepared.has_region())
+    {
+      positions = m_prepared.positions();
+      for(std::size_t k = 0; k < positions.size(); ++k)
+        if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
+          positions[k] = Domain::coordinates(entry->rest);
+    }
+    std::vector<Point> points = copies(&Entry::rest), targets = points, held_targets;
+    for(const auto& held : m_vertices.points())
+      held_targets.push_back(rest_point(held.first));
+    for(const auto& entry : m_vertices.entries())
+      if(entry.is_roi || !m_rules.are_erased_put_back)
+        domain().set_point(entry.vertex, entry.rest);
+    move_to(&Entry::present, points);
+    for(std::size_t k = 0; k < targets.size(); ++k)
+      if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
+      {
+        replace_target(m_vertices.whole_target(entry), std::move(targets[k]));
+        m_vertices.rotation(entry).reset();
+      }
+    std::size_t number = 0;
+    for(auto& held : m_vertices.points())
+      replace_target(held.second.target, std::move(held_targets[number++]));
+    if(m_prepared.has_region())
+      m_prepared.positions().swap(positions);
+    m_prepared.reset_rotations();
+    m_vertices.velocities().clear();
+    m_energy = not_a_number;
+  }
+
+  void overwrite_initial_geometry()
+  {
+    if(refuse_in_a_run())
+      return;
+    m_vertices.keep_first_points();
+    std::vector<Point> points = copies(&Entry::present);
+    if(domain().is_in_place()) // the points may have been changed by others
+      for(std::size_t k = 0; k < points.size(); ++k)
+        points[k] = domain().point(m_vertices.entries()[k].vertex);
+    std::vector<Point> rest = points;
+    m_vertices.read_surroundings_again();
+    m_prepared.reset_rotations();
+    for(const Entry& entry : m_vertices.entries()) // they were those from the other rest shape
+      if(entry.is_control)
+        m_vertices.rotation(entry).reset();
+    region_changed();
+    move_to(&Entry::present, points);
+    move_to(&Entry::rest, rest);
+  }
+
+  // sets of vertices, targets, rest shape and positions, as a value
+  struct State
+  {
+    typename Vertices::State vertices;
+    typename Prepared_region<Domain, Traits>::State prepared;
+    Cell_scheme cells;
+    double energy;
+    std::shared_ptr<const char> session; // whose state it is
+  };
+
+  State state() const
+  {
+    State state = {m_vertices.state(), m_prepared.state(), m_options.cells, m_energy, m_identity};
+    if(takes_points())
+    {
+      const auto changed = m_vertices.changed_points();
+      for(const auto& [k, point] : changed)
+        state.vertices.entries[k].present = point;
+      if(m_prepared.has_region())
+        m_prepared.take_points(m_vertices, changed, state.prepared.positions);
+    }
+    return state;
+  }
+
+  Outcome restore(State state)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    if(state.session != m_identity)
+      return outcome(Status::foreign_state);
+    const std::vector<Entry>& before = m_vertices.entries();
+    const std::vector<Entry>& after = state.vertices.entries;
+    for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
+      if(k >= after.size() || before[k].vertex != after[k].vertex)
+        domain().set_point(before[k].vertex, m_vertices.first_point(k));
+    for(const Entry& entry : after)
+      domain().set_point(entry.vertex, entry.present);
+    const bool are_values_same = m_prepared.has_values_of(state.prepared);
+    m_vertices.restore(std::move(state.vertices));
+    m_prepared.restore(std::move(state.prepared), m_vertices);
+    if(state.cells != m_options.cells)
+      region_changed();
+    m_energy = are_values_same && state.cells == m_options.cells ? state.energy : not_a_number;
+    return Outcome(Status::success, std::string());
+  }
+
+protected:
+  using Base::domain;
+  using Base::m_energy;
+  using Base::m_options;
+  using Base::m_prepared;
+  using Base::m_rules;
+  using Base::m_vertices;
+  using Base::not_a_number;
+  using Base::refuse_in_a_run;
+  using Base::region_changed;
+  using Base::replace_target;
+  using Base::takes_points;
+
+private:
+  // Points of all entries are copied before any is changed: copies may throw.
+  std::vector<Point> copies(Point Entry::*point) const
+  {
+    std::vector<Point> points;
+    points.reserve(m_vertices.entries().size());
+    for(const Entry& entry : m_vertices.entries())
+      points.push_back(entry.*point);
+    return points;
+  }
+
+  void move_to(Point Entry::*point, std::vector<Point>& points)
+  {
+    for(std::size_t k = 0; k < points.size(); ++k)
+      m_vertices.entries()[k].*point = std::move(points[k]);
+  }
+
+  std::shared_ptr<const char> m_identity = std::make_shared<char>();
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_HISTORY_H

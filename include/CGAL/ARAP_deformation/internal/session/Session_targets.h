@@ -1,0 +1,181 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_TARGETS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_TARGETS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
+#include <CGAL/ARAP_deformation/internal/session/Session_controls.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// The targets of control vertices and control points, with their weights and rotations.
+template <typename Domain, typename Traits>
+class Session_targets : public Session_controls<Domain, Traits>
+{
+  using Base = Session_controls<Domain, Traits>;
+
+public:
+  using typename Base::Point;
+  using typename Base::Vertices;
+  using typename Base::vertex_descriptor;
+
+  using Base::Base;
+  using Base::present;
+  using Base::rest_point;
+
+  // The target of a control vertex or a control point, the projection of where it is if the target
+  // is a set; the point of what is no control.
+  template <typename Handle>
+  Point target(Handle handle) const
+  {
+    const auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? present(handle)
+           : target->set     ? target->set(present(handle)) : target->point;
+  }
+
+  template <typename Handle, typename Function>
+  Outcome change_target(Handle handle, const Function& f)
+  {
+    return with_target(handle, [&](auto& target) {
+      replace_target(target, f(this->target(handle)));
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  template <typename Handle, typename Projection>
+  Outcome set_target_set(Handle handle, Projection projection)
+  {
+    return with_target(handle, [&](auto& target) {
+      if(target.weight == Vertices::hard)
+        return refuse_hard_set(handle);
+      target.set = std::move(projection);
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  // the weight of the target of a control vertex or a control point, 0 for what is none
+  template <typename Handle>
+  double weight(Handle handle) const
+  {
+    const auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? 0 : target->weight;
+  }
+
+  template <typename Handle>
+  Outcome set_weight(Handle handle, double weight)
+  {
+    return with_target(handle, [&](auto& target) {
+      if(!(weight >= 0))
+        return outcome(Status::invalid_weight, name(handle));
+      if(target.set && weight == Vertices::hard)
+        return refuse_hard_set(handle);
+      const double before = std::exchange(target.weight, weight);
+      if(weight != before)
+        constraints_changed();
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  // the rotation of the cells at a control vertex, or none: then it is fitted
+  Outcome set_rotation(vertex_descriptor v, const std::optional<Matrix_3x3>& rotation)
+  {
+    return with_target(v, [&](auto& target) {
+      if(rotation && !is_rotation(*rotation))
+        return outcome(Status::invalid_rotation, name(v));
+      target.rotation = rotation;
+      if(rotation)
+        target.rotation = Svd_rotation::closest(*rotation);
+      return Outcome(Status::success, std::string());
+    });
+  }
+
+  // the same for each of some control vertices: the rotation of their rigid motion
+  Outcome set_rotations_of_motion(const std::vector<vertex_descriptor>& vertices)
+  {
+    std::vector<Coordinates> rest, targets;
+    for(vertex_descriptor v : vertices)
+    {
+      const auto* entry = m_vertices.find_control(v);
+      if(entry == nullptr)
+        return outcome(Status::not_a_control_vertex, name(v));
+      rest.push_back(Domain::coordinates(entry->rest));
+      targets.push_back(Domain::coordinates(m_vertices.target(*entry)));
+    }
+    const std::optional<Matrix_3x3> rotation = rotation_of_motion(rest, targets);
+    if(!rotation)
+      return Outcome(Status::invalid_rotation, "the targets are no rigid motion of the rest shape, "
+                     "or the vertices lie on a line");
+    Outcome result(Status::success, std::string());
+    for(auto v = vertices.begin(); v != vertices.end() && result; ++v)
+      result = set_rotation(*v, rotation);
+    return result;
+  }
+
+protected:
+  using Base::constraints_changed;
+  using Base::m_vertices;
+  using Base::name;
+  using Base::refuse_in_a_run;
+
+  static void replace_target(typename Vertices::Target& target, Point point)
+  {
+    target.point = std::move(point);
+    target.set = nullptr;
+  }
+
+  // calls f(target) with the target of a control vertex or a control point
+  template <typename Handle, typename Function>
+  Outcome with_target(Handle handle, const Function& f)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    auto* target = m_vertices.find_target(handle);
+    return target == nullptr ? refuse_without_target(handle) : f(*target);
+  }
+
+  Outcome refuse_without_target(vertex_descriptor v) const
+  {
+    return outcome(Status::not_a_control_vertex, name(v));
+  }
+
+  Outcome refuse_without_target(Control_point point) const
+  {
+    return Outcome(Status::not_a_control_vertex,
+                   name(point) + " has no target: it was erased, or is of another object");
+  }
+
+  template <typename Handle>
+  Outcome refuse_hard_set(Handle handle) const
+  {
+    return Outcome(Status::invalid_weight, name(handle) + " has an infinite weight; for a target "
+                                           "that is a set give it a finite one first");
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SESSION_TARGETS_H
