@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Surroundings.h>
 
 #include <CGAL/assertions.h>
 
@@ -177,34 +178,19 @@ public:
   {
     if(const Entry* entry = find(v))
       return entry->rest;
-    const int slot = m_surrounding_slots[m_domain.index(v)];
-    const bool is_kept = slot != Paged_index_map::none &&
-                         is_finite(Domain::coordinates(m_surroundings[slot].rest));
-    return is_kept ? m_surroundings[slot].rest : m_domain.point(v);
+    const Point* kept = m_surroundings.find(m_domain.index(v));
+    return kept && is_finite(Domain::coordinates(*kept)) ? *kept : Point(m_domain.point(v));
   }
-
-  // A vertex around the region of interest that has no entry.
-  struct Surrounding
-  {
-    vertex_descriptor vertex;
-    Point rest;
-  };
 
   // keeps the rest shape of a vertex around the region of interest, whoever moves it
   void keep_rest(vertex_descriptor v)
   {
     if(find(v) == nullptr)
-      keep_rest({v, rest(v)});
+      m_surroundings.keep(m_domain.index(v), {v, rest(v)});
   }
 
   // to be called when the rest shape is overwritten
-  void read_surroundings_again()
-  {
-    std::vector<Surrounding> surroundings = m_surroundings;
-    for(Surrounding& v : surroundings)
-      v.rest = m_domain.point(v.vertex);
-    m_surroundings.swap(surroundings);
-  }
+  void read_surroundings_again() { m_surroundings.read_again(m_domain); }
 
   // the entry of v if it is a control vertex, else nullptr
   Entry* find_control(vertex_descriptor v)
@@ -368,21 +354,21 @@ public:
     std::vector<Entry> entries;
     std::vector<Target> targets;
     std::vector<Point> first_points;
-    std::vector<Surrounding> surroundings;
+    std::vector<typename Surroundings<Domain>::Vertex> surroundings;
     std::map<Control_point, Held_point> points;
     Array<Coordinates> velocities;
   };
 
   State state() const
   {
-    return {m_entries, m_targets, m_first_points, m_surroundings, m_points, m_velocities};
+    return {m_entries, m_targets, m_first_points, m_surroundings.vertices(), m_points, m_velocities};
   }
 
   // Returns to an earlier state. Vertices that have entered since leave.
   void restore(State state)
   {
-    for(Surrounding& v : state.surroundings) // what others have is what was found since
-      keep_rest(std::move(v));
+    for(auto& v : state.surroundings) // what others have is what was found since
+      m_surroundings.keep(m_domain.index(v.vertex), std::move(v));
     const auto set_slots = [this](const auto& own, const auto& other, bool is_own) {
       for(std::size_t k = 0; k < own.size(); ++k)
         if(k >= other.size() || own[k].vertex != other[k].vertex)
@@ -427,19 +413,6 @@ private:
       return true;
   }
 
-  void keep_rest(Surrounding v)
-  {
-    const std::size_t index = m_domain.index(v.vertex);
-    if(const int slot = m_surrounding_slots[index]; slot != Paged_index_map::none)
-      m_surroundings[slot] = std::move(v);
-    else
-    {
-      m_surrounding_slots.reserve(index);
-      m_surroundings.push_back(std::move(v));
-      m_surrounding_slots.set(index, static_cast<int>(m_surroundings.size()) - 1);
-    }
-  }
-
   bool enter_roi(Entry& entry)
   {
     if(entry.is_roi)
@@ -475,8 +448,7 @@ private:
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   Array<Entry> m_entries;
   Array<Target> m_targets;
-  Paged_index_map m_surrounding_slots; // the same for m_surroundings
-  Array<Surrounding> m_surroundings;
+  Surroundings<Domain> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::map<Control_point, Held_point> m_points;
   Array<Coordinates> m_velocities;
