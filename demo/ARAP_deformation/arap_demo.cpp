@@ -16,9 +16,12 @@
 //                                      prints the names of the meshes; includes models from CGAL's
 //                                      data folder MESHES if it is given
 //   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
-//                                      figures of the paper that take more than one run; prints a
-//                                      table
+//                                      pictures of the manual; prints a table
+//   arap_demo figures FOLDER           draws the figures of the paper from what figures.sh has
+//                                      computed; prints a table
 
+#include "Command_line.h"
+#include "Task.h"
 #include "demo_shapes.h"
 #include "embedded_shape.h"
 #include "mesh_panel.h"
@@ -29,11 +32,15 @@
 #include <CGAL/ARAP_deformation/Embedding.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/boost/graph/generators.h>
+#include <CGAL/subdivision_method_3.h>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -41,7 +48,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -153,37 +160,6 @@ using Traits = CGAL::ARAP_deformation_traits<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
 
-// Figure 3 of the paper: iterations on a bent bar, from the distorted guess of naive Laplacian
-// editing.
-void draw_iterations(const fs::path& folder)
-{
-  Demo_shape bar = make_bar(2);
-  bar.transform = motion(0, 120, Point(0, 0, 71), Vector(0, -38, -24));
-  Mesh mesh = bar.mesh, iterate_mesh = bar.mesh;
-  CGAL::ARAP_deformation<Mesh> deformation(mesh);
-  CGAL::ARAP::Options options;
-  options.cells = CGAL::ARAP::Cell_scheme::spokes();
-  options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
-  expect_success(deformation.set_options(options));
-  insert_selection(deformation, bar.selection, bar.transform);
-
-  const std::set<unsigned int> shown = {0, 1, 2, 5, 10, 100};
-  std::vector<Panel> panels;
-  const auto report = deformation.deform(*shown.rbegin(), 0, [&](const auto& iterate) {
-    if(shown.count(iterate.iteration()))
-    {
-      iterate.put_points(iterate_mesh.points());
-      panels.push_back(panel(iterate_mesh, bar.selection,
-                             iterate.iteration() == 0 ? "initial guess"
-                                                      : std::to_string(iterate.iteration())));
-    }
-    return CGAL::ARAP::Visitor_action::proceed;
-  });
-  expect_success(report);
-  draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420},
-       folder / "iterations.png");
-}
-
 // The largest difference in height between the two halves of a symmetric sheet, at each vertex of
 // the coarse right half and its mirror image in the fine left half.
 double asymmetry(const Mesh& rest, const Mesh& mesh)
@@ -291,19 +267,114 @@ void draw_stiffness(const fs::path& folder)
   draw(panels, View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 400, 420}, folder / "stiffness.png");
 }
 
-// Figure 5 of the paper: a handle is only translated. Previews, which have no iteration, fail.
-void draw_previews(const fs::path& folder)
+// A handle inside a face, which is hard or soft. The handle is drawn as a ball.
+void draw_control_point(const fs::path& folder)
 {
-  const Demo_shape plane = make_spiky_plane();
-  CGAL::ARAP::Options poisson, laplacian;
-  poisson.initial_guess = CGAL::ARAP::Initial_guess::rotations;
-  laplacian.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
-  poisson.iterations = laplacian.iterations = 0;
-  draw({panel(plane.mesh, plane.selection, "original"),
-        deformed_panel(plane, "Poisson editing", poisson),
-        deformed_panel(plane, "Laplacian editing", laplacian),
-        deformed_panel(plane, "as rigid as possible", {})},
-       View{plane.view.from, plane.view.up, 420, 330}, folder / "previews.png");
+  const Mesh rest = make_sheet(20, 10, [](const std::array<int, 3>& n) {
+    return Point(0.1 * n[0], 0.1 * n[1], 0);
+  });
+  const std::vector<int> selection = select(rest, [](const Point& p) { return p.x() < 0.01; },
+                                            [](const Point&) { return false; });
+  Mesh mesh = rest;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  insert_selection(deformation, selection, translation(CGAL::NULL_VECTOR));
+  const auto location = CGAL::ARAP::locate(mesh, Point(1.73, 0.52, 0));
+  const auto handle = deformation.insert_control_point(*location);
+  expect_success(handle);
+  const auto panel_with_handle = [&](const std::string& caption) {
+    Panel result = panel(mesh, selection, caption);
+    const Point p = deformation.control_point_position(handle.point);
+    result.points.push_back({p.x(), p.y(), p.z()});
+    result.selection.push_back(HANDLE);
+    return result;
+  };
+  std::vector<Panel> panels = {panel_with_handle("original")};
+  deformation.translate(handle.point, Vector(-0.5, 0, 0.8));
+  expect_success(deformation.deform());
+  panels.push_back(panel_with_handle("a handle inside a face"));
+  expect_success(deformation.set_target_weight(handle.point, 0.05));
+  expect_success(deformation.deform());
+  panels.push_back(panel_with_handle("soft"));
+  draw(panels, View{Vector(-0.3, -1, 0.5), Vector(0, 0, 1), 360, 300, true},
+       folder / "control_point.png");
+}
+
+// A bar of soft rubber, in centimeters, that is held in its middle and falls in the direction -x.
+void draw_fall(const fs::path& folder)
+{
+  Demo_volume bar = make_filled_bar(2);
+  bar.selection = select(bar.mesh, [](const Point& p) { return std::abs(p.z() - 0.5) < 0.06; },
+                         [](const Point&) { return false; });
+  using Domain =
+    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
+  CGAL::ARAP_deformation<Domain> deformation(Domain(bar.mesh.points, bar.mesh.tetrahedra));
+  insert_selection(deformation, bar.selection, translation(CGAL::NULL_VECTOR));
+  CGAL::ARAP::Dynamics dynamics;
+  dynamics.time_step = 0.01;
+  dynamics.density = 0.001;
+  dynamics.modulus = 20;
+  dynamics.damping = 0.5;
+  dynamics.acceleration = {-981, 0, 0};
+  std::vector<Panel> panels = {panel(bar.mesh, bar.selection, "0 s")};
+  for(int step = 1; step <= 30; ++step)
+  {
+    expect_success(deformation.advance(dynamics));
+    if(step % 10 == 0)
+      panels.push_back(panel(bar.mesh, bar.selection, "0." + std::to_string(step / 10) + " s"));
+  }
+  draw(panels, View{Vector(0.25, 1, 0.2), Vector(1, 0, 0), 300, 240}, folder / "fall.png");
+}
+
+// A sphere that is pulled to the points of a scan, which are drawn as balls.
+void draw_registration(const fs::path& folder)
+{
+  Mesh mesh;
+  CGAL::make_icosahedron(mesh, Point(0, 0, 0), 1.0);
+  CGAL::Subdivision_method_3::Loop_subdivision(mesh,
+                                               CGAL::parameters::number_of_iterations(4));
+  const auto scanned = [](double x, double y, double z) {
+    const double bumps = 1 + 0.1 * std::sin(5 * x) * std::cos(4 * y) * std::sin(3 * z);
+    return Point(1.4 * bumps * x, bumps * y, 0.8 * bumps * z);
+  };
+  std::vector<Point> scan;
+  for(int k = 0; k < 400; ++k) // on a spiral from pole to pole
+  {
+    const double z = 1 - (2 * k + 1) / 400.0, r = std::sqrt(1 - z * z), angle = 2.4 * k;
+    scan.push_back(scanned(r * std::cos(angle), r * std::sin(angle), z));
+  }
+  const auto panel_with_scan = [&](const std::string& caption) {
+    Panel result = panel(mesh, std::vector<int>(mesh.num_vertices(), FREE), caption);
+    for(const Point& p : scan)
+    {
+      result.points.push_back({p.x(), p.y(), p.z()});
+      result.selection.push_back(HANDLE);
+    }
+    return result;
+  };
+  const Panel before = panel_with_scan("a sphere and a scan");
+  using Deformation = CGAL::ARAP_deformation<Mesh>;
+  Deformation deformation(mesh);
+  deformation.insert_roi_vertices(mesh.vertices());
+  for(int round = 0; round < 6; ++round)
+  {
+    const CGAL::ARAP::Locator<Deformation::Deformation_domain> locator(deformation.domain());
+    deformation.clear_control_points();
+    for(const Point& p : scan)
+    {
+      const auto inserted = deformation.insert_control_point(*locator.locate(p));
+      expect_success(inserted);
+      expect_success(deformation.set_target_weight(inserted.point, 20));
+      expect_success(deformation.set_target_position(inserted.point, p));
+    }
+    expect_success(deformation.deform(20, 0));
+  }
+  draw({before, panel_with_scan("after six rounds")},
+       View{Vector(0.4, -1, 0.3), Vector(0, 0, 1), 360, 300}, folder / "registration.png");
+}
+
+void print_title()
+{
+  std::cout << "\nmodel             vertices   free  iterations    energy  edge error   seconds\n";
 }
 
 // a row of the table, from the report of the command
@@ -311,13 +382,73 @@ void print_row(const fs::path& folder, const std::string& name)
 {
   std::ifstream in(folder / (name + ".json"));
   const auto report = nlohmann::json::parse(in);
-  std::cout << std::left << std::setw(13) << name << std::right << std::setw(9)
+  std::cout << std::left << std::setw(17) << name << std::right << std::setw(9)
             << report["vertices"].get<int>() << std::setw(7)
             << report["free_vertices"].get<int>() << std::setw(12)
             << report["iterations"].get<int>() << std::setprecision(4) << std::setw(10)
             << report["energy"].back().get<double>() << std::setprecision(3) << std::setw(12)
             << report["edge_length_error"].get<double>() << std::setw(10)
             << report["seconds"]["deform"].get<double>() << '\n';
+}
+
+// The sizes of the pictures of the paper's figures, in pixels for each panel.
+const std::map<std::string, std::array<int, 2>> figure_sizes = {
+  {"figure_1", {320, 340}},        {"figure_3", {185, 290}},        {"figure_4", {340, 280}},
+  {"figure_5_sheet", {280, 230}},  {"figure_5_cactus", {280, 280}}, {"figure_6", {270, 330}},
+  {"figure_7", {220, 290}},        {"figure_7_side", {270, 290}},   {"figure_8_front", {330, 320}},
+  {"figure_8_back", {330, 320}}};
+
+// The commands that figures.sh has run: a line for each argument, and an empty one after each command.
+std::vector<Command_line> read_commands(const fs::path& list)
+{
+  std::ifstream in(list);
+  std::vector<Command_line> commands;
+  std::vector<std::string> arguments = {"arap_deform"};
+  for(std::string argument; std::getline(in, argument);)
+  {
+    if(!argument.empty())
+    {
+      arguments.push_back(argument);
+      continue;
+    }
+    std::vector<char*> argv;
+    for(std::string& a : arguments)
+      argv.push_back(a.data());
+    commands.push_back(parse_command_line(static_cast<int>(argv.size()), argv.data()));
+    arguments.resize(1);
+  }
+  return commands;
+}
+
+// The figures of the paper, from the results of the commands in the manual: PICTURE_CAPTION.off is a
+// panel of PICTURE.png, after the original.
+void draw_figures(const fs::path& folder)
+{
+  const std::vector<Command_line> commands = read_commands(folder / "figures.txt");
+  const auto name = [](const Command_line& line) { return fs::path(line.output).stem().string(); };
+  const auto picture = [&](const Command_line& line) {
+    return name(line).substr(0, name(line).rfind('_'));
+  };
+  for(auto line = commands.begin(); line != commands.end();)
+  {
+    const std::string file = picture(*line);
+    const Mesh rest = read_mesh((folder / line->mesh).string());
+    std::vector<Panel> panels = {panel(rest, std::vector<int>(rest.num_vertices(), FREE),
+                                       "original")};
+    View view = default_view(panels[0].points);
+    if(!line->view.empty())
+      view = turned(view, line->view);
+    view.width = figure_sizes.at(file)[0];
+    view.height = figure_sizes.at(file)[1];
+    for(; line != commands.end() && picture(*line) == file; ++line)
+      panels.push_back(panel(read_mesh((folder / line->output).string()),
+                             make_task(*line, points_of(rest)).selection,
+                             name(*line).substr(file.size() + 1)));
+    draw(panels, view, folder / (file + ".png"));
+  }
+  print_title();
+  for(const Command_line& line : commands)
+    print_row(folder, name(line));
 }
 
 // Section 5 of the paper: a surface in many pieces follows a coarse volume around it.
@@ -360,15 +491,16 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
   for(const Demo_shape& model : all)
     draw_model(folder, model);
   draw_model(folder, volume);
-  draw_iterations(folder);
   draw_weights(folder);
   draw_embedding(folder);
   draw_bending(folder);
   draw_frame(folder);
   draw_stiffness(folder);
-  draw_previews(folder);
+  draw_control_point(folder);
+  draw_fall(folder);
+  draw_registration(folder);
 
-  std::cout << "\nmodel         vertices   free  iterations    energy  edge error   seconds\n";
+  print_title();
   for(const Demo_shape& model : all)
     print_row(folder, model.name);
   print_row(folder, volume.name);
@@ -379,9 +511,9 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
 int main(int argc, char** argv)
 {
   const std::string action = argc > 1 ? argv[1] : "";
-  if(argc < 3 || argc > 4 || (action != "models" && action != "pictures"))
+  if(argc < 3 || argc > 4 || (action != "models" && action != "pictures" && action != "figures"))
   {
-    std::cerr << "usage: arap_demo models|pictures FOLDER [MESHES]\n";
+    std::cerr << "usage: arap_demo models|pictures|figures FOLDER [MESHES]\n";
     return 2;
   }
   try
@@ -389,6 +521,8 @@ int main(int argc, char** argv)
     const fs::path folder = argv[2], meshes = argc > 3 ? argv[3] : "";
     if(action == "models")
       write_models(folder, meshes);
+    else if(action == "figures")
+      draw_figures(folder);
     else
       draw_pictures(folder, meshes);
     return EXIT_SUCCESS;

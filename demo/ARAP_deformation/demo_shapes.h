@@ -362,18 +362,21 @@ inline Demo_shape camel(const std::string& file)
           View{Vector(-1, 0.25, 0.8), Vector(0, 1, 0), 640, 640}};
 }
 
-// The dino stands on its feet and is pulled down at a single vertex, the tip of its snout.
+// The dino, with y upwards as the others, stands on its feet and is pulled down at a single vertex,
+// the tip of its snout.
 inline Demo_shape dino(const std::string& file)
 {
-  const Mesh mesh = read_mesh(file);
+  Mesh mesh = read_mesh(file);
+  for(Point& p : mesh.points())
+    p = Point(p.x(), p.z(), -p.y());
   const auto vertices = mesh.vertices();
-  const auto tip = *std::min_element(vertices.begin(), vertices.end(), [&](auto v, auto w) {
-    return mesh.point(v).y() < mesh.point(w).y();
+  const auto tip = *std::max_element(vertices.begin(), vertices.end(), [&](auto v, auto w) {
+    return mesh.point(v).z() < mesh.point(w).z();
   });
-  const auto is_foot = [](const Point& p) { return p.z() < 0.1; };
+  const auto is_foot = [](const Point& p) { return p.y() < 0.1; };
   Demo_shape shape{"dino", mesh, select(mesh, is_foot, [](const Point&) { return false; }),
-                   translation(Vector(0.3, -0.5, -2)),
-                   View{Vector(1, -0.35, 0.25), Vector(0, 0, 1), 640, 640}};
+                   translation(Vector(0.3, -2, 0.5)),
+                   View{Vector(1, 0.25, 0.35), Vector(0, 1, 0), 640, 640}};
   shape.selection[tip] = HANDLE;
   return shape;
 }
