@@ -402,6 +402,8 @@ const std::map<std::string, std::array<int, 2>> figure_sizes = {
 std::vector<Command_line> read_commands(const fs::path& list)
 {
   std::ifstream in(list);
+  if(!in)
+    throw std::runtime_error(list.string() + ": is missing; figures.sh writes it");
   std::vector<Command_line> commands;
   std::vector<std::string> arguments = {"arap_deform"};
   for(std::string argument; std::getline(in, argument);)

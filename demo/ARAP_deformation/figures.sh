@@ -25,7 +25,9 @@ arap_deform() { # with a report instead of the picture of this result alone
     esac
     shift
   done
-  [[ -z $iterations || " ${options[*]} " == *" --iterations "* ]] || options+=(--iterations "$iterations")
+  if [[ -n $iterations && " ${options[*]} " != *" --iterations "* ]]; then
+    options+=(--iterations "$iterations")
+  fi
   "$program" "${options[@]}" --report "${output%.*}.json" --quiet || code=$?
   # a model may be missing, but wrong usage is another code
   [ $code = 0 ] || { [ $code = 1 ] && ! [ -f "$model" ]; } ||
