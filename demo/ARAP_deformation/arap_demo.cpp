@@ -374,7 +374,8 @@ void draw_registration(const fs::path& folder)
 
 void print_title()
 {
-  std::cout << "\nmodel             vertices   free  iterations    energy  edge error   seconds\n";
+  std::cout << "\nresult                    vertices   free  iterations    energy  edge error"
+               "   seconds\n";
 }
 
 // a row of the table, from the report of the command
@@ -382,7 +383,7 @@ void print_row(const fs::path& folder, const std::string& name)
 {
   std::ifstream in(folder / (name + ".json"));
   const auto report = nlohmann::json::parse(in);
-  std::cout << std::left << std::setw(17) << name << std::right << std::setw(9)
+  std::cout << std::left << std::setw(25) << name << std::right << std::setw(9)
             << report["vertices"].get<int>() << std::setw(7)
             << report["free_vertices"].get<int>() << std::setw(12)
             << report["iterations"].get<int>() << std::setprecision(4) << std::setw(10)
@@ -398,7 +399,7 @@ const std::map<std::string, std::array<int, 2>> figure_sizes = {
   {"figure_7", {220, 290}},        {"figure_7_side", {270, 290}},   {"figure_8_front", {330, 320}},
   {"figure_8_back", {330, 320}}};
 
-// The commands that figures.sh has run: a line for each argument, and an empty one after each command.
+// The commands that figures.sh has run: a line for each argument, and an empty one at the end.
 std::vector<Command_line> read_commands(const fs::path& list)
 {
   std::ifstream in(list);
@@ -422,8 +423,8 @@ std::vector<Command_line> read_commands(const fs::path& list)
   return commands;
 }
 
-// The figures of the paper, from the results of the commands in the manual: PICTURE_CAPTION.off is a
-// panel of PICTURE.png, after the original.
+// The figures of the paper, from the results of the commands in the manual: PICTURE_CAPTION.off is
+// a panel of PICTURE.png, after the original.
 void draw_figures(const fs::path& folder)
 {
   const std::vector<Command_line> commands = read_commands(folder / "figures.txt");
