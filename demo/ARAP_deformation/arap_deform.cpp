@@ -129,7 +129,7 @@ public:
 
   void show(const std::string& what)
   {
-    m_timer.reset();
+    m_timer = CGAL::Real_timer(); // it may be running
     m_timer.start();
     if(m_is_shown)
       std::cerr << '\r' << what << "\033[K" << std::flush;
