@@ -15,9 +15,9 @@
 #include "Output_file.h"
 #include "Pick.h"
 #include "arguments.h"
-#include "result_quality.h"
 
 #include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/quality.h>
 
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
@@ -182,11 +182,12 @@ inline void print_help(std::ostream& out)
 // what --color measures
 inline Vertex_measure vertex_measure(const std::string& name)
 {
-  return chosen<Vertex_measure>("color", name, {{"edge_error", Vertex_measure::edge_error},
-                                                {"area", Vertex_measure::size},
-                                                {"volume", Vertex_measure::size},
-                                                {"angle", Vertex_measure::angle},
-                                                {"spike", Vertex_measure::spike}});
+  return chosen<Vertex_measure>("color", name,
+                                {{"edge_error", Vertex_measure::edge_length_error},
+                                 {"area", Vertex_measure::size_change},
+                                 {"volume", Vertex_measure::size_change},
+                                 {"angle", Vertex_measure::angle_change},
+                                 {"spike", Vertex_measure::spike}});
 }
 
 // OUT with the number of a frame before its ending

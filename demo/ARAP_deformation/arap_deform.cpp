@@ -19,12 +19,11 @@
 #include "Shape_file.h"
 #include "Task.h"
 #include "mesh_panel.h"
-#include "result_quality.h"
-#include "self_intersections.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/quality.h>
+#include <CGAL/ARAP_deformation/self_intersections.h>
 #include <CGAL/Real_timer.h>
 
 #include <nlohmann/json.hpp>
@@ -99,8 +98,7 @@ struct Result
   Report report;             // of the last frame
   std::vector<Report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
-  double edge_length_error = 0;
-  Quality quality;
+  CGAL::ARAP::Quality quality;
   std::optional<std::size_t> self_intersections; // if they were looked for
   double load_seconds = 0;
 };
@@ -181,11 +179,11 @@ void write_report(Output_file& file, const Result& result)
   json["estimated_relative_gap"] = nullptr;
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
-  json["edge_length_error"] = result.edge_length_error;
+  json["edge_length_error"] = result.quality.edge_length_error;
   json["area_change"] = result.quality.area_change;
   json["volume_change"] = nullptr;
-  if(result.quality.volume_change)
-    json["volume_change"] = *result.quality.volume_change;
+  if(std::isfinite(result.quality.volume_change))
+    json["volume_change"] = result.quality.volume_change;
   json["largest_angle_change"] = result.quality.largest_angle_change;
   json["largest_spike"] = result.quality.largest_spike;
   if(result.self_intersections)
@@ -297,7 +295,7 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.final_energy()
-            << ", edge length error " << result.edge_length_error << '\n';
+            << ", edge length error " << result.quality.edge_length_error << '\n';
   if(result.self_intersections)
     out << *result.self_intersections << " pairs of faces intersect\n";
   if(report.inverted_simplices > 0)
@@ -346,28 +344,6 @@ void check_mesh_files(const Command_line& line, const std::string& format)
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
                              " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "
                              "file");
-}
-
-// the simplices of a shape; polygons are cut as for a picture
-std::vector<std::array<int, 3>> simplices_of(const Mesh& mesh) { return skin(mesh).triangles; }
-
-const std::vector<std::array<int, 4>>& simplices_of(const Tetrahedral_mesh& mesh)
-{
-  return mesh.tetrahedra;
-}
-
-template <typename Shape>
-void measure(const Command_line& line, const Shape& shape,
-             const std::vector<Kernel::Point_3>& rest_points, const Skin& boundary, Result& result)
-{
-  const std::vector<Kernel::Point_3> points = points_of(shape.mesh());
-  std::vector<std::array<int, 3>> triangles = boundary.triangles;
-  for(auto& triangle : triangles)
-    for(int& corner : triangle)
-      corner = static_cast<int>(boundary.vertices[corner]);
-  result.quality = quality(simplices_of(shape.mesh()), triangles, rest_points, points);
-  if(line.has_quality)
-    result.self_intersections = number_of_self_intersections(triangles, points);
 }
 
 // The measures as colours: from 0 to 1 for the largest, which the caption tells.
@@ -480,8 +456,7 @@ void run(const Command_line& line, const std::string& format)
     result.frames.push_back(report);
     if(!line.color.empty())
     {
-      color = measure_at_vertices(vertex_measure(line.color), simplices_of(shape.mesh()),
-                                  rest_points, points_of(shape.mesh()));
+      color = CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), domain, rest_points);
       shape.set_property(line.color, color);
     }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
@@ -490,9 +465,9 @@ void run(const Command_line& line, const std::string& format)
       film.add_frame(panel_of(points_of(shape.mesh()), ""));
   });
   result.report = result.frames.back();
-  result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
-  if(outputs.report || line.has_quality)
-    measure(line, shape, rest_points, boundary, result);
+  result.quality = CGAL::ARAP::quality(domain, rest_points);
+  if(line.has_quality)
+    result.self_intersections = CGAL::ARAP::number_of_self_intersections(domain);
 
   if(outputs.image)
   {
