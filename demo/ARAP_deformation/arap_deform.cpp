@@ -332,7 +332,7 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
       throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
-                                      ".gltf, .glb, .mesh, .msh or .vtk");
+                                      ".gltf, .glb, .mesh, .msh, .vtk or .vtu");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);

@@ -1350,7 +1350,7 @@ void test_other_formats()
                     grid = vtk("5.1", shape.points);
   refuse("msh", "OFF\n", ", line 1: a .msh file starts with '$MeshFormat', but this with 'OFF'");
   refuse("msh", replaced(good, "2.2 0", "4 0"), ", line 2: only the versions 2.2 and 4.1");
-  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary; save it as text");
+  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary, but does not show its byte order by the number 1");
   refuse("msh", replaced(good, "\n$Nodes\n", "\n$Node\n"), ": has no $Nodes");
   refuse("msh", replaced(good, "\n101 ", "\n100 "), ", line 11: a node has the same number as");
   refuse("msh", replaced(good, "100 101 102", "100 101 7"), ", line 58: there is no node '7'");
