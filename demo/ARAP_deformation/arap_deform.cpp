@@ -44,6 +44,7 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -420,7 +421,9 @@ void deform(const Command_line& line, const Domain& domain, const Task& task,
     };
     CGAL::ARAP::Step_report report;
     if(line.dynamics)
-      report = deformation.advance(*line.dynamics);
+      report = deformation.advance(
+        *line.dynamics, std::map<typename Deformation::vertex_descriptor, CGAL::ARAP::Coordinates>(),
+        visitor);
     else
       static_cast<Report&>(report) = deformation.deform(visitor);
     progress.show("");
