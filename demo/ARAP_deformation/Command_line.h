@@ -15,9 +15,10 @@
 #include "Output_file.h"
 #include "Pick.h"
 #include "arguments.h"
-#include "result_quality.h"
 
+#include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/quality.h>
 
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
@@ -51,6 +52,7 @@ struct Handle_options
   std::vector<Motion_step> steps;
   std::optional<double> weight;
   bool is_frame = false; // it turns the cells at its vertices, too
+  bool is_point = false; // it is a point inside a simplex
 };
 
 struct Command_line
@@ -63,6 +65,10 @@ struct Command_line
   std::string report, image, animation, save_selection, save_transform;
   std::vector<std::pair<int, Pick>> picks; // with the status; later ones win
   std::vector<Pick> region;
+  std::vector<Pick> rigid;             // the cells in each share a rotation
+  std::vector<Pick> stiff;             // the cells in each have the stiffness
+  std::vector<double> stiffness;       // of the same number; later ones win
+  std::optional<Dynamics> dynamics;    // if each frame is a time step
   std::vector<Handle_options> handles; // of each --handle
   Handle_options all_handles;          // where there is none
   int frames = 1;
@@ -79,7 +85,8 @@ inline boost::program_options::options_description described_options()
   using boost::program_options::value;
   const Options defaults;
   boost::program_options::options_description task("What is held and moved"), output("Output"),
-    run("The deformation"), other("Other");
+    run("The deformation"), dynamics("Time steps with inertia, instead of a shape at rest"),
+    other("Other");
   // an option that picks or moves vertices: what it says depends on those before it
   const auto in_order = [] { return value<std::vector<std::string>>()->composing()->multitoken(); };
   task.add_options()
@@ -92,6 +99,9 @@ inline boost::program_options::options_description described_options()
     ("soft", in_order()->value_name("WEIGHT"), "its targets pull with this weight")
     ("turn", "its rotation is that of the cells around it: even one vertex turns its surroundings")
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
+    ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")
+    ("rigid", in_order()->value_name("WHAT"),
+     "these cells share a rotation; each --rigid is a part of its own")
     ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
      "instead: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a comment")
     ("transform", value<std::vector<std::string>>()->composing()->value_name("T.def"),
@@ -144,10 +154,18 @@ inline boost::program_options::options_description described_options()
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
      "use at most N threads; 0: one per processor");
+  dynamics.add_options()
+    ("gravity", value<std::string>()->value_name("X,Y,Z"),
+     "each of the --frames is a time step under this acceleration, in any consistent units")
+    ("time_step", value<std::string>()->value_name("H"), "the time of a step; default 1/60")
+    ("modulus", value<std::string>()->default_value("1")->value_name("M"),
+     "how stiff a body of density 1 is: its elastic energy is M times the energy")
+    ("damping", value<std::string>()->default_value("0")->value_name("D"),
+     "the rate at which velocities decay");
   other.add_options()
     ("quiet", "print only errors: no summary, no notes, no progress")
     ("help,h", "print this and exit");
-  return task.add(output).add(run).add(other);
+  return task.add(output).add(run).add(dynamics).add(other);
 }
 
 inline void print_help(std::ostream& out)
@@ -157,16 +175,20 @@ inline void print_help(std::ostream& out)
          "holds the lowest twentieth of the shape, turns the top, and lets the rest follow\n"
          "so that every small part of it only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
-         "in a .mesh (Medit), .msh (Gmsh) or .vtk file, as text. OUT is of the same kind; a\n"
-         "pipe gets the format of MESH. A note says what OUT does not keep of MESH.\n\n"
+         "in a .mesh (Medit), .msh (Gmsh, text or binary), .vtk (text) or .vtu file. OUT is\n"
+         "of the same kind; a pipe gets the format of MESH. A note says what OUT does not\n"
+         "keep of MESH.\n\n"
          "WHAT picks vertices; later options win. It is one of\n"
          "  z:90%..  y:..0.2  x:-1..1          between two x, y or z, or beyond one\n"
          "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R\n"
          "  plane:X,Y,Z,NX,NY,NZ               the side to which the normal N points\n"
          "  near:X,Y,Z                         the nearest vertex\n"
+         "  point:X,Y,Z                        for --fix and --handle: no vertex, but the\n"
+         "                                     nearest point in a face, or in a tetrahedron\n"
          "  list:0,7,12  list:@FILE            numbers of vertices, from 0\n"
          "A coordinate N% goes from 0% to 100% of the bounding box; a length N% is of its\n"
-         "diagonal.\n\n"
+         "diagonal. Cells are those of vertices, or with --cells elements of simplices all\n"
+         "of whose corners are picked.\n\n"
       << described_options()
       << "\nBetween key frames the centre of a handle moves along a straight line, its\n"
          "rotation turns at constant speed, and its stretch is interpolated linearly.\n\n"
@@ -182,11 +204,12 @@ inline void print_help(std::ostream& out)
 // what --color measures
 inline Vertex_measure vertex_measure(const std::string& name)
 {
-  return chosen<Vertex_measure>("color", name, {{"edge_error", Vertex_measure::edge_error},
-                                                {"area", Vertex_measure::size},
-                                                {"volume", Vertex_measure::size},
-                                                {"angle", Vertex_measure::angle},
-                                                {"spike", Vertex_measure::spike}});
+  return chosen<Vertex_measure>("color", name,
+                                {{"edge_error", Vertex_measure::edge_length_error},
+                                 {"area", Vertex_measure::size_change},
+                                 {"volume", Vertex_measure::size_change},
+                                 {"angle", Vertex_measure::angle_change},
+                                 {"spike", Vertex_measure::spike}});
 }
 
 // OUT with the number of a frame before its ending
@@ -235,17 +258,22 @@ inline void check_outputs(const Command_line& line)
       check(output, input);
 }
 
-// Reads --rotate AXIS ANGLE [X,Y,Z] as one option, however the next arguments look.
-inline std::vector<boost::program_options::option> parse_rotate(std::vector<std::string>& arguments)
+// Reads --rotate AXIS ANGLE [X,Y,Z] or --stiffness WHAT K as one option, however the next arguments
+// look.
+inline std::vector<boost::program_options::option>
+parse_several(std::vector<std::string>& arguments)
 {
-  if(arguments.empty() || arguments[0] != "--rotate")
+  if(arguments.empty() || (arguments[0] != "--rotate" && arguments[0] != "--stiffness"))
     return {};
-  const bool has_centre = arguments.size() > 3 && split(arguments[3]).size() == 3;
+  const bool is_rotation = arguments[0] == "--rotate";
+  const bool has_centre = is_rotation && arguments.size() > 3 && split(arguments[3]).size() == 3;
   const std::size_t n = (std::min)(arguments.size(), std::size_t(has_centre ? 4 : 3));
   if(n < 3)
-    throw Usage_error("--rotate: expected AXIS ANGLE, such as z 90");
+    throw Usage_error(is_rotation ? "--rotate: expected AXIS ANGLE, such as z 90"
+                                  : "--stiffness: expected WHAT K, such as z:..20% 10");
   boost::program_options::option result(
-    "rotate", std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
+    arguments[0].substr(2),
+    std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
   arguments.erase(arguments.begin(), arguments.begin() + n);
   return {result};
 }
@@ -294,17 +322,31 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
   {
     const std::string& name = option.string_key;
     if(name == "turn")
+    {
+      if(handle_before(name, line).is_point)
+        throw Usage_error("--turn: the handle is a point, which turns nothing around it");
       handle_before(name, line).is_frame = true;
+    }
     if(option.value.empty())
       continue;
     if(const std::string& value = option.value[0]; name == "fix")
       line.picks.emplace_back(FIXED, Pick(name, value));
     else if(name == "region")
       line.region.emplace_back(name, value);
+    else if(name == "rigid")
+      line.rigid.emplace_back(name, value);
+    else if(name == "stiffness")
+    {
+      line.stiff.emplace_back(name, value);
+      line.stiffness.push_back(numbers("--stiffness", option.value[1], "k")[0]);
+      if(line.stiffness.back() < 0)
+        throw Usage_error("--stiffness " + option.value[1] + ": a stiffness is not negative");
+    }
     else if(name == "handle")
     {
       line.picks.emplace_back(static_cast<int>(HANDLE + line.handles.size()), Pick(name, value));
       line.handles.emplace_back();
+      line.handles.back().is_point = line.picks.back().second.is_point();
     }
     else if(name == "move" || name == "rotate" || name == "soft")
     {
@@ -324,7 +366,7 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
 // Throws if it is not said once what is held, and once how it moves.
 inline void check_task(const Command_line& line)
 {
-  if(line.selection.empty() && line.handles.empty())
+  if(line.selection.empty() && line.handles.empty() && !line.dynamics)
     throw Usage_error("nothing moves: give a --handle, or a --selection");
   if(!line.selection.empty() && !line.handles.empty())
     throw Usage_error("--selection already tells the handles; leave out --handle");
@@ -333,8 +375,36 @@ inline void check_task(const Command_line& line)
     has_steps = has_steps || !handle.steps.empty();
   if(has_steps && !line.transforms.empty())
     throw Usage_error("--transform already tells how handles move; leave out --move and --rotate");
-  if(!has_steps && line.transforms.empty())
+  if(!has_steps && line.transforms.empty() && !line.dynamics)
     throw Usage_error("nothing moves: give --move, --rotate or --transform");
+  for(const auto& pick : line.picks)
+    if(pick.second.is_point() && !line.save_selection.empty())
+      throw Usage_error("--save-selection: a selection has vertices only, not " +
+                        pick.second.name());
+}
+
+// Reads the options of time steps.
+inline std::optional<Dynamics> read_dynamics(const boost::program_options::variables_map& values)
+{
+  Dynamics dynamics;
+  for(const auto& [name, member] : {std::pair("time_step", &Dynamics::time_step),
+                                    std::pair("modulus", &Dynamics::modulus),
+                                    std::pair("damping", &Dynamics::damping)})
+    if(values.count(name) && !values[name].defaulted())
+    {
+      if(!values.count("gravity"))
+        throw Usage_error("--" + std::string(name) + " is for time steps: give --gravity, too");
+      dynamics.*member = number<double>(name, values[name].as<std::string>());
+    }
+  if(!values.count("gravity"))
+    return std::nullopt;
+  if(!values.count("frames") && values["animation"].defaulted())
+    throw Usage_error("--gravity: give --frames, how many time steps there are, or --animation");
+  const auto g = numbers("--gravity", values["gravity"].as<std::string>(), "x,y,z");
+  dynamics.acceleration = {g[0], g[1], g[2]};
+  if(const Outcome checked = dynamics.check(); !checked)
+    throw Usage_error(checked.message);
+  return dynamics;
 }
 
 // Reads --frames, --animation and --view.
@@ -370,7 +440,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     const auto parsed = po::command_line_parser(argc, argv)
       .options(all)
       .positional(po::positional_options_description().add("mesh", 1))
-      .extra_style_parser(parse_rotate)
+      .extra_style_parser(parse_several)
       .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
       .run();
     po::store(parsed, values);
@@ -399,6 +469,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.animation = values["animation"].as<std::string>();
     line.save_selection = values["save-selection"].as<std::string>();
     line.save_transform = values["save-transform"].as<std::string>();
+    line.dynamics = read_dynamics(values);
     read_picks(parsed.options, line);
     check_task(line);
     line.has_quality = values.count("quality") > 0;

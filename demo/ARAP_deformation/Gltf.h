@@ -15,12 +15,8 @@
 
 // The containers of glTF 2.0: .gltf, a JSON text, and .glb, with the first buffer behind it.
 
+#include "base64.h"
 #include "shape_files.h"
-
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/binary_from_base64.hpp>
-#include <boost/archive/iterators/dataflow_exception.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -76,10 +72,6 @@ public:
     catch(const Json::exception& error)
     {
       throw std::runtime_error(file + ": is no glTF that can be read: " + printable(error.what()));
-    }
-    catch(const boost::archive::iterators::dataflow_exception&)
-    {
-      throw std::runtime_error(file + ": has a buffer that is not in base64");
     }
   }
 
@@ -187,7 +179,7 @@ public:
       if(is_binary && k == 0)
         json["buffers"][k].erase("uri");
       else
-        json["buffers"][k]["uri"] = data_uri + in_base64(buffers[k]);
+        json["buffers"][k]["uri"] = data_uri + to_base64(buffers[k]);
     }
     if(!is_binary)
     {
@@ -213,28 +205,6 @@ private:
   {
     const auto four_bytes = static_cast<std::uint32_t>(value);
     return std::string(reinterpret_cast<const char*>(&four_bytes), 4);
-  }
-
-  static std::string in_base64(const std::string& bytes)
-  {
-    using namespace boost::archive::iterators;
-    using Encoded = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-    std::string result(Encoded(bytes.begin()), Encoded(bytes.end()));
-    result.resize((result.size() + 3) / 4 * 4, '=');
-    return result;
-  }
-
-  static std::string from_base64(std::string text)
-  {
-    using namespace boost::archive::iterators;
-    using Decoded = transform_width<binary_from_base64<std::string::const_iterator>, 8, 6>;
-    while(!text.empty() && text.back() == '=')
-      text.pop_back();
-    const std::size_t size = text.size() * 6 / 8;
-    text.resize((text.size() + 3) / 4 * 4, 'A');
-    std::string result(Decoded(text.begin()), Decoded(text.end()));
-    result.resize((std::min)(size, result.size()));
-    return result;
   }
 
   void read(const std::string& file)
@@ -264,7 +234,12 @@ private:
       if(uri.empty()) // that of a .glb file
         buffers.push_back(bytes);
       else if(m_is_inside.back())
-        buffers.push_back(from_base64(uri.substr(comma + 8)));
+      {
+        const auto decoded = from_base64(uri.substr(comma + 8));
+        if(!decoded)
+          throw std::runtime_error(file + ": has a buffer that is not in base64");
+        buffers.push_back(*decoded);
+      }
       else
       {
         std::ifstream in(std::filesystem::path(file).parent_path() / uri, std::ios::binary);

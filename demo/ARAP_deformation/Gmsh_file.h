@@ -24,8 +24,8 @@
 
 namespace CGAL::ARAP::demo {
 
-// Tetrahedra in .msh files, the text format of Gmsh, version 2.2 or 4.1. All other sections are
-// kept as they are.
+// Tetrahedra in .msh files of Gmsh, version 2.2 or 4.1, text or binary. All other sections are kept
+// as they are.
 class Gmsh_file : public Tetrahedra_text
 {
 public:
@@ -35,29 +35,30 @@ public:
     if(words.next() != "$MeshFormat")
       refuse(words, "a .msh file starts with '$MeshFormat', but this with");
     const std::string_view version = words.next();
-    const bool has_blocks = version == "4.1";
-    if(!has_blocks && version != "2.2" && version != "2.1" && version != "2")
+    m_has_blocks = version == "4.1";
+    if(!m_has_blocks && version != "2.2" && version != "2.1" && version != "2")
       refuse(words, "only the versions 2.2 and 4.1 of .msh files can be read, but this is");
-    if(words.next() != "0")
-      refuse("is binary; save it as text");
+    read_numbers(words);
     words = section("$Nodes", words.end());
-    if(has_blocks)
+    if(m_has_blocks)
       read_blocks(words, [&](const Block& block) { read_nodes(words, block); });
     else
       read_nodes(words);
+    read_end(words, "$EndNodes");
     words = section("$Elements", words.end());
-    if(has_blocks)
+    if(m_has_blocks)
       read_blocks(words, [&](const Block& block) {
         for(long long i = 0; i < block.size; ++i)
         {
-          read(words);
+          read_size(words);
           read_element(words, block.type);
         }
       });
     else
       read_elements(words);
+    read_end(words, "$EndElements");
     if(m_mesh.tetrahedra.empty())
-      refuse("has no tetrahedra; surfaces are read from .off, .obj, .ply, .stl and glTF files");
+      refuse_without_tetrahedra();
   }
 
 private:
@@ -69,33 +70,102 @@ private:
 
   static constexpr long long largest = (std::numeric_limits<int>::max)();
 
-  long long read(Words& words, long long smallest = 0) const
+  // Reads how numbers are written: as text, or as bytes in the order that a one shows.
+  void read_numbers(Words& words)
   {
-    return read_integer(words, smallest, largest, [&] {
-      return "an integer from " + std::to_string(smallest);
-    });
+    const std::string_view kind = words.next(), size = words.next();
+    if(kind != "0" && kind != "1")
+      refuse(words, "a .msh file is text (0) or binary (1), but this is");
+    if(kind == "0")
+      return;
+    if(size != "8")
+      refuse(words, "only binary files with the data size 8 can be read, but here it is");
+    skip_end_of_line(words);
+    const std::string_view one = words.skip(4);
+    m_source.numbers = one == std::string_view("\1\0\0\0", 4)
+                         ? Source_text::Numbers::little_endian : Source_text::Numbers::big_endian;
+    if(one.size() < 4 || Source_text::number_of<int>(one, m_source.numbers) != 1)
+      refuse("is binary, but does not show its byte order by the number 1");
+  }
+
+  static void skip_end_of_line(Words& words)
+  {
+    if(words.skip(1) == "\r")
+      words.skip(1);
+  }
+
+  void read_end(Words& words, const std::string& keyword)
+  {
+    m_found = in_quotes(words.next());
+    if(m_found != in_quotes(keyword))
+      refuse(words, "expected " + keyword + " after as many as the file announces, but found");
+  }
+
+  // Reads an integer, which has four bytes in a binary file.
+  long long read(Words& words, long long smallest = 0)
+  {
+    return read_of<int>(words, smallest);
+  }
+
+  // Reads a count or a number of a node, which has eight bytes in the version 4.1.
+  long long read_size(Words& words) { return read_of<long long>(words, 0); }
+
+  // Reads an integer that is written as text in a binary file, too, at the end of a line.
+  long long read_as_text(Words& words)
+  {
+    const long long value = read_text(words, 0);
+    if(is_binary())
+      skip_end_of_line(words);
+    return value;
+  }
+
+  long long read_text(Words& words, long long smallest) const
+  {
+    return read_integer(words, smallest, largest, [&] { return description(smallest); });
+  }
+
+  static std::string description(long long smallest)
+  {
+    return "an integer from " + std::to_string(smallest);
+  }
+
+  template <typename Integer>
+  long long read_of(Words& words, long long smallest)
+  {
+    if(!is_binary())
+      return read_text(words, smallest);
+    const long long value = read_bytes<Integer>(words);
+    if(value < smallest || value > largest)
+      refuse(words, "expected " + description(smallest) + ", but found");
+    return value;
   }
 
   template <typename Read_block>
-  void read_blocks(Words& words, const Read_block& read_block) const
+  void read_blocks(Words& words, const Read_block& read_block)
   {
-    const long long blocks = read(words);
+    if(is_binary())
+      skip_end_of_line(words);
+    const long long blocks = read_size(words);
     for(int k = 0; k < 3; ++k)
-      read(words); // the total, and the range of the tags
+      read_size(words); // the total, and the range of the tags
     for(long long i = 0; i < blocks; ++i)
     {
       Block block;
       block.dimension = read(words);
       read(words, -largest); // the entity
       block.type = read(words);
-      block.size = read(words);
+      block.size = read_size(words);
       read_block(block);
     }
   }
 
   void read_node(Words& words)
   {
-    read_point(words, [this] { return "node " + std::to_string(m_mesh.points.size() + 1); });
+    const auto node = [this] { return "node " + std::to_string(m_mesh.points.size() + 1); };
+    if(is_binary())
+      read_binary_point(words, node);
+    else
+      read_point(words, node);
   }
 
   void insert_tag(const Words& words, long long tag, std::size_t index)
@@ -107,33 +177,48 @@ private:
   void read_nodes(Words& words, const Block& block)
   {
     for(long long i = 0; i < block.size; ++i)
-      insert_tag(words, read(words), m_mesh.points.size() + i);
+      insert_tag(words, read_size(words), m_mesh.points.size() + i);
     for(long long i = 0; i < block.size; ++i)
     {
       read_node(words);
-      for(long long k = 0; block.type != 0 && k < block.dimension; ++k)
-        words.next(); // parameters on a curve or a surface
+      for(long long k = 0; block.type != 0 && k < block.dimension; ++k) // on a curve or a surface
+        if(is_binary())
+          read_bytes<double>(words);
+        else
+          words.next();
     }
   }
 
   void read_nodes(Words& words)
   {
-    for(long long i = read(words); i > 0; --i)
+    for(long long i = read_as_text(words); i > 0; --i)
     {
       insert_tag(words, read(words), m_mesh.points.size());
       read_node(words);
     }
   }
 
+  // In a binary file elements of the same type are together.
   void read_elements(Words& words)
   {
-    for(long long i = read(words); i > 0; --i)
+    for(long long left = read_as_text(words), size = 1; left > 0; left -= size)
     {
-      read(words); // its number
+      if(!is_binary())
+        read(words); // its number
       const long long type = read(words);
-      for(long long tags = read(words); tags > 0; --tags)
-        read(words, -largest);
-      read_element(words, type);
+      if(is_binary())
+        size = read(words, 1);
+      if(size > left)
+        refuse(words, "expected at most " + std::to_string(left) + " elements, but found");
+      const long long tags = read(words);
+      for(long long i = 0; i < size; ++i)
+      {
+        if(is_binary())
+          read(words); // its number
+        for(long long k = 0; k < tags; ++k)
+          read(words, -largest);
+        read_element(words, type);
+      }
     }
   }
 
@@ -148,7 +233,7 @@ private:
     std::array<int, 4> vertices = {};
     for(int k = 0; k < found->second; ++k)
     {
-      const auto node = m_nodes.find(read(words));
+      const auto node = m_nodes.find(m_has_blocks ? read_size(words) : read(words));
       if(node == m_nodes.end())
         refuse(words, "there is no node");
       vertices[k] = node->second;
@@ -159,6 +244,7 @@ private:
     m_mesh.tetrahedra.push_back(vertices);
   }
 
+  bool m_has_blocks = false; // of nodes and elements: version 4.1
   std::unordered_map<long long, int> m_nodes; // indices, by their numbers in the file
 };
 

@@ -44,8 +44,10 @@ public:
       m_measures = measures(m_name, value, "x0,y0,z0,x1,y1,z1");
     else if(m_kind == "sphere")
       m_measures = measures(m_name, value, "x,y,z,r");
-    else if(m_kind == "near")
+    else if(m_kind == "near" || (m_kind == "point" && (option == "fix" || option == "handle")))
       m_measures = measures(m_name, value, "x,y,z");
+    else if(m_kind == "point")
+      throw Usage_error(m_name + ": a point inside a simplex is for --fix and --handle only");
     else if(m_kind == "plane")
       m_measures = measures(m_name, value, "x,y,z,nx,ny,nz");
     else if(m_kind == "x" || m_kind == "y" || m_kind == "z")
@@ -56,11 +58,20 @@ public:
       for(const std::string& number_of_vertex : split(value))
         m_vertices.push_back(number<int>(option + " list:", number_of_vertex));
     else
-      throw Usage_error(m_name + ": expected box:, sphere:, plane:, near:, list:, or a range such "
-                                 "as z:90%..");
+      throw Usage_error(m_name + ": expected box:, sphere:, plane:, near:, point:, list:, or a "
+                                 "range such as z:90%..");
   }
 
   const std::string& name() const { return m_name; }
+
+  // whether it picks no vertices, but a point inside a simplex
+  bool is_point() const { return m_kind == "point"; }
+
+  // That point, of which the nearest place of the shape is meant.
+  Kernel::Point_3 point(const std::vector<Kernel::Point_3>& points) const
+  {
+    return point(CGAL::bbox_3(points.begin(), points.end()), 0);
+  }
 
   // The vertices that are picked. Throws if there is none.
   std::vector<std::size_t> vertices(const std::vector<Kernel::Point_3>& points) const

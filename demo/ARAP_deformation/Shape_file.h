@@ -20,6 +20,7 @@
 #include "Gmsh_file.h"
 #include "Medit_file.h"
 #include "Vtk_file.h"
+#include "Vtu_file.h"
 #include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
@@ -154,7 +155,7 @@ private:
   bool m_is_kept = false; // the text is written with other coordinates
 };
 
-// Tetrahedra in a .mesh, .msh or .vtk file, the rest of which is kept.
+// Tetrahedra in a .mesh, .msh, .vtk or .vtu file, the rest of which is kept.
 class Tetrahedra_file
 {
 public:
@@ -197,6 +198,8 @@ private:
       return std::make_unique<Gmsh_file>(file);
     if(format == ".vtk")
       return std::make_unique<Vtk_file>(file);
+    if(format == ".vtu")
+      return std::make_unique<Vtu_file>(file);
     return std::make_unique<Medit_file>(file);
   }
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <ostream>
@@ -78,10 +79,13 @@ public:
         m_changes.push_back({place[k], number(after[k], place[k].end - place[k].begin)});
   }
 
+  // Replaces what is there by a text.
+  void replace(const Span& place, const std::string& after) { m_changes.push_back({place, after}); }
+
   // Inserts a text.
   void insert(std::size_t place, const std::string& inserted)
   {
-    m_changes.push_back({{place, place}, inserted});
+    replace(Span{place, place}, inserted);
   }
 
   // the text of a number, or its bytes
@@ -94,10 +98,28 @@ public:
       out << value;
       return out.str();
     }
-    const float single = static_cast<float>(value);
-    std::string result(bytes == 4 ? reinterpret_cast<const char*>(&single)
-                                  : reinterpret_cast<const char*>(&value), bytes);
-    if(numbers == Numbers::big_endian)
+    return bytes == 4 ? bytes_of(static_cast<float>(value), numbers) : bytes_of(value, numbers);
+  }
+
+  // the number that has these bytes
+  template <typename Number>
+  static Number number_of(std::string_view bytes, Numbers order)
+  {
+    std::array<char, sizeof(Number)> copy;
+    std::copy_n(bytes.begin(), sizeof(Number), copy.begin());
+    if(order == Numbers::big_endian)
+      std::reverse(copy.begin(), copy.end());
+    Number value;
+    std::memcpy(&value, copy.data(), sizeof(Number));
+    return value;
+  }
+
+  // the bytes of a number
+  template <typename Number>
+  static std::string bytes_of(Number value, Numbers order)
+  {
+    std::string result(reinterpret_cast<const char*>(&value), sizeof(Number));
+    if(order == Numbers::big_endian)
       std::reverse(result.begin(), result.end());
     return result;
   }

@@ -40,6 +40,7 @@ namespace CGAL::ARAP::demo {
 struct Handle
 {
   std::vector<std::size_t> vertices;
+  std::vector<Kernel::Point_3> points; // inside simplices
   std::optional<double> weight; // of its targets, if they are soft
   bool is_frame = false;        // it turns the cells at its vertices, too
   std::function<Transform(double)> transform; // at a time from 0 to the number of key frames
@@ -149,10 +150,11 @@ inline std::vector<int> make_selection(const Command_line& line,
                                                       : read_selection(line.selection,
                                                                        points.size());
   for(const auto& [status, pick] : line.picks)
-    for(std::size_t v : pick.vertices(points))
-      selection[v] = status;
+    if(!pick.is_point())
+      for(std::size_t v : pick.vertices(points))
+        selection[v] = status;
   for(const auto& [status, pick] : line.picks)
-    if(status != FIXED && std::count(selection.begin(), selection.end(), status) == 0)
+    if(status != FIXED && !pick.is_point() && std::count(selection.begin(), selection.end(), status) == 0)
       throw std::runtime_error(pick.name() + ": a later --fix or --handle picks all its vertices");
   std::vector<bool> is_in_region(points.size(), line.region.empty());
   for(const Pick& pick : line.region)
@@ -182,12 +184,18 @@ inline std::vector<std::vector<Transform>> read_key_frames(const Command_line& l
 
 } // namespace internal
 
-inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_3>& points)
+// `held` are the points inside simplices that are picked, with their statuses.
+inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_3>& points,
+                      const std::vector<std::pair<int, Kernel::Point_3>>& held = {})
 {
   Task task;
   task.selection = internal::make_selection(line, points);
   const int largest = *std::max_element(task.selection.begin(), task.selection.end());
-  task.handles.resize(largest < HANDLE ? 0 : largest - HANDLE + 1);
+  task.handles.resize((std::max)(line.handles.size(),
+                                 std::size_t(largest < HANDLE ? 0 : largest - HANDLE + 1)));
+  for(const auto& [status, place] : held)
+    if(status >= HANDLE)
+      task.handles[status - HANDLE].points.push_back(place);
   std::vector<std::size_t> all;
   for(std::size_t v = 0; v < points.size(); ++v)
     if(task.selection[v] >= HANDLE)
@@ -207,7 +215,9 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   {
     Handle& handle = task.handles[k];
     const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
-    const Eigen::Vector3d centre = internal::centroid(points, are_together ? all : handle.vertices);
+    const Eigen::Vector3d centre = handle.points.empty()
+      ? internal::centroid(points, are_together ? all : handle.vertices)
+      : internal::centroid(handle.points, {0});
     handle.weight = options.weight;
     handle.is_frame = options.is_frame;
     std::vector<Transform> keys;

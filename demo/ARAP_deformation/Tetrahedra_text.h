@@ -52,7 +52,7 @@ public:
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
 
   // Writes the file with these points. Unchanged coordinates keep their text.
-  void write(std::ostream& out, const std::vector<Kernel::Point_3>& points)
+  virtual void write(std::ostream& out, const std::vector<Kernel::Point_3>& points)
   {
     for(std::size_t v = 0; v < points.size(); ++v)
       m_source.replace(m_source.points[v], m_mesh.points[v] - CGAL::ORIGIN,
@@ -73,14 +73,25 @@ protected:
     throw std::runtime_error(m_name + ": " + sentence);
   }
 
+  bool is_binary() const { return m_source.numbers != Source_text::Numbers::text; }
+
   // Throws a message: `expected`, continued by what is there instead.
   [[noreturn]] void refuse(const Words& words, const std::string& expected) const
   {
-    const auto line = 1 + std::count(text().begin(), text().begin() + words.begin(), '\n');
     const bool is_end = words.begin() == text().size();
+    if(is_binary())
+      refuse("byte " + std::to_string(words.begin()) + ": " + expected + ' ' +
+             (is_end ? "the end of the file" : m_found));
+    const auto line = 1 + std::count(text().begin(), text().begin() + words.begin(), '\n');
     const auto word = std::string_view(text()).substr(words.begin(), words.end() - words.begin());
     throw bad_line(m_name, static_cast<std::size_t>(line),
-                   expected + (is_end ? " the end of the file" : ' ' + in_quotes(word)));
+                   expected + (is_end ? " the end of the file"
+                               : word.empty() ? " nothing" : ' ' + in_quotes(word)));
+  }
+
+  [[noreturn]] void refuse_without_tetrahedra() const
+  {
+    refuse("has no tetrahedra; surfaces are read from .off, .obj, .ply, .stl and glTF files");
   }
 
   // The words after a line that starts with a keyword, the first one after a place.
@@ -104,6 +115,35 @@ protected:
     if(is_end || end != text().c_str() + words.end() || value < smallest || value > largest)
       refuse(words, "expected " + description() + ", but found");
     return value;
+  }
+
+  // Reads the bytes of a number.
+  template <typename Number>
+  Number read_bytes(Words& words)
+  {
+    const std::string_view bytes = words.skip(sizeof(Number));
+    if(bytes.size() < sizeof(Number))
+      refuse(Words(text(), text().size()), "expected more numbers, but found");
+    const auto value = Source_text::number_of<Number>(bytes, m_source.numbers);
+    m_found = std::to_string(value);
+    return value;
+  }
+
+  // Appends a point of three doubles and the place of its coordinates.
+  template <typename Description>
+  void read_binary_point(Words& words, const Description& description)
+  {
+    std::array<double, 3> p;
+    m_source.points.emplace_back();
+    for(int k = 0; k < 3; ++k)
+    {
+      p[k] = read_bytes<double>(words);
+      m_source.points.back()[k] = {words.begin(), words.end()};
+      if(!std::isfinite(p[k]))
+        refuse(words, "expected a finite number, a coordinate in " + description() +
+                        ", but found");
+    }
+    m_mesh.points.emplace_back(p[0], p[1], p[2]);
   }
 
   // Appends a point and the place of its coordinates.
@@ -138,6 +178,7 @@ protected:
   std::string m_name;
   Source_text m_source;
   Tetrahedral_mesh m_mesh;
+  std::string m_found; // in a binary file: the last number, for messages
 };
 
 } // namespace CGAL::ARAP::demo

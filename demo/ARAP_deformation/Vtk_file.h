@@ -18,12 +18,16 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
+
+// whether VTK's cells of a type are points, lines or polygons: they move with their vertices
+inline bool is_flat_vtk_cell(long long type) { return type >= 1 && type <= 9; }
+
+const int vtk_tetrahedron = 10;
 
 // Tetrahedra in .vtk files: unstructured grids in the legacy format of VTK, as text. Data of points
 // and cells are kept as they are.
@@ -93,15 +97,13 @@ private:
         cells = connectivity;
     }
     if(m_mesh.tetrahedra.empty())
-      refuse("has no tetrahedra; surfaces are read from .off, .obj, .ply, .stl and glTF files");
+      refuse_without_tetrahedra();
   }
 
   void read_cell(Words& words, long long size, long long type)
   {
-    const int tetrahedron = 10;
-    static const std::set<long long> flat = {1, 2, 3, 4, 5, 6, 7, 8, 9}; // or lines, or points
     std::array<int, 4> vertices = {};
-    if((type == tetrahedron && size != 4) || (type != tetrahedron && flat.count(type) == 0))
+    if(type == vtk_tetrahedron ? size != 4 : !is_flat_vtk_cell(type))
       refuse(words, "only tetrahedra with four vertices can be deformed, but there is a cell of "
                     "the type " + std::to_string(type) + " with " + std::to_string(size) +
                     " vertices, after");
@@ -109,10 +111,10 @@ private:
     {
       const auto v = static_cast<int>(
         read(words, static_cast<long long>(m_mesh.points.size()) - 1));
-      if(type == tetrahedron)
+      if(type == vtk_tetrahedron)
         vertices[k] = v;
     }
-    if(type != tetrahedron)
+    if(type != vtk_tetrahedron)
       return;
     check_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
     m_mesh.tetrahedra.push_back(vertices);

@@ -19,12 +19,12 @@
 #include "Shape_file.h"
 #include "Task.h"
 #include "mesh_panel.h"
-#include "result_quality.h"
-#include "self_intersections.h"
 #include "shape_files.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/ARAP_deformation/quality.h>
+#include <CGAL/ARAP_deformation/self_intersections.h>
 #include <CGAL/Real_timer.h>
 
 #include <nlohmann/json.hpp>
@@ -44,6 +44,7 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -52,6 +53,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -97,10 +99,9 @@ using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Chosen_weight>;
 struct Result
 {
   Report report;             // of the last frame
-  std::vector<Report> frames;
+  std::vector<CGAL::ARAP::Step_report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
-  double edge_length_error = 0;
-  Quality quality;
+  CGAL::ARAP::Quality quality;
   std::optional<std::size_t> self_intersections; // if they were looked for
   double load_seconds = 0;
 };
@@ -129,7 +130,7 @@ public:
 
   void show(const std::string& what)
   {
-    m_timer.reset();
+    m_timer = CGAL::Real_timer(); // it may be running
     m_timer.start();
     if(m_is_shown)
       std::cerr << '\r' << what << "\033[K" << std::flush;
@@ -181,11 +182,11 @@ void write_report(Output_file& file, const Result& result)
   json["estimated_relative_gap"] = nullptr;
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
-  json["edge_length_error"] = result.edge_length_error;
+  json["edge_length_error"] = result.quality.edge_length_error;
   json["area_change"] = result.quality.area_change;
   json["volume_change"] = nullptr;
-  if(result.quality.volume_change)
-    json["volume_change"] = *result.quality.volume_change;
+  if(std::isfinite(result.quality.volume_change))
+    json["volume_change"] = result.quality.volume_change;
   json["largest_angle_change"] = result.quality.largest_angle_change;
   json["largest_spike"] = result.quality.largest_spike;
   if(result.self_intersections)
@@ -198,11 +199,17 @@ void write_report(Output_file& file, const Result& result)
   if(const auto bytes = peak_memory_bytes())
     json["peak_memory_bytes"] = *bytes;
   if(result.frames.size() > 1)
-    for(const Report& frame : result.frames)
+    for(const CGAL::ARAP::Step_report& frame : result.frames)
+    {
       json["frames"].push_back({{"iterations", frame.iterations},
                                 {"energy", {frame.energy.front(), frame.final_energy()}},
                                 {"factorized", frame.stages.factor},
                                 {"seconds", seconds(frame)}});
+      if(frame.mass > 0) // of a time step
+        json["frames"].back().update({{"kinetic_energy", frame.kinetic_energy},
+                                      {"elastic_energy", frame.elastic_energy},
+                                      {"center_of_mass", frame.center_of_mass}});
+    }
   file.write([&json](std::ostream& out) { out << std::setw(2) << json << '\n'; });
 }
 
@@ -213,10 +220,137 @@ void expect_success(const Command_line& line, const CGAL::ARAP::Outcome& outcome
     throw std::runtime_error(line.mesh + ": " + outcome.message);
 }
 
+// A point inside a simplex that is picked, with its status.
+template <typename Domain>
+struct Held_point
+{
+  int status;
+  CGAL::ARAP::Location<typename Domain::simplex_descriptor> location;
+};
+
+template <typename Domain>
+std::vector<Held_point<Domain>> held_points(const Command_line& line, const Domain& domain,
+                                            const std::vector<Kernel::Point_3>& points)
+{
+  std::vector<Held_point<Domain>> held;
+  std::optional<CGAL::ARAP::Locator<Domain>> locator;
+  for(const auto& [status, pick] : line.picks)
+    if(pick.is_point())
+    {
+      if(!locator)
+        locator.emplace(domain);
+      const auto location = locator->locate(pick.point(points));
+      if(!location)
+        throw std::runtime_error(pick.name() + ": there is no place for it in the mesh");
+      held.push_back({status, *location});
+    }
+  return held;
+}
+
+// with their places
+template <typename Domain>
+std::vector<std::pair<int, Kernel::Point_3>> places(const std::vector<Held_point<Domain>>& held,
+                                                    const Domain& domain)
+{
+  std::vector<std::pair<int, Kernel::Point_3>> result;
+  for(const auto& point : held)
+  {
+    Kernel::Vector_3 place(0, 0, 0);
+    std::size_t k = 0;
+    for(auto v : domain.simplex_vertices(point.location.simplex))
+      place += point.location.coordinates[k++] * (domain.point(v) - CGAL::ORIGIN);
+    result.emplace_back(point.status, CGAL::ORIGIN + place);
+  }
+  return result;
+}
+
+// Which of some picks has a cell: the last one with its vertex, or with all corners of its simplex.
+template <typename Domain>
+class Cell_picks
+{
+public:
+  // Throws if a pick has no cell.
+  Cell_picks(const std::vector<Pick>& picks, bool is_at_vertices, const Domain& domain,
+             const std::vector<Kernel::Point_3>& points)
+    : m_domain(domain)
+  {
+    for(const Pick& pick : picks)
+    {
+      m_is_picked.emplace_back(points.size());
+      for(std::size_t v : pick.vertices(points))
+        m_is_picked.back()[v] = true;
+      bool has_cell = is_at_vertices;
+      for(auto v = domain.vertices().begin(); v != domain.vertices().end() && !has_cell; ++v)
+        domain.for_each_incident_simplex(*v, [&](const auto&, const auto& corners) {
+          has_cell = has_cell || has_all(m_is_picked.back(), corners);
+        });
+      if(!has_cell)
+        throw std::runtime_error(pick.name() + ": has no cell: none has all its corners there");
+    }
+  }
+
+  // -1 for none
+  int of_vertex(typename Domain::vertex_descriptor v) const
+  {
+    return last([&](const auto& is_picked) { return is_picked[m_domain.index(v)]; });
+  }
+
+  int of_simplex(typename Domain::simplex_descriptor s) const
+  {
+    return last([&](const auto& is_picked) {
+      return has_all(is_picked, m_domain.simplex_vertices(s));
+    });
+  }
+
+private:
+  template <typename Corners>
+  bool has_all(const std::vector<bool>& is_picked, const Corners& corners) const
+  {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](auto v) { return is_picked[m_domain.index(v)]; });
+  }
+
+  template <typename Predicate>
+  int last(const Predicate& has_cell) const
+  {
+    int k = static_cast<int>(m_is_picked.size()) - 1;
+    while(k >= 0 && !has_cell(m_is_picked[k]))
+      --k;
+    return k;
+  }
+
+  Domain m_domain;
+  std::vector<std::vector<bool>> m_is_picked;
+};
+
+// Sets the stiffness and the rigid parts.
+template <typename Deformation>
+void set_cell_values(Deformation& deformation, const Command_line& line,
+                     const std::vector<Kernel::Point_3>& points)
+{
+  using Vertex = typename Deformation::vertex_descriptor;
+  using Simplex = typename Deformation::simplex_descriptor;
+  const auto& domain = deformation.domain();
+  const bool is_at_vertices = line.options.cells.has_vertex_cells();
+  const Cell_picks stiff(line.stiff, is_at_vertices, domain, points),
+    rigid(line.rigid, is_at_vertices, domain, points);
+  const auto value = [line](int k) { return k < 0 ? 1.0 : line.stiffness[k]; };
+  if(!line.stiff.empty() && is_at_vertices)
+    deformation.set_stiffness([=](Vertex v) { return value(stiff.of_vertex(v)); });
+  else if(!line.stiff.empty())
+    deformation.set_stiffness([=](Simplex s) { return value(stiff.of_simplex(s)); });
+  if(!line.rigid.empty() && is_at_vertices)
+    deformation.set_groups([rigid](Vertex v) { return rigid.of_vertex(v); });
+  else if(!line.rigid.empty())
+    deformation.set_groups([rigid](Simplex s) { return rigid.of_simplex(s); });
+}
+
 // Deforms the shape of a domain, each frame from the one before; after_frame(report) follows each.
 template <typename Domain>
-void deform(const Command_line& line, const Domain& domain, const Task& task, Progress& progress,
-            const std::function<void(const Report&)>& after_frame)
+void deform(const Command_line& line, const Domain& domain, const Task& task,
+            const std::vector<Held_point<Domain>>& held,
+            const std::vector<Kernel::Point_3>& rest_points, Progress& progress,
+            const std::function<void(const CGAL::ARAP::Step_report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
   Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
@@ -224,6 +358,7 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
   options.bending_length *= task.diagonal;
   options.smoothing_length *= task.diagonal;
   expect_success(line, deformation.set_options(options));
+  set_cell_values(deformation, line, rest_points);
   std::vector<std::vector<typename Deformation::vertex_descriptor>> handles(task.handles.size());
   for(auto v : domain.vertices())
   {
@@ -237,15 +372,33 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
     if(const auto& weight = task.handles[status - HANDLE].weight)
       expect_success(line, deformation.set_target_weight(v, *weight));
   }
+  std::vector<std::vector<CGAL::ARAP::Control_point>> points(task.handles.size());
+  for(const auto& [status, location] : held)
+  {
+    const auto inserted = deformation.insert_control_point(location);
+    expect_success(line, inserted);
+    for(auto v : domain.simplex_vertices(location.simplex))
+      if(task.selection[domain.index(v)] == FIXED)
+        deformation.erase_roi_vertex(v); // it has been inserted, and is not free
+    if(status < HANDLE)
+      continue;
+    points[status - HANDLE].push_back(inserted.point);
+    if(const auto& weight = task.handles[status - HANDLE].weight)
+      expect_success(line, deformation.set_target_weight(inserted.point, *weight));
+  }
   for(int frame = 1; frame <= line.frames; ++frame)
   {
     const double time = static_cast<double>(task.key_frames) * frame / line.frames;
     for(std::size_t k = 0; k < handles.size(); ++k)
     {
       const auto map = task.handles[k].transform(time);
-      expect_success(line, deformation.transform(
-        handles[k], [&map](const auto& p) { return transformed(map, p); },
-        CGAL::ARAP::Transformed::rest_shape));
+      const auto move = [&](const auto& targets) {
+        expect_success(line, deformation.transform(
+          targets, [&map](const auto& p) { return transformed(map, p); },
+          CGAL::ARAP::Transformed::rest_shape));
+      };
+      move(handles[k]);
+      move(points[k]);
       for(auto v = handles[k].begin(); v != handles[k].end() && task.handles[k].is_frame; ++v)
         expect_success(line, deformation.set_target_rotation(
           *v, CGAL::ARAP::demo::internal::rotation_of(map)));
@@ -253,7 +406,7 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
     const std::string which = line.frames == 1 ? "" : "frame " + std::to_string(frame) + " of " +
                                                       std::to_string(line.frames) + ", ";
     progress.show(which + "preprocessing ...");
-    const Report report = deformation.deform([&](const typename Deformation::Iterate& iterate) {
+    const auto visitor = [&](const typename Deformation::Iterate& iterate) {
       if(iterate.iteration() == 0 && frame == 1)
         progress.done("preprocessed");
       if(progress.is_shown())
@@ -265,7 +418,14 @@ void deform(const Command_line& line, const Domain& domain, const Task& task, Pr
       }
       return is_interrupted ? CGAL::ARAP::Visitor_action::cancel
                             : CGAL::ARAP::Visitor_action::proceed;
-    });
+    };
+    CGAL::ARAP::Step_report report;
+    if(line.dynamics)
+      report = deformation.advance(
+        *line.dynamics, std::map<typename Deformation::vertex_descriptor, CGAL::ARAP::Coordinates>(),
+        visitor);
+    else
+      static_cast<Report&>(report) = deformation.deform(visitor);
     progress.show("");
     expect_success(line, report);
     after_frame(report);
@@ -297,7 +457,7 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
             << "energy " << report.energy.front() << " -> " << report.final_energy()
-            << ", edge length error " << result.edge_length_error << '\n';
+            << ", edge length error " << result.quality.edge_length_error << '\n';
   if(result.self_intersections)
     out << *result.self_intersections << " pairs of faces intersect\n";
   if(report.inverted_simplices > 0)
@@ -334,7 +494,7 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
       throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
-                                      ".gltf, .glb, .mesh, .msh or .vtk");
+                                      ".gltf, .glb, .mesh, .msh, .vtk or .vtu");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);
@@ -346,28 +506,6 @@ void check_mesh_files(const Command_line& line, const std::string& format)
     throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
                              " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "
                              "file");
-}
-
-// the simplices of a shape; polygons are cut as for a picture
-std::vector<std::array<int, 3>> simplices_of(const Mesh& mesh) { return skin(mesh).triangles; }
-
-const std::vector<std::array<int, 4>>& simplices_of(const Tetrahedral_mesh& mesh)
-{
-  return mesh.tetrahedra;
-}
-
-template <typename Shape>
-void measure(const Command_line& line, const Shape& shape,
-             const std::vector<Kernel::Point_3>& rest_points, const Skin& boundary, Result& result)
-{
-  const std::vector<Kernel::Point_3> points = points_of(shape.mesh());
-  std::vector<std::array<int, 3>> triangles = boundary.triangles;
-  for(auto& triangle : triangles)
-    for(int& corner : triangle)
-      corner = static_cast<int>(boundary.vertices[corner]);
-  result.quality = quality(simplices_of(shape.mesh()), triangles, rest_points, points);
-  if(line.has_quality)
-    result.self_intersections = number_of_self_intersections(triangles, points);
 }
 
 // The measures as colours: from 0 to 1 for the largest, which the caption tells.
@@ -447,7 +585,9 @@ void run(const Command_line& line, const std::string& format)
   load_timer.start();
   Shape shape(line.mesh, format);
   const std::vector<Kernel::Point_3> rest_points = points_of(shape.mesh());
-  const Task task = make_task(line, rest_points);
+  const typename Shape::Domain domain = shape.domain();
+  const auto held = held_points(line, domain, rest_points);
+  const Task task = make_task(line, rest_points, places(held, domain));
   load_timer.stop();
   progress.done("loaded " + line.mesh + ", " + std::to_string(shape.number_of_vertices()) +
                 " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
@@ -470,18 +610,16 @@ void run(const Command_line& line, const std::string& format)
   if(outputs.film)
     film.add_frame(panel_of(rest_points, ""));
 
-  const typename Shape::Domain domain = shape.domain();
   Result result;
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
   std::vector<double> color; // of each vertex
-  deform(line, domain, task, progress, [&](const Report& report) {
+  deform(line, domain, task, held, rest_points, progress, [&](const auto& report) {
     result.frames.push_back(report);
     if(!line.color.empty())
     {
-      color = measure_at_vertices(vertex_measure(line.color), simplices_of(shape.mesh()),
-                                  rest_points, points_of(shape.mesh()));
+      color = CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), domain, rest_points);
       shape.set_property(line.color, color);
     }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
@@ -490,9 +628,9 @@ void run(const Command_line& line, const std::string& format)
       film.add_frame(panel_of(points_of(shape.mesh()), ""));
   });
   result.report = result.frames.back();
-  result.edge_length_error = CGAL::ARAP::relative_edge_length_error(domain, rest_points);
-  if(outputs.report || line.has_quality)
-    measure(line, shape, rest_points, boundary, result);
+  result.quality = CGAL::ARAP::quality(domain, rest_points);
+  if(line.has_quality)
+    result.self_intersections = CGAL::ARAP::number_of_self_intersections(domain);
 
   if(outputs.image)
   {

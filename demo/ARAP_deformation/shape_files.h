@@ -140,7 +140,8 @@ inline bool is_surface_format(const std::string& format)
 
 inline bool is_tetrahedra_format(const std::string& format)
 {
-  return format == ".mesh" || format == ".msh" || format == ".vtk";
+  return format == ".mesh" || format == ".msh" || format == ".vtk" ||
+         format == ".vtu";
 }
 
 inline bool is_mesh_format(const std::string& format)
@@ -173,6 +174,14 @@ public:
       m_begin = or_end(m_text.find_first_not_of(" \t\r\n\f\v",
                                                 or_end(m_text.find('\n', m_begin))));
     m_end = or_end(m_text.find_first_of(" \t\r\n\f\v#", m_begin));
+    return m_text.substr(m_begin, m_end - m_begin);
+  }
+
+  // the next n characters, whatever they are; fewer at the end of the text
+  std::string_view skip(std::size_t n)
+  {
+    m_begin = m_end;
+    m_end += (std::min)(n, m_text.size() - m_begin);
     return m_text.substr(m_begin, m_end - m_begin);
   }
 

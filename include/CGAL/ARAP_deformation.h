@@ -591,22 +591,34 @@ public:
   /// \param dynamics the length of the step, masses and accelerations
   /// \param forces a map of vertices, as for stiffness: the external forces, which have
   ///        `operator[]`; where it has no value there is none
-  template <typename ForceMap>
-  [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics, const ForceMap& forces)
+  /// \param visitor a model of `ARAPDeformationVisitor`, which is called at each iterate; what it
+  ///        cancels has not happened
+  template <typename ForceMap, typename Visitor>
+  [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics, const ForceMap& forces,
+                                          Visitor&& visitor)
   {
-    return m_session.advance(dynamics, [&](vertex_descriptor v) {
+    const auto force_at = [&](vertex_descriptor v) {
       ARAP::Coordinates force = {0, 0, 0};
       ARAP::internal::with_value(forces, v, domain().index(v), [&](const auto& f) {
         force = {f[0], f[1], f[2]};
       });
       return force;
-    });
+    };
+    return m_session.advance(dynamics, force_at, visitor);
+  }
+
+  /// advances by a time step without a visitor.
+  template <typename ForceMap>
+  [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics, const ForceMap& forces)
+  {
+    return advance(dynamics, forces, ARAP::Default_visitor());
   }
 
   /// advances without forces beside the acceleration of the dynamics.
   [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics)
   {
-    return m_session.advance(dynamics, {});
+    ARAP::Default_visitor visitor;
+    return m_session.advance(dynamics, {}, visitor);
   }
 
   /// returns the velocity of `v`: what the last `advance()` has moved it, over the time step, or

@@ -986,6 +986,214 @@ void test_quality()
   CHECK(!report("r.json").contains("self_intersections"));
 }
 
+Eigen::Vector3d centroid(const std::vector<Eigen::Vector3d>& points, std::size_t triangle)
+{
+  const auto& [a, b, c] = shape.triangles[triangle];
+  return (points[a] + points[b] + points[c]) / 3;
+}
+
+std::string numbers(const Eigen::Vector3d& p)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << p.x() << ',' << p.y() << ',' << p.z();
+  return out.str();
+}
+
+// Points inside faces: held where they are, moved, or pulled; also where a corner is fixed, and where
+// they are picked from a point near the surface.
+void test_control_points()
+{
+  test_case() = "control points";
+  const std::size_t held = 3, moved = 100, last = shape.triangles.size() - 1;
+  const Eigen::Vector3d step(0.1, -0.2, 0.3);
+  const auto near_face = [](std::size_t t) { // not on the surface
+    const auto& [a, b, c] = shape.triangles[t];
+    const auto& p = shape.points;
+    return numbers(centroid(p, t) + 0.05 * (p[b] - p[a]).cross(p[c] - p[a]).normalized());
+  };
+  const std::string call = "in.off --fix z:..0.1 --fix point:" + near_face(last) +
+                           " --handle point:" + near_face(moved) + " --move 0.1,-0.2,0.3 -o "
+                           "points.off";
+  CHECK(run(call).exit_code == 0);
+  auto result = read_points("points.off");
+  for(const auto& [triangle, way] : {std::pair(moved, step), {last, Eigen::Vector3d(0, 0, 0)}})
+    CHECK_AT_MOST((centroid(result, triangle) - centroid(shape.points, triangle) - way).norm(),
+                  1e-9);
+  for(std::size_t v = 0; v < result.size(); ++v)
+    if(shape.points[v].z() < 0.1)
+      CHECK(result[v] == shape.points[v]);
+  double gap = 0; // between targets and points that are pulled
+  for(const std::string weight : {"0.1", "10", "1e9"})
+  {
+    CHECK(run(call + " --soft " + weight).exit_code == 0);
+    const double before = gap;
+    gap = (centroid(read_points("points.off"), moved) - centroid(shape.points, moved) - step).norm();
+    CHECK(weight == "0.1" ? gap > 1e-3 : gap < before);
+  }
+  CHECK_AT_MOST(gap, 1e-6);
+
+  test_case() = "a control point with fixed corners";
+  const auto& corners = shape.triangles[held];
+  CHECK(run("in.off --fix list:" + std::to_string(corners[0]) + ',' + std::to_string(corners[1]) +
+            " --handle point:" + near_face(held) + " --move 0.1,-0.2,0.3 -o points.off").exit_code ==
+        0);
+  result = read_points("points.off");
+  CHECK_AT_MOST((centroid(result, held) - centroid(shape.points, held) - step).norm(), 1e-9);
+  for(int k = 0; k < 2; ++k)
+    CHECK(result[corners[k]] == shape.points[corners[k]]);
+
+  test_case() = "a control point that turns about itself";
+  CHECK(run("in.off --fix z:..0.1 --handle point:" + near_face(moved) + " --rotate 1,2,3 50 -o "
+            "points.off").exit_code == 0);
+  result = read_points("points.off");
+  for(std::size_t v = 0; v < result.size(); ++v)
+    CHECK_AT_MOST((result[v] - shape.points[v]).norm(), 1e-9);
+
+  const std::string handle = "in.off --handle point:0,0,0 --move 1,0,0 -o new.off";
+  check_refused(handle + " --turn", 2, "--turn: the handle is a point");
+  check_refused(handle + " --region point:0,0,0", 2, "for --fix and --handle only");
+  check_refused(handle + " --save-selection new.sel", 2, "a selection has vertices only, not "
+                                                         "--handle point:0,0,0");
+  check_refused("in.off --handle point:0,0 --move 1,0,0 -o new.off", 2, "expected the numbers x,y,z");
+  std::string all = "0";
+  for(std::size_t v = 1; v < shape.points.size(); ++v)
+    all += ',' + std::to_string(v);
+  check_refused(handle + " --fix list:" + all, 1, "in.off: ");
+}
+
+// Stiff cells and rigid parts, against the library.
+void test_cell_values()
+{
+  const auto z = [](std::size_t v) { return shape.points[v].z(); };
+  const auto stiffness = [&](std::size_t v) { return z(v) < 1.1 ? 20. : z(v) < 2.1 ? 0.5 : 1.; };
+  const auto group = [&](std::size_t v) { return z(v) < 2.1 ? -1 : z(v) < 3.1 ? 0 : 1; };
+  for(const std::string cells : {"spokes", "elements"})
+  {
+    test_case() = "stiffness and rigid parts, " + cells;
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(cells == "spokes" ? Cell_scheme::spokes()
+                                                      : Cell_scheme::elements(),
+                                    CGAL::ARAP::Minimizer::automatic,
+                                    CGAL::ARAP::Initial_guess::automatic)));
+    if(cells == "spokes")
+    {
+      d.set_stiffness([&](Mesh::Vertex_index v) { return stiffness(v); });
+      d.set_groups([&](Mesh::Vertex_index v) { return group(v); });
+    }
+    else
+    {
+      const auto corner = [&](Mesh::Face_index f, bool is_highest) { // of a face
+        std::size_t result = shape.triangles[f][0];
+        for(std::size_t v : shape.triangles[f])
+          if(is_highest == (z(v) > z(result)))
+            result = v;
+        return result;
+      };
+      // all its corners are picked: below something, or between two heights
+      d.set_stiffness([=](Mesh::Face_index f) { return stiffness(corner(f, true)); });
+      d.set_groups([=](Mesh::Face_index f) {
+        return z(corner(f, false)) > 3.1 ? 1
+               : z(corner(f, false)) > 2.1 && z(corner(f, true)) < 3.1 ? 0 : -1;
+      });
+    }
+    const Eigen::Affine3d map(rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0}));
+    write("bend.def", text(map));
+    for(auto v : mesh.vertices())
+    {
+      if(status(shape.points[v]) != 0)
+        d.insert_roi_vertex(v);
+      const Eigen::Vector3d target = map * shape.points[v];
+      if(status(shape.points[v]) == 2)
+        d.insert_control_vertex(v, Point(target.x(), target.y(), target.z()));
+    }
+    const CGAL::ARAP::Report report = d.deform(20, 0);
+    CHECK(report);
+    const std::string call = "in.off --selection in.sel --transform bend.def -o cells.off "
+                             "--iterations 20 --tolerance 0 --cells " + cells;
+    CHECK(run(call).exit_code == 0);
+    const auto plain = read_points("cells.off");
+    CHECK(run(call + " --stiffness z:..2.1 0.5 --stiffness z:..1.1 20 --rigid z:2.1..3.1 "
+                     "--rigid z:3.1..").exit_code == 0);
+    const auto result = read_points("cells.off");
+    double difference = 0;
+    for(auto v : mesh.vertices())
+    {
+      CHECK_AT_MOST((result[v] - vector(mesh.point(v))).norm(), 1e-9);
+      difference = (std::max)(difference, (result[v] - plain[v]).norm());
+    }
+    CHECK(difference > 1e-2);
+    check_refused(call + " --rigid list:999", 1, "there is no vertex 999");
+    if(cells == "elements")
+      check_refused(call + " --rigid near:0,0,0", 1, "has no cell: none has all its corners there");
+  }
+  const std::string call = "in.off --selection in.sel --transform in.def -o new.off ";
+  check_refused(call + "--stiffness z:..1", 2, "--stiffness: expected WHAT K");
+  check_refused(call + "--stiffness z:..1 -2", 2, "a stiffness is not negative");
+  check_refused(call + "--stiffness z:..1 stiff", 2, "'stiff' is not a finite number");
+  check_refused(call + "--rigid everything", 2, "expected box:, sphere:");
+}
+
+// Time steps: free fall, against the sum of what implicit Euler adds; a body that hangs, against the
+// library; and what makes no sense.
+void test_dynamics()
+{
+  test_case() = "free fall";
+  const std::string gravity = " --gravity 0,0,-9.5 --time_step 0.02 --modulus 300 ";
+  CHECK(run("in.off --frames 3 -o fall.off --report r.json" + gravity).exit_code == 0);
+  auto json = nlohmann::json::parse(content(folder / "r.json"));
+  CHECK(json["frames"].size() == 3);
+  for(int n = 1; n <= 3; ++n)
+  {
+    const auto points = read_points("fall-000" + std::to_string(n) + ".off");
+    const double way = -9.5 * 0.02 * 0.02 * n * (n + 1) / 2;
+    for(std::size_t v = 0; v < points.size(); ++v)
+      CHECK_AT_MOST((points[v] - shape.points[v] - Eigen::Vector3d(0, 0, way)).norm(), 1e-9);
+    const auto& frame = json["frames"][n - 1];
+    CHECK_AT_MOST(std::abs(frame["center_of_mass"][2].get<double>() - 2.5 - way), 1e-9);
+    CHECK_AT_MOST(frame["elastic_energy"].get<double>(), 1e-9);
+  }
+
+  test_case() = "a body that hangs, and whose handle moves";
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  std::vector<Mesh::Vertex_index> handle;
+  for(auto v : mesh.vertices())
+  {
+    if(status(shape.points[v]) != 0)
+      d.insert_roi_vertex(v);
+    if(status(shape.points[v]) != 2)
+      continue;
+    d.insert_control_vertex(v);
+    handle.push_back(v);
+  }
+  CGAL::ARAP::Dynamics dynamics;
+  dynamics.time_step = 0.02;
+  dynamics.modulus = 300;
+  dynamics.damping = 2;
+  dynamics.acceleration = {-9.5, 0, 1};
+  CHECK(run("in.off --selection in.sel --move 0,0,0.4 --frames 4 -o hang.off --gravity -9.5,0,1 "
+            "--time_step 0.02 --modulus 300 --damping 2").exit_code == 0);
+  for(int n = 1; n <= 4; ++n)
+  {
+    d.translate(handle, Eigen::Vector3d(0, 0, 0.1));
+    CHECK(d.advance(dynamics));
+    const auto points = read_points("hang-000" + std::to_string(n) + ".off");
+    for(auto v : mesh.vertices())
+      CHECK_AT_MOST((points[v] - vector(mesh.point(v))).norm(), 1e-7);
+  }
+
+  check_refused("in.off --fix z:..1 -o new.off" + gravity, 2, "give --frames, how many time steps");
+  check_refused("in.off --fix z:..1 -o new.off --frames 3", 2, "nothing moves");
+  check_refused("in.off --fix z:..1 -o new.off --frames 3 --damping 1", 2,
+                "--damping is for time steps: give --gravity, too");
+  const std::string call = "in.off --fix z:..1 -o new.off --frames 3 --gravity ";
+  check_refused(call + "0,0", 2, "expected the numbers x,y,z");
+  check_refused(call + "0,0,1 --time_step 0", 2, "time_step of the dynamics must be positive");
+  check_refused(call + "0,0,1 --modulus x", 2, "--modulus 'x' is not a number");
+}
+
 void test_help()
 {
   test_case() = "help";
@@ -995,7 +1203,8 @@ void test_help()
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
        "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
        "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
-       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform"})
+       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform", "--stiffness", "--rigid",
+       "--gravity", "--time_step", "--modulus", "--damping"})
     CHECK(help.out.find(option) != std::string::npos);
 }
 
@@ -1012,6 +1221,9 @@ void test_all()
   test_picks();
   test_gltf();
   test_quality();
+  test_control_points();
+  test_cell_values();
+  test_dynamics();
   test_refusals();
 }
 
@@ -1350,7 +1562,7 @@ void test_other_formats()
                     grid = vtk("5.1", shape.points);
   refuse("msh", "OFF\n", ", line 1: a .msh file starts with '$MeshFormat', but this with 'OFF'");
   refuse("msh", replaced(good, "2.2 0", "4 0"), ", line 2: only the versions 2.2 and 4.1");
-  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary; save it as text");
+  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary, but does not show its byte order by the number 1");
   refuse("msh", replaced(good, "\n$Nodes\n", "\n$Node\n"), ": has no $Nodes");
   refuse("msh", replaced(good, "\n101 ", "\n100 "), ", line 11: a node has the same number as");
   refuse("msh", replaced(good, "100 101 102", "100 101 7"), ", line 58: there is no node '7'");
@@ -1369,6 +1581,28 @@ void test_other_formats()
   refuse("vtk", replaced(grid, "CELL_TYPES ", "CELL_TYPES 1"), "CELL_TYPES, but found");
   for(std::size_t size = 60; size < grid.find("CELL_TYPES"); size += 97)
     refuse("vtk", grid.substr(0, size), "");
+}
+
+// A point inside a tetrahedron, and one outside of all.
+void test_control_points()
+{
+  test_case() = "control points";
+  write("in.mesh", mesh_file(shape.points));
+  const auto& t = shape.tetrahedra[17];
+  const auto centroid = [&](const std::vector<Eigen::Vector3d>& p) {
+    return Eigen::Vector3d((p[t[0]] + p[t[1]] + p[t[2]] + p[t[3]]) / 4);
+  };
+  std::string place = row(centroid(shape.points));
+  std::replace(place.begin(), place.end(), ' ', ',');
+  CHECK(run("in.mesh --fix x:..0.1 --handle point:" + place + " --move 0.25,0,0.5 -o out.mesh")
+          .exit_code == 0);
+  CHECK_AT_MOST((centroid(read_points("out.mesh")) - centroid(shape.points) -
+                 Eigen::Vector3d(0.25, 0, 0.5)).norm(), 1e-9);
+  const Run done = run("in.mesh --fix x:..0.1 --handle point:9,9,9 --move 0,0,0 -o out.mesh");
+  CHECK(done.exit_code == 0);
+  const auto result = read_points("out.mesh");
+  for(std::size_t v = 0; v < number_of_vertices; ++v)
+    CHECK_AT_MOST((result[v] - shape.points[v]).norm(), 1e-9);
 }
 
 void test_rigid_motion()
@@ -1525,6 +1759,7 @@ void test_all()
   test_choices();
   test_text();
   test_other_formats();
+  test_control_points();
   test_rigid_motion();
   test_inside_out();
   test_refusals();

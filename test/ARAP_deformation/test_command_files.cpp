@@ -20,8 +20,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <random>
 #include <sstream>
@@ -403,6 +405,361 @@ void test_kept()
   }
 }
 
+// Three tetrahedra, and a triangle on them, in binary files. The last vertex moves by a vector of
+// floats: only its bytes change.
+namespace binary_volumes {
+
+using Points = std::vector<std::array<double, 3>>;
+
+const Points points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2, 1, 1}};
+const Points moved = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {2.25, 1, 0.5}};
+const std::vector<std::vector<int>> cells = {{0, 1, 2, 3}, {0, 1, 2}, {1, 2, 3, 4}, {1, 3, 4, 5}};
+const std::string rest = " --fix list:0,1,2,3,4 --handle list:5 --move 0.25,0,-0.5 -o new.";
+
+// of numbers: their bytes
+template <typename Number>
+std::string all(const std::vector<Number>& numbers, bool is_big)
+{
+  std::string text;
+  for(Number number : numbers)
+    text += bytes(number, is_big);
+  return text;
+}
+
+std::string msh2(const Points& p, bool is_big)
+{
+  std::string text = "$MeshFormat\n2.2 1 8\n" + bytes(1, is_big) + "\n$EndMeshFormat\n$Nodes\n6\n";
+  for(int v = 0; v < 6; ++v)
+    text += bytes(v + 100, is_big) + all<double>({p[v].begin(), p[v].end()}, is_big);
+  text += "\n$EndNodes\n$Elements\n4\n";
+  for(const auto& block : {std::vector<int>{4, 0, 2}, {2, 1}, {4, 3}}) // its type, and its cells
+  {
+    text += all<int>({block[0], static_cast<int>(block.size()) - 1, 2}, is_big);
+    for(std::size_t k = 1; k < block.size(); ++k)
+    {
+      text += all<int>({block[k] + 1, 7, -8}, is_big); // number and tags
+      for(int v : cells[block[k]])
+        text += bytes(v + 100, is_big);
+    }
+  }
+  return text + "\n$EndElements\n$NodeData\n\1\2\n\3";
+}
+
+std::string msh4(const Points& p, bool is_big)
+{
+  using Long = std::int64_t;
+  std::string text = "$MeshFormat\n4.1 1 8\n" + bytes(1, is_big) + "\n$EndMeshFormat\n$Entities\n" +
+                     all<Long>({0, 0, 0, 0}, is_big) + "\n$EndEntities\n$Nodes\n" +
+                     all<Long>({2, 6, 1, 60}, is_big) +
+                     all<int>({1, -4, 1}, is_big) + all<Long>({1, 10}, is_big) + // on a curve
+                     all<double>({p[0][0], p[0][1], p[0][2], 0.5}, is_big) +
+                     all<int>({3, 1, 0}, is_big) + all<Long>({5, 20, 30, 40, 50, 60}, is_big);
+  for(int v = 1; v < 6; ++v)
+    text += all<double>({p[v].begin(), p[v].end()}, is_big);
+  text += "\n$EndNodes\n$Elements\n" + all<Long>({4, 4, 1, 4}, is_big);
+  for(Long k = 0; k < 4; ++k)
+  {
+    text += all<int>({3, 1, cells[k].size() == 4 ? 4 : 2}, is_big) + all<Long>({1, k + 1}, is_big);
+    for(int v : cells[k])
+      text += bytes<Long>(10 * (v + 1), is_big);
+  }
+  return text + "\n$EndElements\n";
+}
+
+std::string base64(const std::string& text)
+{
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  for(std::size_t i = 0; i < text.size(); i += 3)
+  {
+    unsigned int word = 0;
+    for(std::size_t k = 0; k < 3; ++k)
+      word = 256 * word + (i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0);
+    for(std::size_t k = 0; k < 4; ++k)
+      result += i + k > text.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
+  }
+  return result;
+}
+
+// a stream of zlib, which is not smaller
+std::string stored(const std::string& text)
+{
+  const auto n = static_cast<std::uint16_t>(text.size());
+  unsigned int a = 1, b = 0;
+  for(unsigned char c : text)
+  {
+    a = (a + c) % 65521;
+    b = (b + a) % 65521;
+  }
+  return "\x78\1\1" + bytes(n, false) + bytes(static_cast<std::uint16_t>(~n), false) + text +
+         bytes(65536 * b + a, true);
+}
+
+// how a .vtu file is written
+struct Style
+{
+  std::string format; // ascii, binary, raw or base64, of which the last two are appended
+  bool is_big = false, is_long = false, is_double = false, is_compressed = false;
+
+  std::string head(std::size_t n) const
+  {
+    return is_long ? bytes<std::uint64_t>(n, is_big)
+                   : bytes(static_cast<std::uint32_t>(n), is_big);
+  }
+
+  std::string encoded(const std::string& text) const
+  {
+    return format == "raw" ? text : base64(text);
+  }
+
+  std::string encoded_array(const std::string& text) const
+  {
+    if(!is_compressed)
+      return encoded(head(text.size()) + text);
+    const std::size_t block = 32;
+    std::string heads = head((text.size() + block - 1) / block) + head(block) +
+                        head(text.size() % block), data;
+    for(std::size_t i = 0; i < text.size(); i += block)
+    {
+      const std::string part = stored(text.substr(i, block));
+      heads += head(part.size());
+      data += part;
+    }
+    return encoded(heads) + encoded(data);
+  }
+};
+
+std::string vtu(const Points& p, const Style& style)
+{
+  std::string appended;
+  const auto array = [&](const std::string& name, const std::string& type, const auto& numbers) {
+    const std::string start = "<DataArray Name='" + name + "' NumberOfComponents=\"" +
+                              (name == "Points" ? "3" : "1") + "\" type=\"" + type + "\" format=\"";
+    if(style.format == "ascii")
+    {
+      std::ostringstream text;
+      for(auto number : numbers)
+        text << +number << '\n';
+      return start + "ascii\">\n" + text.str() + "</DataArray>\n";
+    }
+    const std::string encoded = style.encoded_array(all(numbers, style.is_big));
+    if(style.format == "binary")
+      return start + "binary\">\n  " + encoded + "\n</DataArray>\n";
+    appended += encoded;
+    return start + "appended\" offset=\"" + std::to_string(appended.size() - encoded.size()) +
+           "\"/>\n";
+  };
+  std::vector<double> coordinates;
+  for(const auto& q : p)
+    coordinates.insert(coordinates.end(), q.begin(), q.end());
+  std::vector<std::int64_t> corners, ends;
+  std::vector<unsigned char> types;
+  for(const auto& cell : cells)
+  {
+    corners.insert(corners.end(), cell.begin(), cell.end());
+    ends.push_back(static_cast<std::int64_t>(corners.size()));
+    types.push_back(cell.size() == 4 ? 10 : 5);
+  }
+  std::string text = "<?xml version=\"1.0\"?>\n<!-- a <Piece> -->\n"
+                     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" +
+                     std::string(style.is_big ? "BigEndian" : "LittleEndian") +
+                     "\" header_type=\"" + (style.is_long ? "UInt64" : "UInt32") + '"' +
+                     (style.is_compressed ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+                     ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"6\" NumberOfCells=\"4\">\n"
+                     "<PointData>\n" +
+                     array("connectivity", "Float64", std::vector<double>{1, 2, 3, 4, 5, 6}) +
+                     "</PointData>\n<Points>\n";
+  text += style.is_double ? array("Points", "Float64", coordinates)
+                          : array("Points", "Float32",
+                                  std::vector<float>(coordinates.begin(), coordinates.end()));
+  text += "</Points>\n<Cells>\n" + array("connectivity", "Int64", corners);
+  text += array("offsets", "Int32", std::vector<int>(ends.begin(), ends.end()));
+  text += array("types", "UInt8", types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+  if(!appended.empty())
+    text += "<AppendedData encoding=\"" + style.format + "\">\n   _" + appended +
+            "\n</AppendedData>\n";
+  return text + "</VTKFile>\n";
+}
+
+// the points and tetrahedra that the command reads from a file
+std::string as_mesh(const std::string& file)
+{
+  CHECK(run(file + " --handle list:5 --move 0,0,0 --quiet -o read.mesh").exit_code == 0);
+  const std::string text = content(folder / "read.mesh");
+  fs::remove(folder / "read.mesh");
+  return text;
+}
+
+std::string expected_mesh(const Points& p)
+{
+  std::ostringstream text;
+  text << "MeshVersionFormatted 2\nDimension 3\nVertices 6\n";
+  for(const auto& q : p)
+    text << q[0] << ' ' << q[1] << ' ' << q[2] << " 0\n";
+  text << "Tetrahedra 3\n";
+  for(const auto& cell : cells)
+    if(cell.size() == 4)
+      text << cell[0] + 1 << ' ' << cell[1] + 1 << ' ' << cell[2] + 1 << ' ' << cell[3] + 1
+           << " 0\n";
+  return text.str() + "End\n";
+}
+
+void check_kept(const std::string& name, const std::string& extension, const std::string& before,
+                const std::string& after)
+{
+  test_case() = name;
+  write("in." + extension, before);
+  CHECK(as_mesh("in." + extension) == expected_mesh(points));
+  const Run done = run("in." + extension + rest + extension);
+  if(!CHECK(done.exit_code == 0 && done.err.empty()))
+    std::cerr << "    " << done.err;
+  CHECK(content(folder / ("new." + extension)) == after);
+  fs::remove(folder / ("new." + extension));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t place = text.find(from);
+  CHECK(place != std::string::npos);
+  return text.replace((std::min)(place, text.size()), from.size(), to);
+}
+
+void refuse(const std::string& extension, const std::string& text, const std::string& phrase)
+{
+  write("bad." + extension, text);
+  const bool is_start = phrase.empty() || phrase[0] == ','; // else the place is before it
+  check_refused("bad." + extension + rest + extension, 1,
+                is_start ? "bad." + extension + phrase : phrase);
+}
+
+void test_msh()
+{
+  for(const bool is_big : {false, true})
+  {
+    check_kept("binary msh 2.2", "msh", msh2(points, is_big), msh2(moved, is_big));
+    check_kept("binary msh 4.1", "msh", msh4(points, is_big), msh4(moved, is_big));
+  }
+  const std::string good2 = msh2(points, false), good4 = msh4(points, false);
+  for(const std::string& good : {good2, good4})
+    for(std::size_t size = 19; size < good.find("$EndElements"); size += 37)
+      refuse("msh", good.substr(0, size), "");
+  refuse("msh", replaced(good2, "2.2 1", "2.2 2"), ", line 2: a .msh file is text (0) or binary");
+  refuse("msh", replaced(good2, "1 8", "1 4"), ", line 2: only binary files with the data size 8");
+  refuse("msh", replaced(good2, bytes(1, false), "1\n\n\n"), ": is binary, but does not show its");
+  // a file whose numbers have not the byte order that it shows
+  refuse("msh", replaced(good4, bytes(1, false), bytes(1, true)),
+         ": byte 103: expected an integer");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Points damaged = points;
+  damaged[2][1] = nan;
+  refuse("msh", msh2(damaged, false), ": byte 117: expected a finite number, a coordinate in "
+                                      "node 3, but found nan");
+  refuse("msh", msh4(damaged, true), ": byte 287: expected a finite number, a coordinate in ");
+  refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n7"), ": byte ");
+  refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n5"),
+         ": byte 189: expected $EndNodes after as many as the file announces, but found");
+  refuse("msh", replaced(good2, "$Elements\n4", "$Elements\n3"),
+         ": byte 344: expected $EndElements after as many");
+  refuse("msh", replaced(good2, "$Elements\n4", "$Elements\n1"), "elements, but found 2");
+  refuse("msh", replaced(good2, bytes(105, false) + "\n", bytes(99, false) + "\n"),
+         ": byte 380: there is no node 99");
+  refuse("msh", replaced(good2, bytes(101, false), bytes(100, false)),
+         "a node has the same number as another one, in 100");
+}
+
+void test_vtu()
+{
+  for(const std::string format : {"ascii", "binary", "raw", "base64"})
+    for(const bool is_big : {false, true})
+    {
+      const Style style = {format, is_big, is_big != (format == "raw"), is_big};
+      check_kept(format + " vtu", "vtu", vtu(points, style), vtu(moved, style));
+    }
+  bool has_zlib = true;
+  for(const std::string format : {"binary", "raw", "base64"})
+  {
+    test_case() = "compressed vtu, " + format;
+    const Style style = {format, format == "raw", format == "base64", format == "raw", true};
+    const std::string text = vtu(points, style);
+    write("in.vtu", text);
+    const Run done = run("in.vtu" + rest + "vtu");
+    has_zlib = done.err.find("without zlib") == std::string::npos;
+    if(!has_zlib)
+      break;
+    if(!CHECK(done.exit_code == 0 && done.err.empty()))
+      std::cerr << "    " << done.err;
+    CHECK(as_mesh("in.vtu") == expected_mesh(points));
+    CHECK(as_mesh("new.vtu") == expected_mesh(moved));
+    const std::size_t begin = text.find("<Points>"); // what is before is as it was
+    CHECK(content(folder / "new.vtu").substr(0, begin) == text.substr(0, begin));
+    CHECK(run("in.vtu" + rest + "vtu --move -0.25,0,0.5").exit_code == 0);
+    CHECK(content(folder / "new.vtu") == text); // where nothing moves, all is
+    fs::remove(folder / "new.vtu");
+    std::string damaged = text;
+    for(std::size_t i = text.find("<AppendedData"); i < text.size() - 30; i += 11)
+      damaged[i + 29] = '7';
+    if(format != "binary")
+      refuse("vtu", damaged, "");
+    for(std::size_t size = text.size() - 40; size > 900; size -= 97)
+      refuse("vtu", text.substr(0, size), "");
+  }
+  if(!has_zlib)
+    std::cout << "NOTICE: arap_deform was built without zlib; compressed .vtu files were not tested"
+              << std::endl;
+
+  const std::string text = vtu(points, {"ascii"}), raw = vtu(points, {"raw"}),
+                    inside = vtu(points, {"binary"});
+  for(const std::string& good : {text, raw, inside, vtu(points, {"base64"})})
+    for(std::size_t size = 20; size < good.size() - 60; size += 67)
+      refuse("vtu", good.substr(0, size), "");
+  refuse("vtu", text.substr(0, text.size() - 5), ": ends before </VTKFile>");
+  refuse("vtu", "OFF</VTKFile>\n", ": has no UnstructuredGrid with a Piece");
+  refuse("vtu", replaced(text, "UnstructuredGrid", "PolyData"),
+         ", line 3: type='PolyData' cannot be read, only UnstructuredGrid");
+  refuse("vtu", replaced(text, "LittleEndian", "Middle"), ", line 3: byte_order='Middle' ");
+  refuse("vtu", replaced(text, "UInt32", "UInt16"), ", line 3: header_type='UInt16' cannot");
+  refuse("vtu", replaced(text, "header_type", "compressor='vtkLZ4DataCompressor' header_type"),
+         ", line 3: compressor='vtkLZ4DataCompressor' cannot be read");
+  refuse("vtu", replaced(text, "</Piece>", "</Piece><Piece>"), ": only one Piece can be read");
+  refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"-6\""),
+         ": the Piece has no NumberOfPoints or NumberOfCells that can be read, but '-6'");
+  refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"7\""),
+         ": expected a finite number, a coordinate in point 6, but found nothing");
+  refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"5\""),
+         ": expected 5 Points, but after them there is '2'");
+  refuse("vtu", replaced(raw, "NumberOfPoints=\"6\"", "NumberOfPoints=\"7\""),
+         ": there are 7 points, but the array has 72 bytes");
+  refuse("vtu", replaced(text, "NumberOfCells=\"4\"", "NumberOfCells=\"5\""),
+         ": there are 5 cells, but 4 offsets and 4 types");
+  refuse("vtu", replaced(text, "2\n1\n1\n</", "2\nnan\n1\n</"),
+         ": expected a finite number, a coordinate in point 5, but found 'nan'");
+  refuse("vtu", replaced(text, "4\n5\n</", "4\n6\n</"),
+         ": the cell 3 has the vertex 6, which does not exist");
+  refuse("vtu", replaced(text, "4\n5\n</", "4\n3\n</"), ": the cell 3 has a vertex twice");
+  refuse("vtu", replaced(text, "4\n7\n11\n", "4\n9\n11\n"), ": the cell 2 has the type 10 and 2 ");
+  refuse("vtu", replaced(text, "4\n7\n11\n", "4\n70\n11\n"), ": the cell 1 ends at 70, which is");
+  refuse("vtu", replaced(text, "10\n5\n", "10\n12\n"), ": the cell 1 has the type 12 and 3 ");
+  refuse("vtu", replaced(text, "'offsets'", "'ends'"), ": has no DataArray offsets in its Cells");
+  refuse("vtu", replaced(inside, "Float32\" format=\"binary\"", "Float32\" format=\"hex\""),
+         "the array Points has the format 'hex', which is neither ascii, binary nor appended");
+  Points damaged = points;
+  damaged[2][1] = std::numeric_limits<double>::infinity();
+  for(const std::string format : {"binary", "raw"})
+    refuse("vtu", vtu(damaged, {format}), ": point 2 has a coordinate that is infinite or not a");
+  // a file whose numbers have not the byte order that it tells
+  refuse("vtu", replaced(raw, "LittleEndian", "BigEndian"), "the array Points is shorter than it");
+  refuse("vtu", replaced(raw, "offset=\"52\"", "offset=\"-5\""),
+         "the array Points is appended, but not where its offset tells");
+}
+
+void test_all()
+{
+  test_msh();
+  test_vtu();
+}
+
+} // namespace binary_volumes
+
 void test_all()
 {
   limit_command();
@@ -418,6 +775,7 @@ void test_all()
   test_byte_order_marks();
   test_notes();
   test_kept();
+  binary_volumes::test_all();
 }
 
 } // namespace damaged
@@ -695,6 +1053,10 @@ Files make_files()
     {"in.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n"
                "0 0 0 1 0 0 0 1 0 0 0 1 1 1 1 2 1 1\nCELLS 3 15\n4 0 1 2 3\n4 1 2 3 4\n4 1 3 4 5\n"
                "CELL_TYPES 3\n10\n10\n10\n"},
+    {"binary.msh", damaged::binary_volumes::msh4(damaged::binary_volumes::points, false)},
+    {"in.vtu", damaged::binary_volumes::vtu(damaged::binary_volumes::points, {"ascii"})},
+    {"base64.vtu", damaged::binary_volumes::vtu(damaged::binary_volumes::points,
+                                                {"base64", true, true, true, true})},
     {"in.sel", "0\n0\n1\n1\n1\n2 # the last\n"},
     {"in.def", "1 0 0 0.1\n0 1 0 0.2\n0 0 1 0\n0 0 0 1\n"},
     {"text.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty double y\n"
@@ -792,7 +1154,8 @@ void test_all(int runs, unsigned int seed)
   const Files good = make_files();
   const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
                                            "text.ply", "in.stl", "text.stl", "in.mesh",
-                                           "in.gltf", "in.glb", "in.msh", "in.vtk"};
+                                           "in.gltf", "in.glb", "in.msh", "in.vtk",
+                                           "binary.msh", "in.vtu", "base64.vtu"};
   std::map<int, int> exit_codes;
   for(int i = 0; i < runs; ++i)
   {

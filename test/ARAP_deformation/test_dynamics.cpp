@@ -434,6 +434,23 @@ void undo_and_refuse()
   CHECK(report.message.find("vertex 4") != std::string::npos);
   CHECK(points == before && deformation.velocity(4) != (Coordinates{0, 0, 0}));
 
+  // a visitor sees each iterate; what it cancels has not happened
+  using CGAL::ARAP::Visitor_action;
+  const std::map<std::size_t, Vector3d> no_forces;
+  const Coordinates velocity = deformation.velocity(4);
+  int visits = 0;
+  const Step_report cancelled = deformation.advance(dynamics, no_forces, [&](const auto&) {
+    return ++visits < 2 ? Visitor_action::proceed : Visitor_action::cancel;
+  });
+  CHECK(cancelled.status == Status::cancelled && visits == 2);
+  CHECK(points == before && deformation.velocity(4) == velocity);
+  std::vector<double> energies;
+  const Step_report seen = deformation.advance(dynamics, no_forces, [&](const auto& iterate) {
+    energies.push_back(iterate.energy());
+    return Visitor_action::proceed;
+  });
+  CHECK(seen && energies.size() > 1 && energies == seen.energy);
+
   deformation.reset();
   CHECK(deformation.velocity(4) == (Coordinates{0, 0, 0}));
   deformation.clear_roi_vertices();

@@ -21,6 +21,8 @@
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/quality.h>
+#include <CGAL/ARAP_deformation/self_intersections.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
@@ -34,7 +36,9 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -806,10 +810,296 @@ void test_all(int number_of_shapes, int first_seed)
 
 } // namespace random_shapes
 
+// Measures of a result: what rigid motions and similarities do, an independent slow computation,
+// and what is known of small shapes.
+namespace quality_of_results {
+
+using CGAL::ARAP::Quality;
+using CGAL::ARAP::Vertex_measure;
+using Points = std::vector<Eigen::Vector3d>;
+
+const Vertex_measure all_measures[] = {Vertex_measure::edge_length_error,
+                                       Vertex_measure::size_change, Vertex_measure::angle_change,
+                                       Vertex_measure::spike};
+
+// cubes of six tetrahedra around a diagonal, every other one of the opposite orientation
+std::vector<std::array<std::size_t, 4>> block(int n, Points& points)
+{
+  std::vector<std::array<std::size_t, 4>> tetrahedra;
+  for(int k = 0; k < (n + 1) * (n + 1) * (n + 1); ++k)
+    points.emplace_back(k % (n + 1), k / (n + 1) % (n + 1), k / (n + 1) / (n + 1));
+  std::array<std::size_t, 3> steps = {1, std::size_t(n + 1), std::size_t((n + 1) * (n + 1))};
+  for(int k = 0; k < n * n * n; ++k)
+  {
+    const std::size_t a = k % n + steps[1] * (k / n % n) + steps[2] * (k / n / n);
+    std::sort(steps.begin(), steps.end());
+    const auto s = steps;
+    std::array<int, 3> order = {0, 1, 2};
+    do
+      tetrahedra.push_back({a, a + s[order[0]], a + s[order[0]] + s[order[1]],
+                            a + s[0] + s[1] + s[2]});
+    while(std::next_permutation(order.begin(), order.end()));
+  }
+  return tetrahedra;
+}
+
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const double c = a.normalized().dot(b.normalized());
+  return std::acos((std::max)(-1., (std::min)(1., c))) * 180 / std::acos(-1.);
+}
+
+double volume(const std::array<std::size_t, 4>& t, const Points& p)
+{
+  Eigen::Matrix3d m;
+  m << p[t[1]] - p[t[0]], p[t[2]] - p[t[0]], p[t[3]] - p[t[0]];
+  return m.determinant() / 6;
+}
+
+double area(const std::array<std::size_t, 3>& t, const Points& p) // by Heron
+{
+  const double a = (p[t[0]] - p[t[1]]).norm(), b = (p[t[1]] - p[t[2]]).norm(),
+               c = (p[t[2]] - p[t[0]]).norm(), s = (a + b + c) / 2;
+  return std::sqrt((std::max)(0., s * (s - a) * (s - b) * (s - c)));
+}
+
+double size(const std::array<std::size_t, 3>& t, const Points& p) { return area(t, p); }
+double size(const std::array<std::size_t, 4>& t, const Points& p) { return volume(t, p); }
+
+// what a vertex has, simplex by simplex
+template <std::size_t N>
+double slow_measure(Vertex_measure measure, std::size_t v,
+                    const std::vector<std::array<std::size_t, N>>& simplices, const Points& rest,
+                    const Points& now)
+{
+  double errors = 0, lengths = 0, change = 0, sizes = 0, largest = 0, rest_way = 0, way = 0;
+  Eigen::Vector3d rest_sum(0, 0, 0), sum(0, 0, 0);
+  for(const auto& s : simplices)
+  {
+    if(std::count(s.begin(), s.end(), v) == 0)
+      continue;
+    const double sign = size(s, rest) < 0 ? -1 : 1;
+    change += sign * (size(s, now) - size(s, rest));
+    sizes += std::abs(size(s, rest));
+    for(std::size_t w : s)
+    {
+      const Eigen::Vector3d e = rest[w] - rest[v], f = now[w] - now[v];
+      errors += (f.norm() - e.norm()) * (f.norm() - e.norm());
+      lengths += e.squaredNorm();
+      rest_sum += e;
+      sum += f;
+      rest_way += e.norm();
+      way += f.norm();
+      for(std::size_t u : s)
+        if(u != v && w != v && u != w)
+          largest = (std::max)(largest, std::abs(angle(now[u] - now[v], f) -
+                                                 angle(rest[u] - rest[v], e)));
+    }
+  }
+  return measure == Vertex_measure::edge_length_error ? std::sqrt(errors / lengths)
+         : measure == Vertex_measure::size_change     ? change / sizes
+         : measure == Vertex_measure::angle_change    ? largest
+                                      : sum.norm() / way - rest_sum.norm() / rest_way;
+}
+
+template <std::size_t N>
+Quality slow_quality(const std::vector<std::array<std::size_t, N>>& simplices, const Points& rest,
+                     const Points& now)
+{
+  Quality result;
+  double errors = 0, lengths = 0, area_now = 0, area_rest = 0, volume_now = 0, volume_rest = 0;
+  std::set<std::pair<std::size_t, std::size_t>> edges;
+  for(const auto& s : simplices)
+    for(std::size_t v : s)
+      for(std::size_t w : s)
+        edges.emplace(v, w); // also (v, v), which adds nothing, and each in both directions
+  for(const auto& [v, w] : edges)
+  {
+    const double l = (rest[v] - rest[w]).norm();
+    errors += std::pow((now[v] - now[w]).norm() - l, 2);
+    lengths += l * l;
+  }
+  result.edge_length_error = std::sqrt(errors / lengths);
+  bool is_closed = true;
+  for(const auto& s : simplices)
+  {
+    const auto has_neighbour = [&](std::size_t left_out) { // with these corners but one
+      return std::count_if(simplices.begin(), simplices.end(), [&](const auto& other) {
+        return std::all_of(s.begin(), s.end(), [&](std::size_t v) {
+          return v == left_out || std::count(other.begin(), other.end(), v) > 0;
+        });
+      }) > 1;
+    };
+    for(std::size_t left_out : s)
+    {
+      if(has_neighbour(left_out))
+        continue;
+      is_closed = false;
+      if constexpr(N == 4)
+      {
+        std::array<std::size_t, 3> face;
+        std::copy_if(s.begin(), s.end(), face.begin(),
+                     [&](std::size_t v) { return v != left_out; });
+        area_now += area(face, now);
+        area_rest += area(face, rest);
+      }
+    }
+    if constexpr(N == 4)
+    {
+      const double sign = volume(s, rest) < 0 ? -1 : 1;
+      volume_now += sign * volume(s, now);
+      volume_rest += sign * volume(s, rest);
+      result.inverted_simplices += volume(s, now) * volume(s, rest) < 0;
+    }
+    else
+    {
+      area_now += area(s, now);
+      area_rest += area(s, rest);
+      volume_now += now[s[0]].dot(now[s[1]].cross(now[s[2]])) / 6;
+      volume_rest += rest[s[0]].dot(rest[s[1]].cross(rest[s[2]])) / 6;
+    }
+  }
+  result.area_change = area_now / area_rest - 1;
+  if(N == 4 || is_closed)
+    result.volume_change = volume_now / volume_rest - 1;
+  for(std::size_t v = 0; v < rest.size(); ++v)
+  {
+    const auto at_v = [&](Vertex_measure m) { return slow_measure(m, v, simplices, rest, now); };
+    result.largest_angle_change = (std::max)(result.largest_angle_change,
+                                             at_v(Vertex_measure::angle_change));
+    result.largest_spike = (std::max)(result.largest_spike, at_v(Vertex_measure::spike));
+  }
+  return result;
+}
+
+void compare(const Quality& a, const Quality& b)
+{
+  CHECK_AT_MOST(std::abs(a.edge_length_error - b.edge_length_error), 1e-12);
+  CHECK_AT_MOST(std::abs(a.area_change - b.area_change), 1e-10);
+  CHECK(std::isnan(a.volume_change) == std::isnan(b.volume_change));
+  if(!std::isnan(a.volume_change))
+    CHECK_AT_MOST(std::abs(a.volume_change - b.volume_change), 1e-9);
+  CHECK_AT_MOST(std::abs(a.largest_angle_change - b.largest_angle_change), 1e-4);
+  CHECK_AT_MOST(std::abs(a.largest_spike - b.largest_spike), 1e-12);
+  CHECK(a.inverted_simplices == b.inverted_simplices);
+}
+
+template <int Dimension, std::size_t N>
+void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>>& simplices)
+{
+  using Simplices = std::vector<std::array<std::size_t, N>>;
+  using Domain = CGAL::ARAP::Simplex_soup_domain<Dimension, Points, Simplices>;
+  Points now = rest;
+  const Domain domain(now, simplices);
+
+  // a similarity: a motion, and a scale
+  const Eigen::Isometry3d motion = rigid_motion(2, {1, -2, 0.5}, {3, 0, 5});
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const bool has_volume = !std::isnan(quality(domain, rest).volume_change);
+  for(const double scale : {1., 1.5})
+  {
+    for(std::size_t v = 0; v < rest.size(); ++v)
+      now[v] = motion * (scale * rest[v]);
+    compare(quality(domain, rest),
+            {scale - 1, scale * scale - 1, has_volume ? std::pow(scale, 3) - 1 : unknown, 0, 0, 0});
+    for(const Vertex_measure measure : all_measures)
+      for(const double value : quality_at_vertices(measure, domain, rest))
+        CHECK_AT_MOST(std::abs(value - (measure == Vertex_measure::edge_length_error ? scale - 1
+                                        : measure == Vertex_measure::size_change
+                                          ? std::pow(scale, Dimension) - 1 : 0)),
+                      measure == Vertex_measure::angle_change ? 1e-5 : 1e-10);
+  }
+
+  std::mt19937 engine(7);
+  for(Eigen::Vector3d& p : now)
+    p = motion.inverse() * p + 0.3 * Eigen::Vector3d(engine() % 1000, engine() % 1000,
+                                                     engine() % 1000) / 1000;
+  compare(quality(domain, rest), slow_quality(simplices, rest, now));
+  for(const Vertex_measure measure : all_measures)
+  {
+    const std::vector<double> values = quality_at_vertices(measure, domain, rest);
+    CHECK(values.size() == rest.size());
+    for(std::size_t v = 0; v < rest.size(); ++v)
+      CHECK_AT_MOST(std::abs(values[v] - slow_measure(measure, v, simplices, rest, now)),
+                    measure == Vertex_measure::angle_change ? 1e-4 : 1e-10);
+  }
+
+  // maps of each kind; in the other direction
+  std::map<std::size_t, Eigen::Vector3d> some; // the others are where they are now
+  some[0] = rest[0];
+  Points one = now;
+  one[0] = rest[0];
+  compare(quality(domain, some), quality(domain, one, [&](std::size_t v) { return now[v]; }));
+  compare(quality(domain, now, rest), slow_quality(simplices, now, rest));
+}
+
+// A cube of squares has the measures of the one of triangles whose sides are not its diagonals.
+void test_polygons()
+{
+  test_case() = "quality of polygons";
+  Points rest, now;
+  for(int k = 0; k < 8; ++k)
+    rest.emplace_back(k & 1, k >> 1 & 1, k >> 2);
+  const std::vector<std::vector<int>> faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                               {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for(const Eigen::Vector3d& p : rest)
+    now.emplace_back(p.x() + p.z(), p.y(), 3 * p.z()); // sheared and stretched
+  const CGAL::ARAP::Polygon_soup_domain<Points, std::decay_t<decltype(faces)>> domain(now, faces);
+  const Quality measured = quality(domain, rest);
+  const double side = std::sqrt(10.);
+  CHECK_AT_MOST(std::abs(measured.edge_length_error - (side - 1) / std::sqrt(3.)), 1e-12);
+  CHECK_AT_MOST(std::abs(measured.area_change - ((2 + 2 * 3 + 2 * side) / 6 - 1)), 1e-12);
+  CHECK_AT_MOST(std::abs(measured.volume_change - 2), 1e-12);
+  CHECK_AT_MOST(std::abs(measured.largest_angle_change - std::atan(1. / 3) * 180 / std::acos(-1.)),
+                1e-10);
+  const std::vector<std::vector<int>> open(faces.begin() + 1, faces.end());
+  CHECK(std::isnan(quality(CGAL::ARAP::make_polygon_soup_domain(now, open), rest).volume_change));
+}
+
+void test_self_intersections()
+{
+  test_case() = "self-intersections";
+  Points points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}};
+  const std::vector<std::array<int, 3>> two = {{0, 1, 2}, {3, 4, 5}};
+  const auto surface = CGAL::ARAP::make_polygon_soup_domain(points, two);
+  CHECK(CGAL::ARAP::number_of_self_intersections(surface) == 1);
+  points[3] = {2.5, 2.5, -1};
+  points[4] = {2.5, 2.5, 1};
+  CHECK(CGAL::ARAP::number_of_self_intersections(surface) == 0);
+  // the tip of a tetrahedron is in another one, which shares a face with a third
+  Points corners = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, -4}, {0, 0, 4},
+                    {0.5, 0.5, 1}, {0.6, 0.5, 9}, {0.5, 0.6, 9}, {0.5, 0.5, 9}};
+  const std::vector<std::array<int, 4>> three = {{0, 1, 2, 3}, {0, 1, 2, 4}, {5, 6, 7, 8}};
+  const auto volume = CGAL::ARAP::make_tetrahedron_soup_domain(corners, three);
+  CHECK(CGAL::ARAP::number_of_self_intersections(volume) > 0);
+  corners[5] = {0.5, 0.5, 8};
+  CHECK(CGAL::ARAP::number_of_self_intersections(volume) == 0);
+}
+
+void test_all()
+{
+  Every_nth is_chosen(3);
+  for(const Shape& shape : shapes())
+    if(is_chosen())
+    {
+      test_case() = "quality of " + shape.name;
+      test_shape<2>(shape.points, shape.triangles);
+    }
+  test_case() = "quality of a block";
+  Points points;
+  const auto tetrahedra = block(2, points);
+  test_shape<3>(points, tetrahedra);
+  test_polygons();
+  test_self_intersections();
+}
+
+} // namespace quality_of_results
+
 int main(int argc, char* argv[])
 {
   soup::test_all();
   conformance::test_all();
+  quality_of_results::test_all();
   const int first_seed = argc > 2 ? std::atoi(argv[2]) : 1;
   nasty::test_all(argc > 1 ? std::atoi(argv[1]) : short_or_long(30, 150), first_seed);
   random_shapes::test_all(argc > 1 ? std::atoi(argv[1]) : short_or_long(40, 200), first_seed);

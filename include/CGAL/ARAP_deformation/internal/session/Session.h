@@ -14,7 +14,6 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
@@ -85,14 +84,15 @@ public:
   }
 
   // A time step with these forces, or none if the function is empty.
-  Step_report advance(const Dynamics& dynamics, std::function<Coordinates(vertex_descriptor)> force)
+  template <typename Visitor>
+  Step_report advance(const Dynamics& dynamics, std::function<Coordinates(vertex_descriptor)> force,
+                      Visitor& visitor)
   {
     Step_report report;
     static_cast<Outcome&>(report) = dynamics.check();
     if(!report)
       return report;
     Time_step<vertex_descriptor> step = {dynamics, std::move(force)};
-    Default_visitor visitor;
     {
       Scoped_seconds total(report.seconds.total);
       static_cast<Outcome&>(report) =

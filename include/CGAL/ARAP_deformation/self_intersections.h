@@ -1,0 +1,74 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_SELF_INTERSECTIONS_H
+#define CGAL_ARAP_DEFORMATION_SELF_INTERSECTIONS_H
+
+#include <CGAL/ARAP_deformation/internal/config.h>
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+
+/// \ingroup PkgARAPDeformationQuality
+/// \brief returns how many pairs of triangles of a surface, or of the boundary of tetrahedra,
+/// intersect other than in a common corner or side, by the exact predicates of
+/// `CGAL::Polygon_mesh_processing::self_intersections()`.
+///
+/// Polygons are cut from one of their corners. Triangles without area do not count. This header
+/// includes a part of the package \ref PkgPolygonMeshProcessing, which no other one needs.
+///
+/// \param domain a model of `ARAPDomain`, with the points of the deformed shape
+template <typename Domain>
+std::size_t number_of_self_intersections(const Domain& domain)
+{
+  namespace PMP = CGAL::Polygon_mesh_processing;
+  using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+  std::vector<Point> points;
+  for(const auto& v : domain.vertices())
+  {
+    const Coordinates p = Domain::coordinates(domain.point(v));
+    if(points.size() <= domain.index(v))
+      points.resize(domain.index(v) + 1, Point(0, 0, 0));
+    points[domain.index(v)] = Point(p[0], p[1], p[2]);
+  }
+  std::vector<std::vector<std::size_t>> triangles;
+  for(const auto& face : internal::Simplex_list<Domain>(domain).faces())
+    for(std::size_t k = 1; k + 1 < face.size(); ++k)
+      if(!CGAL::collinear(points[face[0]], points[face[k]], points[face[k + 1]]))
+        triangles.push_back({face[0], face[k], face[k + 1]});
+  PMP::orient_polygon_soup(points, triangles); // so that there is a mesh of them
+  CGAL::Surface_mesh<Point> mesh;
+  PMP::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  using Face = CGAL::Surface_mesh<Point>::Face_index;
+  std::vector<std::pair<Face, Face>> pairs;
+  PMP::self_intersections(mesh, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_SELF_INTERSECTIONS_H
