@@ -21,8 +21,6 @@
 
 #include <CGAL/assertions.h>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -91,14 +89,13 @@ struct Simplices
   // number of its corners where a weight is negative.
   bool are_sums_of_squares() const
   {
-    using Small_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+    Array<double> matrix;
     for(int s = 0; s < size(); ++s)
     {
       const double* const w = weights.data() + first_weight[s];
       const int n = number_of_corners(s);
       if(std::any_of(w, w + n * (n - 1) / 2, [](double weight) { return weight < 0; }) &&
-         !(n <= 4 ? has_no_negative_energy<Small_matrix>(n, w)
-                  : has_no_negative_energy<Eigen::MatrixXd>(n, w)))
+         !has_no_negative_energy(n, w, matrix))
         return false;
     }
     return true;
@@ -112,23 +109,32 @@ struct Simplices
   void for_each_edge(const Function& f) { visit_edges(*this, f); }
 
 private:
-  // whether the matrix of a simplex has no negative eigenvalue up to rounding: raised by that much
-  // it has a Cholesky factorization
-  template <typename Matrix>
-  static bool has_no_negative_energy(int n, const double* w)
+  // Whether the matrix of a simplex has no negative eigenvalue up to rounding: raised by that much
+  // its pivots are positive. NaN are found elsewhere.
+  static bool has_no_negative_energy(int n, const double* w, Array<double>& matrix)
   {
-    Matrix matrix = Matrix::Zero(n, n);
+    matrix.assign(static_cast<std::size_t>(n * n), 0); // the lower triangle, row by row
     double largest = 0;
     for(int a = 0; a < n; ++a)
       for(int b = a + 1; b < n; ++b, ++w)
       {
-        matrix(b, a) = -*w;
-        matrix(a, a) += *w;
-        matrix(b, b) += *w;
+        matrix[b * n + a] = -*w;
+        matrix[a * n + a] += *w;
+        matrix[b * n + b] += *w;
         largest = (std::max)(largest, std::abs(*w));
       }
-    matrix.diagonal().array() += 1e-9 * largest;
-    return Eigen::LLT<Eigen::Ref<Matrix>>(matrix).info() == Eigen::Success;
+    for(int a = 0; a < n; ++a)
+      matrix[a * n + a] += 1e-9 * largest;
+    for(int k = 0; k < n; ++k)
+    {
+      const double pivot = matrix[k * n + k];
+      if(pivot <= 0)
+        return false;
+      for(int a = k + 1; a < n; ++a)
+        for(int b = k + 1; b <= a; ++b)
+          matrix[a * n + b] -= matrix[a * n + k] * matrix[b * n + k] / pivot;
+    }
+    return true;
   }
 
   template <typename Self, typename Function>

@@ -17,12 +17,11 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Quasidefinite_factor.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/solver/Hard_rows.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
-
-#include <Eigen/Cholesky>
 
 #include <cstddef>
 #include <memory>
@@ -100,7 +99,7 @@ private:
   bool set_border(const Constraints& constraints, bool are_hard_rows_bordered);
   bool eliminate_hard_rows();
   bool factorize(const Constraints& constraints, Work& work);
-  bool solve_matrix(std::vector<Coordinates>& x, const Hard_rows::Values& values);
+  bool solve_matrix(std::vector<Coordinates>& x, const std::vector<Coordinates>& values);
   Sparse_matrix with_rows(const Weighted_rows& rows) const;
 
   Laplacian m_laplacian;
@@ -113,8 +112,8 @@ private:
   Array<int> m_further_unknowns, m_multipliers;
   Hard_rows m_hard_rows;
   bool m_are_hard_rows_bordered = false;
-  Eigen::LLT<Dense_matrix> m_eliminated; // S, if they are not
-  Array<Coordinates> m_bordered;         // scratch
+  Quasidefinite_factor m_eliminated; // of S, if they are not
+  Array<Coordinates> m_bordered;     // scratch
 };
 
 } // namespace internal

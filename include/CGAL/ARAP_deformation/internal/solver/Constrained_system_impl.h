@@ -19,7 +19,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -38,11 +37,24 @@ Sparse_matrix Constrained_system::with_rows(const Weighted_rows& rows) const
     rows.for_each_entry([&](int v, int, double entry) { diagonal_entry(matrix, v) += entry; });
   else
   {
-    Array<Eigen::Triplet<double, int>> entries;
-    rows.for_each_entry([&](int i, int j, double entry) { entries.emplace_back(i, j, entry); });
-    Sparse_matrix sum(matrix.rows(), matrix.cols());
-    sum.setFromTriplets(entries.begin(), entries.end());
-    matrix += sum; // the pattern stays, if the vertices of each row are those of a simplex
+    // the pattern stays, if the vertices of each row are those of a simplex
+    Array<Eigen::Triplet<double, int>> others;
+    rows.for_each_entry([&](int i, int j, double entry) {
+      const int* const begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[j];
+      const int* const end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[j + 1];
+      const int* const found = std::lower_bound(begin, end, i);
+      if(found != end && *found == i)
+        matrix.valuePtr()[found - matrix.innerIndexPtr()] += entry;
+      else
+        others.emplace_back(i, j, entry);
+    });
+    if(!others.empty())
+    {
+      for(int v = 0; v < matrix.cols(); ++v)
+        for(Sparse_matrix::InnerIterator entry(matrix, v); entry; ++entry)
+          others.emplace_back(entry.row(), v, entry.value());
+      matrix.setFromTriplets(others.begin(), others.end());
+    }
   }
   return matrix;
 }
@@ -233,28 +245,30 @@ bool Constrained_system::set_border(const Constraints& constraints, bool are_har
 CGAL_ARAP_INLINE_FUNCTION
 bool Constrained_system::eliminate_hard_rows()
 {
-  const int m = m_hard_rows.size();
-  Dense_matrix s(m, m);
-  for(int first = 0; first < m; first += 3)
+  const std::size_t m = static_cast<std::size_t>(m_hard_rows.size());
+  Array<double> s(m * m);
+  for(std::size_t first = 0; first < m; first += 3)
   {
-    const int count = (std::min)(3, m - first);
-    Hard_rows::Values three = Hard_rows::Values::Zero(m, 3);
-    for(int k = 0; k < count; ++k)
-      three(first + k, k) = 1;
-    std::vector<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()));
+    const std::size_t count = (std::min)(std::size_t(3), m - first);
+    std::vector<Coordinates> three = m_hard_rows.scaled({});
+    for(std::size_t k = 0; k < count; ++k)
+      three[first + k][k] = 1;
+    std::vector<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
     m_hard_rows.add(three, x);
     if(!solve_matrix(x, {}))
       return false;
-    s.middleCols(first, count) = m_hard_rows.values(x).leftCols(count);
+    const std::vector<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.scaled({}), x);
+    for(std::size_t k = 0; k < count; ++k)
+      for(std::size_t r = 0; r < m; ++r)
+        s[(first + k) * m + r] = -minus_s[r][k];
   }
-  m_eliminated.compute(s);
-  return m_eliminated.info() == Eigen::Success;
+  return m_eliminated.factorize(m_hard_rows.size(), s, Array<char>(m, false), Array<double>(m, 0));
 }
 
 CGAL_ARAP_INLINE_FUNCTION
 bool Constrained_system::solve(std::vector<Coordinates>& x, const std::vector<Coordinates>& values)
 {
-  const Hard_rows::Values scaled = m_hard_rows.scaled(values);
+  const std::vector<Coordinates> scaled = m_hard_rows.scaled(values);
   if(!solve_matrix(x, scaled))
     return false;
   if(m_hard_rows.is_empty())
@@ -262,7 +276,9 @@ bool Constrained_system::solve(std::vector<Coordinates>& x, const std::vector<Co
   if(!m_are_hard_rows_bordered)
   {
     std::vector<Coordinates> correction(x.size(), Coordinates{0, 0, 0});
-    m_hard_rows.add(m_eliminated.solve(scaled - m_hard_rows.values(x)), correction);
+    std::vector<Coordinates> multipliers = m_hard_rows.residuals(scaled, x);
+    m_eliminated.solve(multipliers.data());
+    m_hard_rows.add(multipliers, correction);
     if(!solve_matrix(correction, {}))
       return false;
     for(std::size_t v = 0; v < x.size(); ++v)
@@ -278,7 +294,7 @@ bool Constrained_system::meet(const std::vector<Coordinates>& values, std::vecto
   if(m_hard_rows.is_empty())
     return true;
   std::vector<Coordinates> step(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
-  if(!solve(step, m_hard_rows.residuals(values, x)))
+  if(!solve(step, m_hard_rows.given_residuals(values, x)))
     return false;
   for(std::size_t v = 0; v < step.size(); ++v)
     add(x[v], 1, step[v]);
@@ -286,7 +302,8 @@ bool Constrained_system::meet(const std::vector<Coordinates>& values, std::vecto
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::solve_matrix(std::vector<Coordinates>& x, const Hard_rows::Values& values)
+bool Constrained_system::solve_matrix(std::vector<Coordinates>& x,
+                                      const std::vector<Coordinates>& values)
 {
   const std::size_t n = x.size(), first_row = m_further_unknowns.size() + m_multipliers.size();
   const std::size_t border_size =
@@ -298,8 +315,7 @@ bool Constrained_system::solve_matrix(std::vector<Coordinates>& x, const Hard_ro
   for(std::size_t k = 0; k < m_further_unknowns.size(); ++k)
     std::swap(m_bordered[n + k], m_bordered[m_further_unknowns[k]]);
   for(std::size_t r = first_row; r < border_size; ++r)
-    for(std::size_t c = 0; c < 3; ++c)
-      m_bordered[n + r][c] = values(static_cast<int>(r - first_row), static_cast<int>(c));
+    m_bordered[n + r] = values[r - first_row];
   if(!m_solver->solve(m_bordered.size(), m_bordered.data()))
     return false;
   for(int v : m_multipliers)

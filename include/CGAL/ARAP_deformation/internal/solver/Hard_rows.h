@@ -16,17 +16,18 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -38,8 +39,6 @@ namespace internal {
 class Hard_rows
 {
 public:
-  using Values = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
   // beyond it elimination takes too much memory
   static constexpr int most_rows = 3000;
 
@@ -62,10 +61,7 @@ public:
     }
     m_columns.resize(static_cast<int>(constraints.is_fixed.size()), size());
     m_columns.setFromTriplets(entries.begin(), entries.end());
-    const Sparse_matrix gram = m_columns.transpose() * m_columns;
-    m_gram = std::make_shared<Gram_factor>();
-    m_gram->setShift(1e-2 * smallest_pivot); // so that no pivot is zero
-    m_gram->compute(gram);
+    m_gram = std::make_shared<Gram_factor>(gram_matrix());
   }
 
   bool is_empty() const { return m_rows.size() == 0; }
@@ -75,40 +71,37 @@ public:
   // pivot is the squared sine of its angle to their span.
   int find_dependent() const
   {
-    if(is_empty())
-      return -1;
-    if(m_gram->info() != Eigen::Success)
-      return 0; // something is not finite
-    const Eigen::VectorXd pivots = m_gram->vectorD();
-    for(int r = 0; r < size(); ++r)
-      if(!(pivots[r] > smallest_pivot))
-        return r;
+    if(!is_empty())
+    {
+      const Array<double> pivots = m_gram->pivots();
+      for(int r = 0; r < size(); ++r)
+        if(!(pivots[r] > smallest_pivot)) // nor if something is not finite
+          return r;
+    }
     return -1;
   }
 
   // B^T
   const Sparse_matrix& columns() const { return m_columns; }
 
-  // B x
-  Values values(const std::vector<Coordinates>& x) const
+  // x := x + B^T z
+  void add(const std::vector<Coordinates>& z, std::vector<Coordinates>& x) const
   {
-    return m_columns.transpose() * Eigen::Map<const Values>(x.data()->data(), m_columns.rows(), 3);
+    for_each_entry([&](std::size_t v, std::size_t r, double b) { internal::add(x[v], b, z[r]); });
   }
 
-  // x := x + B^T z
-  void add(const Values& z, std::vector<Coordinates>& x) const
+  // z - B x
+  std::vector<Coordinates> residuals(std::vector<Coordinates> z,
+                                     const std::vector<Coordinates>& x) const
   {
-    for(int r = 0; r < size(); ++r)
-      for(Sparse_matrix::InnerIterator entry(m_columns, r); entry; ++entry)
-        for(int c = 0; c < 3; ++c)
-          x[static_cast<std::size_t>(entry.row())][static_cast<std::size_t>(c)] +=
-            entry.value() * z(r, c);
+    for_each_entry([&](std::size_t v, std::size_t r, double b) { internal::add(z[r], -b, x[v]); });
+    return z;
   }
 
   // moves x to the nearest solution of B x = z
-  void project(const Values& z, std::vector<Coordinates>& x) const
+  void project(const std::vector<Coordinates>& z, std::vector<Coordinates>& x) const
   {
-    add(m_gram->solve(z - values(x)), x);
+    add(m_gram->solve(residuals(z, x)), x);
   }
 
   // Moves x, the positions of all vertices, to the nearest ones where the rows as they are given
@@ -116,29 +109,28 @@ public:
   void correct(const std::vector<Coordinates>& values, std::vector<Coordinates>& x) const
   {
     if(!is_empty())
-      add(m_gram->solve(scaled(residuals(values, x))), x);
+      add(m_gram->solve(scaled(given_residuals(values, x))), x);
   }
 
   // leaves out of forces what no step that keeps the rows feels
   void leave_out_multipliers(std::vector<Coordinates>& force) const
   {
     if(!is_empty())
-      project(Values::Zero(size(), 3), force);
+      project(scaled({}), force);
   }
 
   // The values of rows as they are given, scaled as the rows are here; zero if there are none.
-  Values scaled(const std::vector<Coordinates>& values) const
+  std::vector<Coordinates> scaled(const std::vector<Coordinates>& values) const
   {
-    Values result = Values::Zero(size(), 3);
+    std::vector<Coordinates> result(m_scale.size(), Coordinates{0, 0, 0});
     for(std::size_t r = 0; r < values.size(); ++r)
-      for(std::size_t c = 0; c < 3; ++c)
-        result(static_cast<int>(r), static_cast<int>(c)) = m_scale[r] * values[r][c];
+      result[r] = internal::scaled(values[r], m_scale[r]);
     return result;
   }
 
   // what the rows as they are given lack of values at x, the positions of all vertices
-  std::vector<Coordinates> residuals(const std::vector<Coordinates>& values,
-                                     const std::vector<Coordinates>& x) const
+  std::vector<Coordinates> given_residuals(const std::vector<Coordinates>& values,
+                                           const std::vector<Coordinates>& x) const
   {
     std::vector<Coordinates> result;
     for(std::size_t r = 0; r < values.size(); ++r)
@@ -148,8 +140,82 @@ public:
 
 private:
   static constexpr double smallest_pivot = 1e-12;
-  using Gram_factor =
-    Eigen::SimplicialLDLT<Sparse_matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+  // The factor of a Gram matrix in the order of its rows, or in one with the same pivots.
+  class Gram_factor
+  {
+  public:
+    explicit Gram_factor(const Sparse_matrix& matrix) : m_cholesky(matrix, rows_of(matrix))
+    {
+      m_cholesky.factorize(matrix, m_values); // the pivots tell if it fails
+    }
+
+    Array<double> pivots() const
+    {
+      const Supernodal_structure& structure = m_cholesky.structure();
+      Array<double> result(structure.order().size());
+      for(const Supernodal_structure::Block& block : structure.blocks())
+        for(int k = block.supernodes_begin; k < block.supernodes_end; ++k)
+        {
+          const Supernodal_structure::Supernode& s = structure.supernodes()[k];
+          for(int j = 0; j < s.width; ++j)
+          {
+            const double reciprocal = diagonal_entry(s, m_values.get(), j);
+            result[structure.order()[block.columns + static_cast<std::size_t>(s.first + j)]] =
+              1 / (reciprocal * reciprocal);
+          }
+        }
+      return result;
+    }
+
+    std::vector<Coordinates> solve(std::vector<Coordinates> z)
+    {
+      m_substitution.forward(m_cholesky.structure(), m_values.get(), z.data());
+      m_substitution.backward(m_cholesky.structure(), m_values.get(), z.data());
+      return z;
+    }
+
+  private:
+    static Array<int> rows_of(const Sparse_matrix& matrix)
+    {
+      Array<int> rows(static_cast<int>(matrix.cols()));
+      std::iota(rows.begin(), rows.end(), 0);
+      return rows;
+    }
+
+    Supernodal_cholesky m_cholesky;
+    std::unique_ptr<double[]> m_values;
+    Supernodal_substitution<double> m_substitution;
+  };
+
+  // calls f(v, r, b) for each entry b of B, row after row
+  template <typename Function>
+  void for_each_entry(const Function& f) const
+  {
+    for(int r = 0; r < size(); ++r)
+      for(Sparse_matrix::InnerIterator entry(m_columns, r); entry; ++entry)
+        f(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(r), entry.value());
+  }
+
+  // the lower triangle of B B^T, a little more on its diagonal so that no pivot is zero
+  Sparse_matrix gram_matrix() const
+  {
+    Array<Eigen::Triplet<double, int>> products;
+    for(int r = 0; r < size(); ++r)
+      products.emplace_back(r, r, 1e-2 * smallest_pivot);
+    // the row of each entry, its predecessor at the same vertex, and the last entry of each vertex
+    Array<int> rows, previous, last(static_cast<int>(m_columns.rows()), -1);
+    for_each_entry([&](std::size_t v, std::size_t r, double b) {
+      rows.push_back(static_cast<int>(r));
+      previous.push_back(last[v]);
+      last[v] = static_cast<int>(rows.size()) - 1;
+      for(int k = last[v]; k >= 0; k = previous[k])
+        products.emplace_back(static_cast<int>(r), rows[k], b * m_columns.valuePtr()[k]);
+    });
+    Sparse_matrix gram(size(), size());
+    gram.setFromTriplets(products.begin(), products.end());
+    return gram;
+  }
 
   Weighted_rows m_rows;   // as they are given
   Array<double> m_scale;  // of each row
