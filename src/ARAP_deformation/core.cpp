@@ -15,7 +15,12 @@
 #endif
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
+
+template class CGAL::ARAP::internal::Edge_weight_model_of<CGAL::ARAP::Safe_cotangent_weight>;

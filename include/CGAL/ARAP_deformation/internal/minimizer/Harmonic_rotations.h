@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -134,8 +134,13 @@ public:
       const std::vector<int>& vertices = handle.second;
       if(vertices.size() < 2)
         continue;
-      const Rigid_fit fit(vertices.size(), [&](std::size_t k) { return region.rest[vertices[k]]; },
-                          [&](std::size_t k) { return place(vertices[k]); });
+      std::vector<Coordinates> rest, places;
+      for(int v : vertices)
+      {
+        rest.push_back(region.rest[v]);
+        places.push_back(place(v));
+      }
+      const Rigid_fit fit(rest, places);
       for(int v : vertices)
         set(v, fit.rotation());
     }

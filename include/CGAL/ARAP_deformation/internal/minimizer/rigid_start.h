@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
@@ -28,111 +29,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// covariance += factor * a b^T
-inline void add_product(Matrix_3x3& covariance, double factor, const Coordinates& a,
-                        const Coordinates& b)
-{
-  for(std::size_t r = 0; r < 3; ++r)
-    for(std::size_t c = 0; c < 3; ++c)
-      covariance[3 * r + c] += factor * a[r] * b[c];
-}
-
-// The rigid motion that takes n points from(k) nearest to points to(k), in the sense of least
-// squares. Where several motions are nearest up to rounding, as for points on a line, that with the
-// smallest rotation.
-class Rigid_fit
-{
-public:
-  template <typename From, typename To>
-  Rigid_fit(std::size_t n, const From& from, const To& to)
-    : m_from(centroid(n, from)), m_to(centroid(n, to))
-  {
-    Matrix_3x3 covariance{};
-    double size = 0;
-    for(std::size_t k = 0; k < n; ++k)
-    {
-      const Coordinates p = difference(from(k), m_from), q = difference(to(k), m_to);
-      add_product(covariance, 1, q, p);
-      size += dot(p, p);
-    }
-    // A little is added of the last rotation, the identity at first: it decides where nothing else
-    // does, and what it does elsewhere is gone after some steps.
-    for(int step = 0; step < 3; ++step)
-    {
-      Matrix_3x3 sum = covariance;
-      for(std::size_t k = 0; k < 9; ++k)
-        sum[k] += 1e-11 * size * m_rotation[k];
-      m_rotation = Svd_rotation::closest(sum);
-    }
-    for(std::size_t k = 0; k < n; ++k)
-    {
-      const Coordinates error = difference(to(k), (*this)(from(k)));
-      if(!(dot(error, error) <= m_squared_error)) // nor if it is no number
-        m_squared_error = dot(error, error);
-    }
-  }
-
-  Coordinates operator()(const Coordinates& p) const
-  {
-    Coordinates q = product(m_rotation, difference(p, m_from));
-    add(q, 1, m_to);
-    return q;
-  }
-
-  const Matrix_3x3& rotation() const { return m_rotation; }
-
-  // the largest squared distance that is left between two corresponding points
-  double squared_error() const { return m_squared_error; }
-
-private:
-  template <typename Points>
-  static Coordinates centroid(std::size_t n, const Points& points)
-  {
-    Coordinates sum = {0, 0, 0};
-    for(std::size_t k = 0; k < n; ++k)
-      add(sum, 1 / static_cast<double>(n), points(k));
-    return sum;
-  }
-
-  Coordinates m_from, m_to;
-  Matrix_3x3 m_rotation = identity_matrix();
-  double m_squared_error = 0;
-};
-
-// The rotation of the rigid motion that takes points to others, if there is one and only one.
-inline std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinates>& from,
-                                                    const std::vector<Coordinates>& to)
-{
-  double length = 0, area = 0; // squares, of the triangles at the first point
-  Coordinates longest = {0, 0, 0};
-  for(const Coordinates& p : from)
-    if(const Coordinates edge = difference(p, from[0]); dot(edge, edge) > length)
-    {
-      longest = edge;
-      length = dot(edge, edge);
-    }
-  for(const Coordinates& p : from)
-  {
-    const Coordinates normal = cross(longest, difference(p, from[0]));
-    area = (std::max)(area, dot(normal, normal));
-  }
-  constexpr double tolerance = 1e-12; // of squares
-  if(!(area > tolerance * length * length))
-    return std::nullopt;
-  const Rigid_fit fit(from.size(), [&](std::size_t k) { return from[k]; },
-                      [&](std::size_t k) { return to[k]; });
-  if(!(fit.squared_error() <= tolerance * length))
-    return std::nullopt;
-  return fit.rotation();
-}
 
 // Starts a run at its minimum where that is known to be zero: where all that constrains a part of
 // the free vertices is a rigid copy of the rest shape, the whole part can be one. Any minimizer
@@ -345,29 +247,27 @@ private:
       place.push_back(targets.soft[static_cast<std::size_t>(r)]);
       add_frame(constraints.rows.position(r));
     }
-    const auto rest_of = [&](std::size_t k) { return rest[k]; };
-    const auto place_of = [&](std::size_t k) { return place[k]; };
-    if(rest.empty() ||
-       !(Rigid_fit(rest.size(), rest_of, place_of).squared_error() <= tolerance * size))
+    if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
       return;
 
-    const int* const free = m_free.items.data() + m_free.begin[part];
-    const auto vertex = [&](std::size_t k) { return static_cast<std::size_t>(free[k]); };
-    const Rigid_fit before(static_cast<std::size_t>(m_free.begin[part + 1] - m_free.begin[part]),
-                           [&](std::size_t k) { return region.rest[vertex(k)]; },
-                           [&](std::size_t k) {
-                             return is_from_rest ? region.rest[vertex(k)] : x[vertex(k)];
-                           });
+    std::vector<Coordinates> free_rest, free_place;
+    for(int k = m_free.begin[part]; k < m_free.begin[part + 1]; ++k)
+    {
+      const auto v = static_cast<std::size_t>(m_free.items[k]);
+      free_rest.push_back(region.rest[v]);
+      free_place.push_back(is_from_rest ? region.rest[v] : x[v]);
+    }
+    const Rigid_fit before(free_rest, free_place);
     // The second fit is relative to the first: a single target, or targets on a line, leave the
     // rotation undetermined.
-    std::transform(rest.begin(), rest.end(), rest.begin(), before);
     double motion = before.squared_error();
     for(std::size_t k = 0; k < rest.size(); ++k)
     {
+      rest[k] = before(rest[k]);
       const Coordinates step = difference(place[k], rest[k]);
       motion = (std::max)(motion, dot(step, step));
     }
-    const Rigid_fit after(rest.size(), rest_of, place_of);
+    const Rigid_fit after(rest, place);
     const bool is_at_rest = motion < 1e-18 * size;
     if(is_at_rest || after.squared_error() <= tolerance * motion)
       motions.push_back({part, before, after, is_at_rest});
@@ -393,7 +293,7 @@ private:
         continue;
       Matrix_3x3 covariance{};
       for(const int *v = begin, *last = end - 1; v != end; last = v++)
-        add_product(covariance, 1, edge(x, *v, *last), edge(region.rest, *v, *last));
+        add_product(covariance, edge(x, *v, *last), edge(region.rest, *v, *last));
       for(const int* v = begin; v != end; ++v)
         for(std::size_t k = 0; k < 9; ++k)
           covariances[*v][k] += covariance[k];

@@ -60,6 +60,14 @@ inline Coordinates product(const Matrix_3x3& m, const Coordinates& a)
           m[6] * a[0] + m[7] * a[1] + m[8] * a[2]};
 }
 
+// m += a b^T
+inline void add_product(Matrix_3x3& m, const Coordinates& a, const Coordinates& b)
+{
+  for(std::size_t r = 0; r < 3; ++r)
+    for(std::size_t c = 0; c < 3; ++c)
+      m[3 * r + c] += a[r] * b[c];
+}
+
 constexpr Matrix_3x3 identity_matrix()
 {
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -36,6 +36,10 @@ struct Get_concurrency_tag<Traits, std::void_t<typename Traits::Concurrency_tag>
   using type = typename Traits::Concurrency_tag;
 };
 
+#ifdef CGAL_ARAP_DEFORMATION_COMPILED
+extern template class Edge_weight_model_of<Safe_cotangent_weight>; // that of the default traits
+#endif
+
 // what the traits hand out, as the core calls it
 template <typename Traits>
 Core_models core_models(const Traits& traits)

@@ -1,0 +1,94 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_RIGID_FIT_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_RIGID_FIT_IMPL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
+#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+inline Coordinates centroid(const std::vector<Coordinates>& points)
+{
+  Coordinates sum = {0, 0, 0};
+  for(const Coordinates& p : points)
+    add(sum, 1 / static_cast<double>(points.size()), p);
+  return sum;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Rigid_fit::Rigid_fit(const std::vector<Coordinates>& from, const std::vector<Coordinates>& to)
+  : m_from(centroid(from)), m_to(centroid(to))
+{
+  Matrix_3x3 covariance{};
+  double size = 0;
+  for(std::size_t k = 0; k < from.size(); ++k)
+  {
+    const Coordinates p = difference(from[k], m_from), q = difference(to[k], m_to);
+    add_product(covariance, q, p);
+    size += dot(p, p);
+  }
+  // A little is added of the last rotation, the identity at first: it decides where nothing else
+  // does, and what it does elsewhere is gone after some steps.
+  for(int step = 0; step < 3; ++step)
+  {
+    Matrix_3x3 sum = covariance;
+    for(std::size_t k = 0; k < 9; ++k)
+      sum[k] += 1e-11 * size * m_rotation[k];
+    m_rotation = Svd_rotation::closest(sum);
+  }
+  for(std::size_t k = 0; k < from.size(); ++k)
+  {
+    const Coordinates error = difference(to[k], (*this)(from[k]));
+    if(!(dot(error, error) <= m_squared_error)) // nor if it is no number
+      m_squared_error = dot(error, error);
+  }
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinates>& from,
+                                             const std::vector<Coordinates>& to)
+{
+  double length = 0, area = 0; // squares, of the triangles at the first point
+  Coordinates longest = {0, 0, 0};
+  for(const Coordinates& p : from)
+    if(const Coordinates edge = difference(p, from[0]); dot(edge, edge) > length)
+    {
+      longest = edge;
+      length = dot(edge, edge);
+    }
+  for(const Coordinates& p : from)
+  {
+    const Coordinates normal = cross(longest, difference(p, from[0]));
+    area = (std::max)(area, dot(normal, normal));
+  }
+  constexpr double tolerance = 1e-12; // of squares
+  if(!(area > tolerance * length * length))
+    return std::nullopt;
+  const Rigid_fit fit(from, to);
+  if(!(fit.squared_error() <= tolerance * length))
+    return std::nullopt;
+  return fit.rotation();
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_RIGID_FIT_IMPL_H

@@ -1,0 +1,150 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SENTENCES_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SENTENCES_IMPL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string vertex_name(std::size_t index)
+{
+  return "vertex " + std::to_string(index);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string control_point_name(Control_point point)
+{
+  return "control point " + std::to_string(point.number());
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string simplex_name(const Region& region, int simplex)
+{
+  std::string name = region.dimension == 3 ? "the tetrahedron" : "the face";
+  for(int k = 0; k < region.number_of_corners(simplex); ++k)
+    name += (k == 0 ? " with the vertices " : ", ") +
+            std::to_string(region.indices[region.corners_of(simplex)[k]]);
+  return name;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string about_unconstrained_components(const std::vector<std::size_t>& parts)
+{
+  if(parts.empty())
+    return std::string();
+  return "; left in place: " +
+         (parts.size() == 1
+            ? std::string("the unconstrained component")
+            : std::to_string(parts.size()) + " unconstrained components, the first that") +
+         " of " + vertex_name(parts.front());
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string about_nothing_free(bool is_region_empty)
+{
+  return std::string("nothing is free to move: ") +
+         (is_region_empty ? "the region of interest is empty"
+                          : "every vertex of the region of interest is fixed");
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::string about_isolated_controls(const std::vector<std::size_t>& vertices)
+{
+  if(vertices.empty())
+    return std::string();
+  return "; " + vertex_name(vertices.front()) +
+         (vertices.size() == 1 ? std::string()
+                               : " and " + std::to_string(vertices.size() - 1) + " more") +
+         ": a control vertex without an incident simplex moves nothing else";
+}
+
+// the sentence for a status, or what follows the name of the vertex or the simplex concerned
+inline const char* sentence(Status status, const std::string& what)
+{
+  switch(status)
+  {
+  case Status::not_run: return "nothing was run yet";
+  case Status::success: return "everything is ready to deform";
+  case Status::converged:
+    return "the estimated gap of the energy to its minimum is within the tolerance";
+  case Status::iteration_limit: return "the maximum number of iterations was run";
+  case Status::stopped: return "the visitor stopped the run; the last iterate was kept";
+  case Status::cancelled: return "the visitor cancelled the run; nothing was changed";
+  case Status::invalid_option: return "an option is out of range";
+  case Status::in_a_run:
+    return "a visitor must not change the object that it is visiting";
+  case Status::foreign_state:
+    return "the state is of another object; nothing was changed";
+  case Status::not_a_control_vertex:
+    return " is not a control vertex and has no target; insert it as a control vertex first";
+  case Status::invalid_weight:
+    return " was given a target weight that is negative or not a number";
+  case Status::invalid_stiffness:
+    return " has a stiffness that is negative, infinite or not a number";
+  case Status::invalid_rotation:
+    return " was given a target rotation that is not a rotation: its columns must have "
+           "length 1, be orthogonal, and be right-handed";
+  case Status::invalid_coordinates:
+    return " needs barycentric coordinates that are finite and add up to one, one for each "
+           "corner of its simplex";
+  case Status::dependent_target:
+    return ": its position is determined by other hard targets; erase one of them, or give "
+           "it a finite weight";
+  case Status::too_many_control_points:
+    return "there are more than 3000 hard control points; give them finite weights";
+  case Status::not_a_simplex:
+    return " is incident to a face that is not a polygon, or to a cell that is not a "
+           "tetrahedron: the number of corners is wrong, or a corner is repeated or missing";
+  case Status::too_many_corners:
+    static_assert(most_corners == 2048, "said here");
+    return " is incident to a face with more than 2048 corners; triangulate it, with "
+           "CGAL::Polygon_mesh_processing::triangulate_face() for instance";
+  case Status::no_tetrahedron:
+    return "there is no tetrahedron with a volume to embed points in";
+  case Status::no_simplex:
+    return "no vertex of the region of interest has an incident simplex in the domain";
+  case Status::non_finite_point:
+    return " has a coordinate that is infinite or not a number";
+  case Status::non_finite_weight:
+    return " has edges whose weights are not finite";
+  case Status::no_fixed_vertex:
+    return " is free, but no path of edges with non-zero weights connects it to a vertex "
+           "that is fixed or has a target; fix a vertex of its component";
+  case Status::singular_matrix:
+    return what.empty()
+      ? "the matrix of the system is not positive definite and cannot be factorized"
+      : " makes the system singular: the sum of the weights of its edges is not positive and "
+        "finite";
+  case Status::solver_failed: return "the solver failed to solve the factorized system";
+  case Status::non_finite_energy:
+    return "the energy overflowed: the targets are too far away, or their weights too large";
+  }
+  return to_string(status);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Outcome outcome(Status status, const std::string& what)
+{
+  return Outcome(status, what + sentence(status, what));
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_SENTENCES_IMPL_H
