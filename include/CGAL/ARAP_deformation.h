@@ -34,6 +34,7 @@
 #include <CGAL/Default.h>
 #include <CGAL/assertions.h>
 
+#include <functional>
 #include <initializer_list>
 #include <iterator>
 #include <optional>
@@ -110,7 +111,7 @@ public:
 #ifdef DOXYGEN_RUNNING
   using Iterate = unspecified_type; ///< the argument of a visitor, a model of `ARAPIterate`.
 #else
-  using Iterate = typename ARAP::internal::Session<Domain_, Traits_>::Iterate;
+  using Iterate = typename ARAP::internal::Session<Domain_>::Iterate;
 #endif
   /// @}
 
@@ -577,7 +578,7 @@ public:
   template <typename Visitor>
   [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance, Visitor&& visitor)
   {
-    return m_session.deform(iterations, tolerance, visitor);
+    return m_session.deform(iterations, tolerance, std::ref(visitor));
   }
 
   /// \brief advances by a time step with inertia, of implicit Euler, from the current positions
@@ -644,7 +645,7 @@ public:
 #ifdef DOXYGEN_RUNNING
   using State = unspecified_type; ///< what `state()` returns: a value, which can be copied.
 #else
-  using State = typename ARAP::internal::Session<Domain_, Traits_>::State;
+  using State = typename ARAP::internal::Session<Domain_>::State;
 #endif
 
   /// returns the region of interest, the control vertices and control points, their targets and
@@ -721,7 +722,7 @@ private:
     });
   }
 
-  ARAP::internal::Session<Domain_, Traits_> m_session;
+  ARAP::internal::Session<Domain_> m_session;
 };
 
 #ifndef DOXYGEN_RUNNING

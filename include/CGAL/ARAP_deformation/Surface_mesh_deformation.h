@@ -302,8 +302,7 @@ public:
     }
     if(!std::isnan(tolerance)) // which the session refuses
       tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
-    Default_visitor visitor;
-    return m_session.deform(iterations, tolerance, visitor);
+    return m_session.deform(iterations, tolerance, Default_visitor());
   }
 
   /// moves the region of interest, targets included, back to the rest shape.
@@ -423,7 +422,7 @@ private:
 
   Triangle_mesh& m_mesh;
   Weights m_weights;
-  internal::Drop_in_session<Domain, Traits> m_session;
+  internal::Drop_in_session<Domain> m_session;
   mutable Roi_vertex_range m_roi; // for roi_vertices()
   unsigned int m_iterations = 5;
   double m_tolerance = 1e-4;

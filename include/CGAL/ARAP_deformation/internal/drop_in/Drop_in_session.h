@@ -28,10 +28,10 @@ namespace internal {
 // A session with the rules of CGAL's Surface_mesh_deformation: what leaves the region of interest
 // returns to the rest shape when the region is next used, and targets survive erasing the control
 // vertex.
-template <typename Domain, typename Traits>
-class Drop_in_session : public Session<Domain, Traits>
+template <typename Domain>
+class Drop_in_session : public Session<Domain>
 {
-  using Base = Session<Domain, Traits>;
+  using Base = Session<Domain>;
   using Base::m_prepared;
   using Base::m_vertices;
 
@@ -40,6 +40,7 @@ public:
   using Point = typename Base::Point;
   using vertex_descriptor = typename Base::vertex_descriptor;
 
+  template <typename Traits>
   Drop_in_session(Domain domain, const Traits& traits)
     : Base(std::move(domain), traits, cgal_rules())
   {}

@@ -26,11 +26,11 @@
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
-#include <CGAL/ARAP_deformation/internal/session/core_models.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -42,13 +42,14 @@ namespace internal {
 
 // What is computed from the vertices of a session before a run: the region, the positions of its
 // vertices, and the core with the constraints. The one place that decides what a change costs.
-template <typename Domain, typename Traits>
+template <typename Domain>
 class Prepared_region
 {
 public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
+  using Models = std::function<Core_models()>; // makes those of one region
 
   // Of the sets of vertices, with all that the stages depend on: what has the same version is the
   // same.
@@ -145,7 +146,7 @@ public:
   }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
-  Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+  Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
                   const Options& options, Stages& stages)
   {
     if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
@@ -166,7 +167,7 @@ public:
       m_ready.values = m_present.values;
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
-      m_outcome = update(vertices, values, traits, options, stages);
+      m_outcome = update(vertices, values, models, options, stages);
     return m_outcome;
   }
 
@@ -246,7 +247,7 @@ private:
     }
   };
 
-  Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Traits& traits,
+  Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
                  const Options& options, Stages& stages)
   {
     m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
@@ -273,7 +274,7 @@ private:
       next.emplace();
       next->numbering = ++m_last_numbering;
       next->is_whole = is_whole(roi_size, number_of_fixed);
-      if(Outcome made = make_region(vertices, values, traits, options, *next); !made)
+      if(Outcome made = make_region(vertices, values, models, options, *next); !made)
         return made;
     }
     Prepared& prepared = next ? *next : *m_prepared;
@@ -337,7 +338,7 @@ private:
   }
 
   Outcome make_region(const Vertices& vertices, const Cell_values<Domain>& values,
-                      const Traits& traits, const Options& options, Prepared& prepared) const
+                      const Models& models, const Options& options, Prepared& prepared) const
   {
     const Domain& domain = vertices.domain();
     const auto name = [&](vertex_descriptor v) { return vertex_name(domain.index(v)); };
@@ -370,9 +371,8 @@ private:
     Energy_model model;
     if(Outcome filled = values.fill_in(model, options, domain, region, region.flat); !filled)
       return filled;
-    prepared.core = std::make_unique<Deformation_core>(core_models(traits), std::move(region.flat),
-                                                       std::move(model), m_rules.order,
-                                                       options.threads);
+    prepared.core = std::make_unique<Deformation_core>(
+      models(), std::move(region.flat), std::move(model), m_rules.order, options.threads);
     return explain(prepared.core->diagnosis(), domain, prepared);
   }
 

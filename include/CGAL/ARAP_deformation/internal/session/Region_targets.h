@@ -34,14 +34,14 @@ namespace internal {
 
 // What the control vertices and control points of a session mean for the vertices of its prepared
 // region: where a run starts, and what its rows ask for.
-template <typename Domain, typename Traits>
+template <typename Domain>
 class Region_targets
 {
 public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Vertices = Session_vertices<Domain>;
   using Entry = typename Vertices::Entry;
-  using Prepared = Prepared_region<Domain, Traits>;
+  using Prepared = Prepared_region<Domain>;
 
   Region_targets(const Vertices& vertices, const Prepared& prepared)
     : m_vertices(vertices), m_prepared(prepared)

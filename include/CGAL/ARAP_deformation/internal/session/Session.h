@@ -26,6 +26,7 @@
 #include <CGAL/ARAP_deformation/internal/session/Session_history.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Time_step.h>
+#include <CGAL/ARAP_deformation/internal/session/core_models.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cstddef>
@@ -40,10 +41,10 @@ namespace internal {
 
 // Stands between a domain and the numeric core: keeps the region, reads the points once, runs the
 // core on them, and writes them back once.
-template <typename Domain, typename Traits>
-class Session : public Session_history<Domain, Traits>
+template <typename Domain>
+class Session : public Session_history<Domain>
 {
-  using Base = Session_history<Domain, Traits>;
+  using Base = Session_history<Domain>;
 
 public:
   using typename Base::Entry;
@@ -51,10 +52,13 @@ public:
   using typename Base::simplex_descriptor;
   using typename Base::vertex_descriptor;
   using Iterate = internal::Iterate<Session>;
+  using Visitor = std::function<Visitor_action(const Iterate&)>;
 
+  // One type for all traits: their models are handed out for each region.
+  template <typename Traits>
   Session(Domain mesh, const Traits& traits, const Session_rules& rules = {},
           const Options& options = {})
-    : Base(std::move(mesh), rules, options), m_traits(traits)
+    : Base(std::move(mesh), rules, options), m_models([traits] { return core_models(traits); })
   {}
 
   Outcome preprocess()
@@ -72,8 +76,7 @@ public:
   // what the last preparation led to
   const Outcome& preparation() const { return m_prepared.outcome_of_preparation(); }
 
-  template <typename Visitor>
-  Report deform(unsigned int iterations, double tolerance, Visitor& visitor)
+  Report deform(unsigned int iterations, double tolerance, const Visitor& visitor)
   {
     Report report;
     {
@@ -96,7 +99,7 @@ public:
     {
       Scoped_seconds total(report.seconds.total);
       static_cast<Outcome&>(report) =
-        deform(m_options.iterations, m_options.tolerance, visitor, report, &step);
+        deform(m_options.iterations, m_options.tolerance, Default_visitor(), report, &step);
       if(!report)
         return report;
       Scoped_seconds seconds(report.seconds.transfer);
@@ -165,12 +168,11 @@ private:
 
   Outcome prepare()
   {
-    return m_prepared.prepare(m_vertices, this->m_cell_values, m_traits, m_options, m_stages);
+    return m_prepared.prepare(m_vertices, this->m_cell_values, m_models, m_options, m_stages);
   }
 
   // with a time step, if one is given, else at once
-  template <typename Visitor>
-  Outcome deform(unsigned int iterations, double tolerance, Visitor& visitor, Report& report,
+  Outcome deform(unsigned int iterations, double tolerance, const Visitor& visitor, Report& report,
                  Time_step<vertex_descriptor>* step = nullptr)
   {
     if(refuse_in_a_run())
@@ -199,7 +201,7 @@ private:
 
     Array<Coordinates> positions;
     Targets targets;
-    const Region_targets<Domain, Traits> reader(m_vertices, m_prepared);
+    const Region_targets<Domain> reader(m_vertices, m_prepared);
     {
       Scoped_seconds seconds(report.seconds.transfer);
       if(Outcome read = reader.read(positions, targets); !read)
@@ -326,7 +328,7 @@ private:
                                                                   : identity_matrix();
   }
 
-  Traits m_traits;
+  std::function<Core_models()> m_models;
   Stages m_stages; // since the last run
 };
 

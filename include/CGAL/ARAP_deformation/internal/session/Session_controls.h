@@ -48,7 +48,7 @@ using Call_is_simplex = decltype(std::declval<const Domain&>().is_simplex(
 
 // The options, the region of interest, and its control vertices and control points. What is changed
 // here tells the prepared region which stages are out of date. No call is taken while a run works.
-template <typename Domain, typename Traits>
+template <typename Domain>
 class Session_controls
 {
 public:
@@ -295,7 +295,7 @@ protected:
   bool m_are_points_written = true; // those of the last run, all of them
   bool m_is_region_written = true;  // whether note_region_as_written() was called since its change
   Cell_values<Domain> m_cell_values;
-  Prepared_region<Domain, Traits> m_prepared;
+  Prepared_region<Domain> m_prepared;
 };
 
 } // namespace internal

@@ -31,10 +31,10 @@ namespace ARAP {
 namespace internal {
 
 // Back to the rest shape, a new rest shape, and back to an earlier state.
-template <typename Domain, typename Traits>
-class Session_history : public Session_targets<Domain, Traits>
+template <typename Domain>
+class Session_history : public Session_targets<Domain>
 {
-  using Base = Session_targets<Domain, Traits>;
+  using Base = Session_targets<Domain>;
 
 public:
   using typename Base::Entry;
@@ -103,7 +103,7 @@ public:
   struct State
   {
     typename Vertices::State vertices;
-    typename Prepared_region<Domain, Traits>::State prepared;
+    typename Prepared_region<Domain>::State prepared;
     Cell_scheme cells;
     double energy;
     std::shared_ptr<const char> session; // whose state it is

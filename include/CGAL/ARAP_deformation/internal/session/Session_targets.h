@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_controls.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
@@ -31,10 +31,10 @@ namespace ARAP {
 namespace internal {
 
 // The targets of control vertices and control points, with their weights and rotations.
-template <typename Domain, typename Traits>
-class Session_targets : public Session_controls<Domain, Traits>
+template <typename Domain>
+class Session_targets : public Session_controls<Domain>
 {
-  using Base = Session_controls<Domain, Traits>;
+  using Base = Session_controls<Domain>;
 
 public:
   using typename Base::Point;
