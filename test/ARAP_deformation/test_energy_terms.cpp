@@ -574,6 +574,40 @@ void test_rigid_motions(const Model& model)
   CHECK_AT_MOST(again.final_energy(), first.final_energy() * (1 + 1e-9));
 }
 
+// Rotations that are smooth over long lengths do not creep, and if they do nothing has converged.
+// Over a very long length they are all one: a group of all cells.
+template <int Dimension>
+void test_long_lengths(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+  {
+    Terms one;
+    one.group.assign((std::max)(model.points.size(), model.simplices.size()), 0);
+    Run<Dimension> group(model, s, cells, one, Minimizer::quasi_newton);
+    const double limit = group.deformation.deform(300, 1e-6).final_energy();
+    for(double length : {0.1, 1.0, 100.0})
+    {
+      test_case() = model.name + ", smoothing length " + std::to_string(length);
+      Terms terms;
+      terms.smoothing_length = length * diameter_of(model.points);
+      Run<Dimension> fast(model, s, cells, terms, Minimizer::quasi_newton);
+      const Report report = fast.deformation.deform(100, 1e-3);
+      CHECK(report.status == CGAL::ARAP::Status::converged);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      const double lowest = fast.deformation.deform(200, 0).final_energy();
+      CHECK_AT_MOST(report.final_energy(), lowest * (1 + 1e-3));
+      CHECK_AT_MOST(lowest, limit * (1 + 1e-6));
+      if(length == 100)
+        CHECK_AT_MOST(limit, lowest * (1 + 1e-3));
+      Run<Dimension> slow(model, s, cells, terms, Minimizer::local_global);
+      const Report paper = slow.deformation.deform(200, 1e-3);
+      if(paper.status == CGAL::ARAP::Status::converged)
+        CHECK_AT_MOST(paper.final_energy(), lowest * (1 + 1e-3));
+    }
+  }
+}
+
 // cells of stiffness 0, now here and now there, keep the pattern of the matrix
 void test_no_stiffness(const Model& model)
 {
@@ -691,6 +725,8 @@ void test_all()
   test_groups(models.front());
   test_changes(models.front());
   test_rigid_motions(models.front());
+  test_long_lengths<2>(models.front());
+  test_long_lengths<3>(iterates::solid());
   test_no_stiffness(models.front());
   test_wrong_values(models.front());
   test_mesh(shapes()[1]);

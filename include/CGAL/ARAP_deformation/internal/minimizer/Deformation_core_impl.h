@@ -123,6 +123,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::release_factor()
 {
   m_state->system.release_factor();
+  m_state->energy.clear_rotation_steps();
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -304,6 +305,18 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       x = before;
   }
   m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
+  const bool is_quasi_newton =
+    options.minimizer == Minimizer::quasi_newton ||
+    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
+  if(m_state->energy.are_rotations_state() && m_order == Minimization_order::local_first &&
+     (is_quasi_newton || options.tolerance > 0))
+  {
+    Scoped_seconds seconds(report.seconds.preprocess);
+    // local/global is that of the papers; there the steps only tell how far it is from the minimum
+    m_state->energy.prepare_rotation_steps(*m_models.solver, is_quasi_newton ? 2 : 0);
+  }
+  else
+    m_state->energy.clear_rotation_steps();
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!m_state->system.meet(targets.hard, x) ||
@@ -335,9 +348,6 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   }
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
-  const bool is_quasi_newton =
-    options.minimizer == Minimizer::quasi_newton ||
-    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
   return {is_quasi_newton ? minimize_quasi_newton(minimization)
                           : minimize_local_global(minimization)};
 }

@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <algorithm>
@@ -33,34 +34,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// the axis of a rotation times its angle, which is at most pi
-inline Coordinates rotation_vector(const Matrix_3x3& m)
-{
-  const Coordinates axis = {m[7] - m[5], m[2] - m[6], m[3] - m[1]}; // times 2 sin of the angle
-  const double sine = 0.5 * std::sqrt(dot(axis, axis)), cosine = 0.5 * (m[0] + m[4] + m[8] - 1);
-  const double angle = std::atan2(sine, cosine);
-  if(sine > 1e-6)
-    return scaled(axis, 0.5 * angle / sine);
-  if(cosine > 0)
-    return scaled(axis, 0.5);
-  // about a half turn m = 2 a a^T - I: the longest column of m + I is along the axis
-  const std::size_t k = m[0] >= m[4] && m[0] >= m[8] ? 0 : m[4] >= m[8] ? 1 : 2;
-  Coordinates column = {m[k], m[3 + k], m[6 + k]};
-  column[k] += 1;
-  return scaled(column, angle / std::sqrt(dot(column, column)));
-}
-
-inline Matrix_3x3 rotation_of_vector(const Coordinates& v)
-{
-  const double angle = std::sqrt(dot(v, v));
-  const double s = angle > 1e-8 ? std::sin(angle) / angle : 1;
-  const double c = angle > 1e-4 ? (1 - std::cos(angle)) / (angle * angle) : 0.5;
-  const auto [x, y, z] = v;
-  return {1 - c * (y * y + z * z), c * x * y - s * z,       c * x * z + s * y,
-          c * x * y + s * z,       1 - c * (x * x + z * z), c * y * z - s * x,
-          c * x * z - s * y,       c * y * z + s * x,       1 - c * (x * x + y * y)};
-}
 
 // Whether something that is fixed, or a target, is torn away from its neighbours: by more than a
 // tenth of the size of the rest shape. `size` is the squared diagonal of its bounding box.
