@@ -608,6 +608,37 @@ void test_long_lengths(const Model& model)
   }
 }
 
+// A state has its rotations, which smooth ones start from, also if another region was collected
+// since.
+template <int Dimension>
+void test_states(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : all_cell_schemes)
+    for(const bool is_collected : {false, true})
+    {
+      test_case() = model.name + ", states";
+      Terms terms;
+      terms.smoothing_length = 0.3 * diameter_of(model.points);
+      Run<Dimension> run(model, s, cells, terms, Minimizer::local_global);
+      auto& d = run.deformation;
+      CHECK(d.deform(5, 0));
+      const auto state = d.state();
+      CHECK(d.deform(5, 0));
+      const std::vector<Point> expected = run.points;
+      std::size_t v = 0;
+      while(s.selection[v] != 1)
+        ++v;
+      CHECK(d.erase_roi_vertex(v));
+      if(is_collected)
+        CHECK(d.deform(2, 0));
+      CHECK(d.restore(state));
+      CHECK(d.restore(d.state()));
+      CHECK(d.deform(5, 0));
+      CHECK_AT_MOST(largest_distance(run.points, expected), 1e-10 * diameter_of(model.points));
+    }
+}
+
 // cells of stiffness 0, now here and now there, keep the pattern of the matrix
 void test_no_stiffness(const Model& model)
 {
@@ -727,6 +758,8 @@ void test_all()
   test_rigid_motions(models.front());
   test_long_lengths<2>(models.front());
   test_long_lengths<3>(iterates::solid());
+  test_states<2>(models.front());
+  test_states<3>(iterates::solid());
   test_no_stiffness(models.front());
   test_wrong_values(models.front());
   test_mesh(shapes()[1]);

@@ -84,6 +84,7 @@ public:
   void update_weights(Energy_model energy_model, unsigned int number_of_threads);
 
   const Region& region() const { return m_region; }
+  bool has_vertex_cells() const { return m_energy_model.cells.has_vertex_cells(); }
 
   // whether a movable vertex is not in any simplex
   bool is_isolated(int v) const { return m_is_isolated[v] != 0; }
