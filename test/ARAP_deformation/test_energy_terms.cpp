@@ -786,8 +786,102 @@ Report run(const Shape& shape, const Scenario& s, Initial_guess guess, Cell_sche
   return report;
 }
 
+// The guess is the same whether the region was cut to what can move or not: here handles reach far,
+// and are bent.
+void test_cut_region(Initial_guess guess)
+{
+  test_case() = "a region that is cut";
+  const Shape shape = grid("sheet", 15, 9, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.1 * std::sin(5 * u) * v);
+  });
+  std::vector<std::size_t> held; // two thirds
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(shape.points[v][0] < 0.7 || shape.points[v][0] > 1.35)
+      held.push_back(v);
+  const auto run = [&](bool is_whole) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::automatic, guess)));
+    d.insert_roi_vertices(vertices(mesh));
+    d.insert_control_vertex(Mesh::Vertex_index(0));
+    if(is_whole)
+      CHECK(d.deform(0, 0));
+    for(std::size_t v : held)
+    {
+      const Eigen::Vector3d& p = shape.points[v];
+      d.insert_control_vertex(Mesh::Vertex_index(v),
+                              point(turn(0.6 * p[0] * p[0], {1, 0.3, 0}) * p));
+    }
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    CHECK(report.stages.region == !is_whole);
+    return points_of(mesh);
+  };
+  const std::vector<Point> whole = run(true), cut = run(false);
+  std::vector<Eigen::Vector3d> expected;
+  for(const Point& p : whole)
+    expected.push_back(vector(p));
+  CHECK_AT_MOST(largest_distance(cut, expected), 1e-9);
+}
+
+// counts its solutions
+struct Counting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  static int& count() { static int n = 0; return n; }
+
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
+  {
+    ++count();
+    return CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
+  }
+};
+
+// A soft target of little weight that stays far away: the guess is tried once, not in each frame of
+// a drag.
+void test_far_soft_target()
+{
+  test_case() = "a soft target far away";
+  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0);
+  });
+  Mesh mesh = make_mesh<Mesh>(shape);
+  using Traits = CGAL::ARAP_deformation_traits<Counting_solver>;
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
+                                  Initial_guess::automatic)));
+  d.insert_roi_vertices(vertices(mesh));
+  std::vector<Mesh::Vertex_index> handle;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    if(const double u = shape.points[v][0]; u == 0)
+      d.insert_control_vertex(v);
+    else if(u == 2)
+    {
+      d.insert_control_vertex(v);
+      handle.push_back(v);
+    }
+    else if(v % 10 == 5 && 0.9 < u && u < 1.1)
+    {
+      d.insert_control_vertex(v, point(shape.points[v] + Eigen::Vector3d(0, 0, 1.5)));
+      CHECK(d.set_target_weight(v, 0.01));
+    }
+  const auto solutions = [&] {
+    const int before = Counting_solver::count();
+    CHECK(d.deform(3, 0));
+    return Counting_solver::count() - before;
+  };
+  CHECK(solutions() > 3); // it is tried
+  for(int frame = 0; frame < 5; ++frame)
+  {
+    d.translate(handle, Kernel::Vector_3(0, 0, 0.01));
+    CHECK(solutions() == 3);
+  }
+}
+
 void test_all()
 {
+  test_cut_region(Initial_guess::rotations);
+  test_cut_region(Initial_guess::automatic);
+  test_far_soft_target();
   int number_of_lower = 0;
   for(const Shape& shape : shapes())
   {

@@ -63,9 +63,6 @@ Deformation_core::Deformation_core(const Core_models& models, Region region,
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
       m_is_isolated[v] = false;
-  Bounding_box box;
-  box.include(m_region.rest);
-  m_squared_size = box.squared_length();
   update_weights(std::move(energy_model), number_of_threads);
 }
 
@@ -173,11 +170,24 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
   m_constraints = std::move(constraints);
+  m_is_near = find_vertices_near_free_ones(m_region, m_constraints.is_fixed);
+  Bounding_box box;
+  include_near(m_region.rest, box);
+  m_squared_size = box.squared_length();
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
     m_unconstrained_components.push_back(component.second);
   std::sort(m_unconstrained_components.begin(), m_unconstrained_components.end());
   return {};
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::include_near(const std::vector<Coordinates>& points,
+                                    Bounding_box& box) const
+{
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(m_is_near[v])
+      box.include(points[v]);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -295,12 +305,12 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return {Status::solver_failed};
     // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
     Bounding_box box;
-    box.include(m_region.rest);
-    box.include(before);
+    include_near(m_region.rest, box);
+    include_near(before, box);
     box.include(targets.soft);
     box.include(targets.hard);
     const double size = box.squared_length();
-    box.include(x);
+    include_near(x, box);
     if(!guess.is_found() || !(box.squared_length() <= 4 * size))
       x = before;
   }
@@ -334,12 +344,17 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
-                        is_torn(m_region, m_constraints, m_squared_size, targets, x);
+                        (is_torn(m_region, m_constraints, m_squared_size, x) ||
+                         is_torn(m_constraints, m_squared_size, targets, x,
+                                 [&]() -> const std::vector<Coordinates>& {
+                                   minimization.evaluate();
+                                   return minimization.force();
+                                 }));
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
     const Array<Matrix_3x3> of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, targets, x)(m_state->energy,
+      return Harmonic_rotations(m_region, m_constraints, m_is_near, targets, x)(m_state->energy,
                                                                      m_state->system);
     }();
     if(!of_vertices.empty() &&
