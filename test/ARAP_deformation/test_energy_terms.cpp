@@ -704,6 +704,35 @@ void test_wrong_values(const Model& model)
   CHECK(d.deform());
 }
 
+// Lengths beside which nothing else is left are refused with a sentence, whatever the size.
+void test_huge_lengths(const Model& model)
+{
+  Scenario s = whole_scenario(model);
+  for(const double size : {1.0, 1e-9})
+  {
+    Model scaled = model;
+    Scenario scaled_s = s;
+    for(auto* points : {&scaled.points, &scaled_s.targets})
+      for(Eigen::Vector3d& p : *points)
+        p *= size;
+    for(double length : {1e8, 1e77, 1e160, 1e300})
+      for(const bool is_bending : {true, false})
+      {
+        test_case() = "a length of " + std::to_string(length);
+        Terms terms;
+        (is_bending ? terms.bending_length : terms.smoothing_length) = length;
+        Run<2> run(scaled, scaled_s, Cell_scheme::spokes_and_rims(), terms);
+        const std::vector<Point> before = run.points;
+        const Report report = run.deformation.deform();
+        CHECK(report.status == CGAL::ARAP::Status::invalid_option);
+        CHECK(report.message.find("million") != std::string::npos);
+        CHECK(run.points == before);
+        apply(run.deformation, Cell_scheme::spokes_and_rims(), {});
+        CHECK(run.deformation.deform());
+      }
+  }
+}
+
 // On a mesh, in one call, and with any number of threads.
 void test_mesh(const Shape& shape)
 {
@@ -762,6 +791,7 @@ void test_all()
   test_states<3>(iterates::solid());
   test_no_stiffness(models.front());
   test_wrong_values(models.front());
+  test_huge_lengths(models.front());
   test_mesh(shapes()[1]);
 }
 

@@ -63,11 +63,12 @@ struct Options
 
   /// \f$b\f$, the length over which a sharp bend is spread, in the unit of the points; 0 for none,
   /// else positive and finite. See \ref ARAPDeformation_Bending for which to choose. Needs cells at
-  /// vertices. A new value requires a factorization.
+  /// vertices. A new value requires a factorization. More than a million times the size of what can
+  /// move is refused.
   double bending_length = 0;
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
-  /// none, else positive and finite. With it rotations are part of the state, and the energy is
+  /// none, else positive and finite, and no larger than the other length. With it rotations are part of the state, and the energy is
   /// minimized over positions and rotations in turns: see \ref ARAPDeformation_SmoothRotations.
   double smoothing_length = 0;
 

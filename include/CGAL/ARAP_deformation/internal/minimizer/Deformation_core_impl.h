@@ -36,6 +36,7 @@
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -43,6 +44,10 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// The largest length of a term of the energy, over the size of what can move: beyond it rounding
+// hides all other terms.
+constexpr double largest_length = 1e6;
 
 struct Deformation_core::State
 {
@@ -149,6 +154,15 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   for(int v = 0; v < n; ++v)
     constraints.is_fixed[v] |= components.is_unconstrained(v);
 
+  m_is_near = find_vertices_near_free_ones(m_region, constraints.is_fixed);
+  Bounding_box box;
+  include_near(m_region.rest, box);
+  m_squared_size = box.squared_length();
+  if(m_squared_size > 0 && (std::max)(m_energy_model.bending_length,
+                                      m_energy_model.smoothing_length) >
+                             largest_length * std::sqrt(m_squared_size))
+    return {Status::invalid_option};
+
   if(constraints.hard_rows.size() > Hard_rows::most_rows)
     return {Status::too_many_control_points};
   if(const int r = Hard_rows(constraints).find_dependent(); r >= 0)
@@ -170,10 +184,6 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
                             m_rotations);
   m_constraints = std::move(constraints);
-  m_is_near = find_vertices_near_free_ones(m_region, m_constraints.is_fixed);
-  Bounding_box box;
-  include_near(m_region.rest, box);
-  m_squared_size = box.squared_length();
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
     m_unconstrained_components.push_back(component.second);

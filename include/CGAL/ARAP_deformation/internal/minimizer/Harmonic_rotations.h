@@ -35,8 +35,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Whether something that is fixed is torn away from its neighbours: by more than a tenth of the size
-// of the rest shape. `size` is the squared diagonal of its bounding box.
+// Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
+// which is given by its square.
 inline bool is_torn(const Region& region, const Constraints& constraints, double size,
                     const std::vector<Coordinates>& x)
 {

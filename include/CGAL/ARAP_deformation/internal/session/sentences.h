@@ -90,7 +90,9 @@ inline Outcome outcome(Status status, const std::string& what = std::string())
   case Status::iteration_limit: return about("the maximum number of iterations was run");
   case Status::stopped: return about("the visitor stopped the run; the last iterate was kept");
   case Status::cancelled: return about("the visitor cancelled the run; nothing was changed");
-  case Status::invalid_option: return about("an option is out of range");
+  case Status::invalid_option:
+    return about("the option bending_length or smoothing_length is more than a million times the "
+                 "size of what can move");
   case Status::in_a_run:
     return about("a visitor must not change the object that it is visiting");
   case Status::foreign_state:
