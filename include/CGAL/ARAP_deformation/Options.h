@@ -68,8 +68,9 @@ struct Options
   double bending_length = 0;
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
-  /// none, else positive and finite, and no larger than the other length. With it rotations are part of the state, and the energy is
-  /// minimized over positions and rotations in turns: see \ref ARAPDeformation_SmoothRotations.
+  /// none, else positive and finite, with the same largest value. With it rotations are part of the
+  /// state, and the energy is minimized over positions and rotations in turns: see
+  /// \ref ARAPDeformation_SmoothRotations.
   double smoothing_length = 0;
 
   /// the initial guess of each run.
