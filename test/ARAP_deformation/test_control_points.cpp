@@ -956,6 +956,54 @@ void test_all(const Held_shape<Dimension>& shape)
   locations::test(shape);
 }
 
+// Control points have no rotation, and do not hold the guess of rotations back: one where it goes
+// without changes nothing, and several little.
+namespace guess {
+
+template <int Dimension>
+void test(Held_shape<Dimension> shape)
+{
+  shape.scenario = scenario(Shape{"", shape.points, {}}, 1.5);
+  const auto options = options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
+                                   CGAL::ARAP::Initial_guess::rotations);
+  Subject<Dimension> without(shape);
+  CHECK(without.deformation.set_options(options));
+  CHECK(without.deformation.deform(0, 0));
+  std::vector<Eigen::Vector3d> expected;
+  for(const Point& p : without.points)
+    expected.push_back(vector(p));
+  const std::vector<std::size_t> places = shape.places(5, 4);
+  for(const double weight : {infinite, 1.0, 1e4})
+    for(const std::size_t count : {1, 5})
+    {
+      test_case() = shape.name + ", guess with " + std::to_string(count) + " points of weight " +
+                    std::to_string(weight);
+      Subject<Dimension> with(shape);
+      CHECK(with.deformation.set_options(options));
+      for(std::size_t k = 0; k < count; ++k)
+      {
+        const auto& corners = shape.simplices[places[count == 1 ? 2 : k]];
+        const std::vector<double> c = coordinates(corners.size(), k);
+        Eigen::Vector3d shift(0, 0, 0);
+        for(std::size_t i = 0; i < corners.size(); ++i)
+          shift += c[i] * (expected[corners[i]] - vector(with.points[corners[i]]));
+        with.insert(places[count == 1 ? 2 : k], c, weight, shift);
+      }
+      CHECK(with.deformation.deform(0, 0));
+      CHECK_AT_MOST(largest_distance(with.points, expected),
+                    (count == 1 ? 1e-8 : 0.06) * shape.diameter());
+    }
+}
+
+void test_all()
+{
+  test(triangles());
+  test(quads());
+  test(tetrahedra());
+}
+
+} // namespace guess
+
 int main()
 {
   test_all(triangles());
@@ -971,5 +1019,6 @@ int main()
   sets::test_line_at_vertex();
   sets::test_refusals();
   locations::test_function();
+  guess::test_all();
   return checks_result();
 }

@@ -574,6 +574,71 @@ void test_rigid_motions(const Model& model)
   CHECK_AT_MOST(again.final_energy(), first.final_energy() * (1 + 1e-9));
 }
 
+// Rotations that are smooth over long lengths do not creep, and if they do nothing has converged.
+// Over a very long length they are all one: a group of all cells.
+template <int Dimension>
+void test_long_lengths(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+  {
+    Terms one;
+    one.group.assign((std::max)(model.points.size(), model.simplices.size()), 0);
+    Run<Dimension> group(model, s, cells, one, Minimizer::quasi_newton);
+    const double limit = group.deformation.deform(300, 1e-6).final_energy();
+    for(double length : {0.1, 1.0, 100.0})
+    {
+      test_case() = model.name + ", smoothing length " + std::to_string(length);
+      Terms terms;
+      terms.smoothing_length = length * diameter_of(model.points);
+      Run<Dimension> fast(model, s, cells, terms, Minimizer::quasi_newton);
+      const Report report = fast.deformation.deform(100, 1e-3);
+      CHECK(report.status == CGAL::ARAP::Status::converged);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      const double lowest = fast.deformation.deform(200, 0).final_energy();
+      CHECK_AT_MOST(report.final_energy(), lowest * (1 + 1e-3));
+      CHECK_AT_MOST(lowest, limit * (1 + 1e-6));
+      if(length == 100)
+        CHECK_AT_MOST(limit, lowest * (1 + 1e-3));
+      Run<Dimension> slow(model, s, cells, terms, Minimizer::local_global);
+      const Report paper = slow.deformation.deform(200, 1e-3);
+      if(paper.status == CGAL::ARAP::Status::converged)
+        CHECK_AT_MOST(paper.final_energy(), lowest * (1 + 1e-3));
+    }
+  }
+}
+
+// A state has its rotations, which smooth ones start from, also if another region was collected
+// since.
+template <int Dimension>
+void test_states(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : all_cell_schemes)
+    for(const bool is_collected : {false, true})
+    {
+      test_case() = model.name + ", states";
+      Terms terms;
+      terms.smoothing_length = 0.3 * diameter_of(model.points);
+      Run<Dimension> run(model, s, cells, terms, Minimizer::local_global);
+      auto& d = run.deformation;
+      CHECK(d.deform(5, 0));
+      const auto state = d.state();
+      CHECK(d.deform(5, 0));
+      const std::vector<Point> expected = run.points;
+      std::size_t v = 0;
+      while(s.selection[v] != 1)
+        ++v;
+      CHECK(d.erase_roi_vertex(v));
+      if(is_collected)
+        CHECK(d.deform(2, 0));
+      CHECK(d.restore(state));
+      CHECK(d.restore(d.state()));
+      CHECK(d.deform(5, 0));
+      CHECK_AT_MOST(largest_distance(run.points, expected), 1e-10 * diameter_of(model.points));
+    }
+}
+
 // cells of stiffness 0, now here and now there, keep the pattern of the matrix
 void test_no_stiffness(const Model& model)
 {
@@ -639,6 +704,35 @@ void test_wrong_values(const Model& model)
   CHECK(d.deform());
 }
 
+// Lengths beside which nothing else is left are refused with a sentence, whatever the size.
+void test_huge_lengths(const Model& model)
+{
+  Scenario s = whole_scenario(model);
+  for(const double size : {1.0, 1e-9})
+  {
+    Model scaled = model;
+    Scenario scaled_s = s;
+    for(auto* points : {&scaled.points, &scaled_s.targets})
+      for(Eigen::Vector3d& p : *points)
+        p *= size;
+    for(double length : {1e8, 1e77, 1e160, 1e300})
+      for(const bool is_bending : {true, false})
+      {
+        test_case() = "a length of " + std::to_string(length);
+        Terms terms;
+        (is_bending ? terms.bending_length : terms.smoothing_length) = length;
+        Run<2> run(scaled, scaled_s, Cell_scheme::spokes_and_rims(), terms);
+        const std::vector<Point> before = run.points;
+        const Report report = run.deformation.deform();
+        CHECK(report.status == CGAL::ARAP::Status::invalid_option);
+        CHECK(report.message.find("million") != std::string::npos);
+        CHECK(run.points == before);
+        apply(run.deformation, Cell_scheme::spokes_and_rims(), {});
+        CHECK(run.deformation.deform());
+      }
+  }
+}
+
 // On a mesh, in one call, and with any number of threads.
 void test_mesh(const Shape& shape)
 {
@@ -691,8 +785,13 @@ void test_all()
   test_groups(models.front());
   test_changes(models.front());
   test_rigid_motions(models.front());
+  test_long_lengths<2>(models.front());
+  test_long_lengths<3>(iterates::solid());
+  test_states<2>(models.front());
+  test_states<3>(iterates::solid());
   test_no_stiffness(models.front());
   test_wrong_values(models.front());
+  test_huge_lengths(models.front());
   test_mesh(shapes()[1]);
 }
 
@@ -717,8 +816,102 @@ Report run(const Shape& shape, const Scenario& s, Initial_guess guess, Cell_sche
   return report;
 }
 
+// The guess is the same whether the region was cut to what can move or not: here handles reach far,
+// and are bent.
+void test_cut_region(Initial_guess guess)
+{
+  test_case() = "a region that is cut";
+  const Shape shape = grid("sheet", 15, 9, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.1 * std::sin(5 * u) * v);
+  });
+  std::vector<std::size_t> held; // two thirds
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(shape.points[v][0] < 0.7 || shape.points[v][0] > 1.35)
+      held.push_back(v);
+  const auto run = [&](bool is_whole) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::automatic, guess)));
+    d.insert_roi_vertices(vertices(mesh));
+    d.insert_control_vertex(Mesh::Vertex_index(0));
+    if(is_whole)
+      CHECK(d.deform(0, 0));
+    for(std::size_t v : held)
+    {
+      const Eigen::Vector3d& p = shape.points[v];
+      d.insert_control_vertex(Mesh::Vertex_index(v),
+                              point(turn(0.6 * p[0] * p[0], {1, 0.3, 0}) * p));
+    }
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    CHECK(report.stages.region == !is_whole);
+    return points_of(mesh);
+  };
+  const std::vector<Point> whole = run(true), cut = run(false);
+  std::vector<Eigen::Vector3d> expected;
+  for(const Point& p : whole)
+    expected.push_back(vector(p));
+  CHECK_AT_MOST(largest_distance(cut, expected), 1e-9);
+}
+
+// counts its solutions
+struct Counting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
+{
+  static int& count() { static int n = 0; return n; }
+
+  bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
+  {
+    ++count();
+    return CGAL::ARAP::Multifrontal_cholesky_solver::solve(n, x);
+  }
+};
+
+// A soft target of little weight that stays far away: the guess is tried once, not in each frame of
+// a drag.
+void test_far_soft_target()
+{
+  test_case() = "a soft target far away";
+  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0);
+  });
+  Mesh mesh = make_mesh<Mesh>(shape);
+  using Traits = CGAL::ARAP_deformation_traits<Counting_solver>;
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
+                                  Initial_guess::automatic)));
+  d.insert_roi_vertices(vertices(mesh));
+  std::vector<Mesh::Vertex_index> handle;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    if(const double u = shape.points[v][0]; u == 0)
+      d.insert_control_vertex(v);
+    else if(u == 2)
+    {
+      d.insert_control_vertex(v);
+      handle.push_back(v);
+    }
+    else if(v % 10 == 5 && 0.9 < u && u < 1.1)
+    {
+      d.insert_control_vertex(v, point(shape.points[v] + Eigen::Vector3d(0, 0, 1.5)));
+      CHECK(d.set_target_weight(v, 0.01));
+    }
+  const auto solutions = [&] {
+    const int before = Counting_solver::count();
+    CHECK(d.deform(3, 0));
+    return Counting_solver::count() - before;
+  };
+  CHECK(solutions() > 3); // it is tried
+  for(int frame = 0; frame < 5; ++frame)
+  {
+    d.translate(handle, Kernel::Vector_3(0, 0, 0.01));
+    CHECK(solutions() == 3);
+  }
+}
+
 void test_all()
 {
+  test_cut_region(Initial_guess::rotations);
+  test_cut_region(Initial_guess::automatic);
+  test_far_soft_target();
   int number_of_lower = 0;
   for(const Shape& shape : shapes())
   {

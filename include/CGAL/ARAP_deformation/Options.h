@@ -33,9 +33,9 @@ enum class Initial_guess
   previous, ///< the current positions: for interaction, where each frame starts from the last
   rotations, ///< Poisson editing \cgalCite{Zayer2005Harmonic}: the rotations of the handles against
              ///< the rest shape are interpolated harmonically, and one global step with them gives
-             ///< the positions. Costs two or three solves with the factor. A handle of several
-             ///< connected vertices has the rotation of its motion, one of a single vertex none
-             ///< unless it is a frame.
+             ///< the positions. Costs two solves with the factor. A handle of several connected
+             ///< vertices has the rotation of its motion. A single vertex has none, unless it is a
+             ///< frame, and a control point has none: they cost two more solves.
   laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
             ///< where they are, and the control vertices, soft ones of positive weight included, at
             ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and
@@ -63,12 +63,14 @@ struct Options
 
   /// \f$b\f$, the length over which a sharp bend is spread, in the unit of the points; 0 for none,
   /// else positive and finite. See \ref ARAPDeformation_Bending for which to choose. Needs cells at
-  /// vertices. A new value requires a factorization.
+  /// vertices. A new value requires a factorization. More than a million times the size of what can
+  /// move is refused.
   double bending_length = 0;
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
-  /// none, else positive and finite. With it rotations are part of the state, and the energy is
-  /// minimized over positions and rotations in turns: see \ref ARAPDeformation_SmoothRotations.
+  /// none, else positive and finite, with the same largest value. With it rotations are part of the
+  /// state, and the energy is minimized over positions and rotations in turns: see
+  /// \ref ARAPDeformation_SmoothRotations.
   double smoothing_length = 0;
 
   /// the initial guess of each run.

@@ -65,6 +65,18 @@ public:
     m_is_diagonal &= vertices.size() == 1;
   }
 
+  // adds a row of others
+  void append(const Weighted_rows& others, int r)
+  {
+    const auto begin = others.m_vertices.begin[r], end = others.m_vertices.begin[r + 1];
+    append(Array<int>(others.m_vertices.items.begin() + begin,
+                      others.m_vertices.items.begin() + end),
+           Array<double>(others.m_coefficients.begin() + begin,
+                         others.m_coefficients.begin() + end), others.m_weights[r]);
+  }
+
+  double weight(int r) const { return m_weights[r]; }
+
   // Calls f(i, j, a) for each entry a of B^T M B with i >= j, one call for each row. There may be
   // several calls for one entry, in the order of the rows.
   template <typename Function>

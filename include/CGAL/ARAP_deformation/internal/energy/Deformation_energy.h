@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Rotation_steps.h>
 #include <CGAL/ARAP_deformation/internal/energy/Sequential_fit.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
@@ -37,6 +38,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -170,7 +172,7 @@ public:
   double rounding_level(const Bounding_box& box, double inertia) const
   {
     const double error = 4 * rounding_error(box);
-    return (m_sum_of_weights + inertia) * error * error;
+    return (m_sum_of_weights + inertia) * error * error + m_smooth.rounding_level();
   }
 
   // what rounding the positions makes of the force at a free vertex, on average
@@ -259,7 +261,54 @@ public:
     for(const auto& [c, rotation] : m_given)
       if(m_is_chosen[c])
         set_rotation_of_group(c, rotation, rotations);
+    if(is_smooth && m_number_of_rotation_steps > 0)
+      compute_covariances(m_x);
+    for(int k = 0; is_smooth && k < m_number_of_rotation_steps; ++k)
+      if(!m_rotation_steps->take(m_smooth, m_covariances, rotations))
+        break;
     return evaluate(rotations, force);
+  }
+
+  // Prepares steps of all rotations together, where they are to be smooth and given rotations are
+  // known. Each fit takes so many from now on.
+  void prepare_rotation_steps(const Linear_solver& prototype, int steps_of_a_fit)
+  {
+    const int n = number_of_cells();
+    if(!m_rotation_steps)
+    {
+      compute_covariances(m_rest);
+      Array<int> leader(n);
+      Array<double> bounds(n);
+      for(int c = 0; c < n; ++c)
+      {
+        const int g = m_group_of.empty() ? -1 : m_group_of[c];
+        leader[c] = g < 0 ? c : m_groups.items[m_groups.begin[g]];
+        bounds[c] = m_covariances[c][0] + m_covariances[c][4] + m_covariances[c][8];
+      }
+      m_rotation_steps.emplace(prototype.copy(), m_smooth, std::move(leader), bounds);
+    }
+    Array<int> given;
+    for(const auto& cell : m_given)
+      given.push_back(cell.first);
+    if(!m_rotation_steps->set_given(given))
+      return clear_rotation_steps();
+    m_number_of_rotation_steps = steps_of_a_fit;
+  }
+
+  void clear_rotation_steps()
+  {
+    m_rotation_steps.reset();
+    m_number_of_rotation_steps = 0;
+  }
+
+  // about by how much a step of all rotations together would lower the energy where it was last
+  // evaluated; 0 if none is prepared
+  double gain_of_rotation_step(const std::vector<Matrix_3x3>& rotations)
+  {
+    if(!m_rotation_steps)
+      return 0;
+    compute_covariances(m_x);
+    return m_rotation_steps->gain(m_smooth, m_covariances, rotations);
   }
 
   // The same with the rotations given.
@@ -303,6 +352,21 @@ private:
       for(std::size_t k = begin; k < end; ++k)
         padded[k] = Double4::of(points[k][0], points[k][1], points[k][2]);
     }, 16 * default_block_size);
+  }
+
+  // the covariances of all cells for some positions, without what makes them smooth
+  void compute_covariances(const std::vector<Double4>& x)
+  {
+    m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
+    m_bending.prepare(x.data());
+    std::visit([&](auto& cells) {
+      cells.prepare_covariances(m_rest.data(), x.data());
+      m_batches.for_each([&](int begin, int end) {
+        Matrix_3x3* const covariances = m_covariances.data() + begin;
+        cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
+        m_bending.add_covariances(begin, end, covariances);
+      });
+    }, m_cells);
   }
 
   // at the positions m_x
@@ -354,6 +418,9 @@ private:
   double m_scale = 0;          // in the rest shape
   double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;
+  std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
+  Array<Matrix_3x3> m_covariances;                // for these
+  int m_number_of_rotation_steps = 0;             // of each fit
 };
 
 } // namespace internal

@@ -20,6 +20,8 @@
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -41,10 +43,18 @@ public:
 
   // the weights s_cd for each item of the lists, which are symmetric
   Smooth_rotations(Index_lists neighbours, Array<double> weights)
-    : m_neighbours(std::move(neighbours)), m_weights(std::move(weights))
+    : m_neighbours(std::move(neighbours)), m_weights(std::move(weights)),
+      m_sum_of_weights(std::accumulate(m_weights.begin(), m_weights.end(), 0.0))
   {}
 
   bool is_none() const { return m_weights.empty(); }
+
+  // what rounding the rotations makes of a sum that is zero
+  double rounding_level() const
+  {
+    constexpr double error = 8 * std::numeric_limits<double>::epsilon(); // of a difference
+    return m_sum_of_weights * error * error;
+  }
 
   // to be called before the rotations are fitted
   void keep(const std::vector<Matrix_3x3>& rotations)
@@ -67,6 +77,25 @@ public:
           covariances[c - begin][entry] +=
             m_weights[k] * (m_before[own][entry] + m_before[other][entry]);
       }
+  }
+
+  // adds to a matrix the sum over d of s_cd R_d
+  void add_neighbours(int c, const std::vector<Matrix_3x3>& rotations, Matrix_3x3& sum) const
+  {
+    for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
+      for(std::size_t entry = 0; entry < 9; ++entry)
+        sum[entry] +=
+          m_weights[k] * rotations[static_cast<std::size_t>(m_neighbours.items[k])][entry];
+  }
+
+  // calls f(c, d, s_cd) for each pair of neighbours c < d
+  template <typename Function>
+  void for_each_pair(const Function& f) const
+  {
+    for(int c = 0; c < m_neighbours.size(); ++c)
+      for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
+        if(m_neighbours.items[k] > c)
+          f(c, m_neighbours.items[k], m_weights[k]);
   }
 
   double evaluate(const std::vector<Matrix_3x3>& rotations) const
@@ -95,6 +124,7 @@ public:
 private:
   Index_lists m_neighbours;
   Array<double> m_weights;
+  double m_sum_of_weights = 0;
   std::vector<Matrix_3x3> m_before;
 };
 

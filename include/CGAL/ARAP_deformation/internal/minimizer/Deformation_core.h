@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
@@ -84,6 +85,7 @@ public:
   void update_weights(Energy_model energy_model, unsigned int number_of_threads);
 
   const Region& region() const { return m_region; }
+  bool has_vertex_cells() const { return m_energy_model.cells.has_vertex_cells(); }
 
   // whether a movable vertex is not in any simplex
   bool is_isolated(int v) const { return m_is_isolated[v] != 0; }
@@ -133,6 +135,7 @@ private:
   Array<Matrix_3x3> rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;
+  void include_near(const std::vector<Coordinates>& points, Bounding_box& box) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }
 
   Core_models m_models;
@@ -142,7 +145,8 @@ private:
   std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;
   Array<char> m_is_isolated; // for each movable vertex
-  double m_squared_size = 0;       // of the diagonal of the bounding box of the rest shape
+  Array<char> m_is_near;     // for each vertex: it is in a simplex with a free one
+  double m_squared_size = 0; // of the diagonal of the bounding box of these in the rest shape
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
   Array<Matrix_3x3> m_rotations;

@@ -36,6 +36,7 @@
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -43,6 +44,10 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// The largest length of a term of the energy, over the size of what can move: beyond it rounding
+// hides all other terms.
+constexpr double largest_length = 1e6;
 
 struct Deformation_core::State
 {
@@ -63,9 +68,6 @@ Deformation_core::Deformation_core(const Core_models& models, Region region,
   for(int v : m_region.corners)
     if(v < m_region.number_of_movable_vertices)
       m_is_isolated[v] = false;
-  Bounding_box box;
-  box.include(m_region.rest);
-  m_squared_size = box.squared_length();
   update_weights(std::move(energy_model), number_of_threads);
 }
 
@@ -123,6 +125,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::release_factor()
 {
   m_state->system.release_factor();
+  m_state->energy.clear_rotation_steps();
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -151,6 +154,15 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   for(int v = 0; v < n; ++v)
     constraints.is_fixed[v] |= components.is_unconstrained(v);
 
+  m_is_near = find_vertices_near_free_ones(m_region, constraints.is_fixed);
+  Bounding_box box;
+  include_near(m_region.rest, box);
+  m_squared_size = box.squared_length();
+  if(m_squared_size > 0 && (std::max)(m_energy_model.bending_length,
+                                      m_energy_model.smoothing_length) >
+                             largest_length * std::sqrt(m_squared_size))
+    return {Status::invalid_option};
+
   if(constraints.hard_rows.size() > Hard_rows::most_rows)
     return {Status::too_many_control_points};
   if(const int r = Hard_rows(constraints).find_dependent(); r >= 0)
@@ -177,6 +189,15 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     m_unconstrained_components.push_back(component.second);
   std::sort(m_unconstrained_components.begin(), m_unconstrained_components.end());
   return {};
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::include_near(const std::vector<Coordinates>& points,
+                                    Bounding_box& box) const
+{
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(m_is_near[v])
+      box.include(points[v]);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -294,16 +315,28 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return {Status::solver_failed};
     // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
     Bounding_box box;
-    box.include(m_region.rest);
-    box.include(before);
+    include_near(m_region.rest, box);
+    include_near(before, box);
     box.include(targets.soft);
     box.include(targets.hard);
     const double size = box.squared_length();
-    box.include(x);
+    include_near(x, box);
     if(!guess.is_found() || !(box.squared_length() <= 4 * size))
       x = before;
   }
   m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
+  const bool is_quasi_newton =
+    options.minimizer == Minimizer::quasi_newton ||
+    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
+  if(m_state->energy.are_rotations_state() && m_order == Minimization_order::local_first &&
+     (is_quasi_newton || options.tolerance > 0))
+  {
+    Scoped_seconds seconds(report.seconds.preprocess);
+    // local/global is that of the papers; there the steps only tell how far it is from the minimum
+    m_state->energy.prepare_rotation_steps(*m_models.solver, is_quasi_newton ? 2 : 0);
+  }
+  else
+    m_state->energy.clear_rotation_steps();
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!m_state->system.meet(targets.hard, x) ||
@@ -321,12 +354,17 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
-                        is_torn(m_region, m_constraints, m_squared_size, targets, x);
+                        (is_torn(m_region, m_constraints, m_squared_size, x) ||
+                         is_torn(m_constraints, m_squared_size, targets, x,
+                                 [&]() -> const std::vector<Coordinates>& {
+                                   minimization.evaluate();
+                                   return minimization.force();
+                                 }));
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
     const Array<Matrix_3x3> of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, targets, x)(m_state->energy,
+      return Harmonic_rotations(m_region, m_constraints, m_is_near, targets, x)(m_state->energy,
                                                                      m_state->system);
     }();
     if(!of_vertices.empty() &&
@@ -335,9 +373,6 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   }
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
-  const bool is_quasi_newton =
-    options.minimizer == Minimizer::quasi_newton ||
-    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
   return {is_quasi_newton ? minimize_quasi_newton(minimization)
                           : minimize_local_global(minimization)};
 }

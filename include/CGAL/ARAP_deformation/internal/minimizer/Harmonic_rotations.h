@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <algorithm>
@@ -34,46 +35,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// the axis of a rotation times its angle, which is at most pi
-inline Coordinates rotation_vector(const Matrix_3x3& m)
-{
-  const Coordinates axis = {m[7] - m[5], m[2] - m[6], m[3] - m[1]}; // times 2 sin of the angle
-  const double sine = 0.5 * std::sqrt(dot(axis, axis)), cosine = 0.5 * (m[0] + m[4] + m[8] - 1);
-  const double angle = std::atan2(sine, cosine);
-  if(sine > 1e-6)
-    return scaled(axis, 0.5 * angle / sine);
-  if(cosine > 0)
-    return scaled(axis, 0.5);
-  // about a half turn m = 2 a a^T - I: the longest column of m + I is along the axis
-  const std::size_t k = m[0] >= m[4] && m[0] >= m[8] ? 0 : m[4] >= m[8] ? 1 : 2;
-  Coordinates column = {m[k], m[3 + k], m[6 + k]};
-  column[k] += 1;
-  return scaled(column, angle / std::sqrt(dot(column, column)));
-}
-
-inline Matrix_3x3 rotation_of_vector(const Coordinates& v)
-{
-  const double angle = std::sqrt(dot(v, v));
-  const double s = angle > 1e-8 ? std::sin(angle) / angle : 1;
-  const double c = angle > 1e-4 ? (1 - std::cos(angle)) / (angle * angle) : 0.5;
-  const auto [x, y, z] = v;
-  return {1 - c * (y * y + z * z), c * x * y - s * z,       c * x * z + s * y,
-          c * x * y + s * z,       1 - c * (x * x + z * z), c * y * z - s * x,
-          c * x * z - s * y,       c * y * z + s * x,       1 - c * (x * x + y * y)};
-}
-
-// Whether something that is fixed, or a target, is torn away from its neighbours: by more than a
-// tenth of the size of the rest shape. `size` is the squared diagonal of its bounding box.
+// Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
+// which is given by its square.
 inline bool is_torn(const Region& region, const Constraints& constraints, double size,
-                    const Targets& targets, const std::vector<Coordinates>& x)
+                    const std::vector<Coordinates>& x)
 {
   const int n = region.number_of_movable_vertices;
   const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
-  const auto is_far = [&](const Coordinates& d) { return dot(d, d) > 0.01 * size; };
-  for(int r = 0; r < constraints.rows.size(); ++r)
-    if(is_far(difference(targets.soft[static_cast<std::size_t>(r)],
-                         constraints.rows.value(r, x.data()))))
-      return true;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const int* const begin = region.corners_of(s);
@@ -83,23 +51,75 @@ inline bool is_torn(const Region& region, const Constraints& constraints, double
       if(!is_free(*v))
       {
         const auto i = static_cast<std::size_t>(*v), j = static_cast<std::size_t>(*free);
-        if(is_far(difference(difference(x[i], x[j]), difference(region.rest[i], region.rest[j]))))
+        const Coordinates d =
+          difference(difference(x[i], x[j]), difference(region.rest[i], region.rest[j]));
+        if(dot(d, d) > 0.01 * size)
           return true;
       }
   }
   return false;
 }
 
+// Whether soft targets are as far away, and their pulls are not in balance with other forces: a
+// target of little weight that stays away is no reason to begin again. force() returns minus half
+// the gradient of the energy at x.
+template <typename Function>
+bool is_torn(const Constraints& constraints, double size, const Targets& targets,
+             const std::vector<Coordinates>& x, const Function& force)
+{
+  const std::vector<Coordinates>* forces = nullptr;
+  for(int r = 0; r < constraints.rows.size(); ++r)
+  {
+    const Coordinates way = difference(targets.soft[static_cast<std::size_t>(r)],
+                                       constraints.rows.value(r, x.data()));
+    if(!(dot(way, way) > 0.01 * size))
+      continue;
+    if(forces == nullptr)
+      forces = &force();
+    Coordinates sum = {0, 0, 0};
+    double factor = 0;
+    constraints.rows.for_each_coefficient(r, [&](int v, double b) {
+      if(!constraints.is_fixed[v])
+      {
+        add(sum, b, (*forces)[static_cast<std::size_t>(v)]);
+        factor += b * b * constraints.rows.weight(r);
+      }
+    });
+    if(dot(sum, sum) > 0.25 * factor * factor * dot(way, way))
+      return true;
+  }
+  return false;
+}
+
+// the vertices of all simplices that have a free one
+inline Array<char> find_vertices_near_free_ones(const Region& region, const Array<char>& is_fixed)
+{
+  const int n = region.number_of_movable_vertices;
+  Array<char> is_near(region.number_of_vertices(), false);
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+  {
+    const int* const begin = region.corners_of(s);
+    const int* const end = begin + region.number_of_corners(s);
+    if(std::any_of(begin, end, [&](int v) { return v < n && !is_fixed[v]; }))
+      std::for_each(begin, end, [&](int v) { is_near[v] = true; });
+  }
+  return is_near;
+}
+
 // Rotations for the first guess of a run (Zayer et al. 2005): each handle, a set of connected
 // vertices that are fixed or have a target, is turned by some rotation against the rest shape, and
-// the rotation vectors of these are interpolated harmonically. A vertex alone has no rotation,
-// unless it is a frame: it is left out, by dividing through what the number 1 at all others
-// becomes.
+// the rotation vectors of these are interpolated harmonically. Of a handle only simplices at
+// vertices near free ones are seen: a region that is cut to what can move has no others.
+//
+// A vertex alone has no rotation, unless it is a frame, and a control point has none. The factor
+// holds the vectors there, and so it is found out where it should: held at 0 they pull by some
+// force, held at 1 with all others at 1 by none. For one of them that is exact.
 class Harmonic_rotations
 {
 public:
   Harmonic_rotations(const Region& region, const Constraints& constraints,
-                     const Targets& targets, const std::vector<Coordinates>& x)
+                     const Array<char>& is_near, const Targets& targets,
+                     const std::vector<Coordinates>& x)
     : m_known(region.number_of_vertices(), Coordinates{0, 0, 0}),
       m_is_known(region.number_of_vertices(), 0), m_constraints(constraints)
   {
@@ -111,19 +131,25 @@ public:
     const auto is_handle = [&](int v) {
       return v >= n || constraints.is_fixed[v] || row_of[v] >= 0;
     };
+    Array<char> is_seen(region.number_of_vertices(), false);
     Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
       const int* const begin = region.corners_of(s);
       const int* const end = begin + region.number_of_corners(s);
+      if(std::none_of(begin, end, [&](int v) { return is_near[v] != 0; }))
+        continue;
       const int* const first = std::find_if(begin, end, is_handle);
       for(const int* v = first; v != end; ++v)
         if(is_handle(*v))
+        {
+          is_seen[*v] = true;
           sets.unite(*first, *v);
+        }
     }
     std::map<int, std::vector<int>> handles;
     for(int v = 0; v < region.number_of_vertices(); ++v)
-      if(is_handle(v))
+      if(is_seen[v])
         handles[sets.find(v)].push_back(v);
     const auto place = [&](int v) {
       return v < n && !constraints.is_fixed[v] ? targets.soft[static_cast<std::size_t>(row_of[v])]
@@ -146,9 +172,13 @@ public:
     }
     for(const Frame& frame : targets.frames)
       set(frame.vertex, frame.rotation);
-    m_are_all_known = true;
     for(int v = 0; v < region.number_of_vertices(); ++v)
-      m_are_all_known &= !is_handle(v) || m_is_known[v];
+      if(is_seen[v] && !m_is_known[v])
+        m_unknown.append(v, 1);
+    for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
+      for(int r = 0; r < rows->size(); ++r)
+        if(rows->position(r) < 0)
+          m_unknown.append(*rows, r);
   }
 
   // the rotation of each vertex, or nothing if no handle has one, or if the solver fails
@@ -157,19 +187,13 @@ public:
     Array<Matrix_3x3> rotations;
     if(std::find(m_is_known.begin(), m_is_known.end(), 1) == m_is_known.end())
       return rotations;
-    Array<Coordinates> ones(m_known.size());
-    for(std::size_t v = 0; v < ones.size(); ++v)
-      ones[v] = {m_is_known[v] ? 1.0 : 0.0, 0, 0};
     Array<Coordinates> vectors = m_known;
-    if(!extend(energy, system, vectors) || (!m_are_all_known && !extend(energy, system, ones)))
+    if(!extend(energy, system, vectors) ||
+       (m_unknown.size() > 0 && !hold_unknown(energy, system, vectors)))
       return rotations;
     rotations.reserve(vectors.size());
-    for(std::size_t v = 0; v < vectors.size(); ++v)
-    {
-      const double share = m_are_all_known ? 1 : ones[v][0];
-      rotations.push_back(
-        rotation_of_vector(share > 1e-9 ? scaled(vectors[v], 1 / share) : Coordinates{0, 0, 0}));
-    }
+    for(const Coordinates& vector : vectors)
+      rotations.push_back(rotation_of_vector(vector));
     return rotations;
   }
 
@@ -180,38 +204,72 @@ private:
     m_is_known[v] = 1;
   }
 
-  // harmonic between what is fixed; rows pull to what is known at their vertices
+  // Makes values harmonic. They stay where vertices are fixed, and rows pull to what they are.
   bool extend(const Deformation_energy& energy, Constrained_system& system,
               Array<Coordinates>& values) const
   {
-    const int n = energy.number_of_movable_vertices();
-    const auto is_free = [&](int v) { return v < n && !m_constraints.is_fixed[v]; };
-    std::vector<Coordinates> solution(static_cast<std::size_t>(n), Coordinates{0, 0, 0});
-    energy.for_each_edge([&](int i, int j, double w) {
-      if(is_free(i) && !is_free(j))
-        add(solution[static_cast<std::size_t>(i)], w, values[j]);
-      else if(is_free(j) && !is_free(i))
-        add(solution[static_cast<std::size_t>(j)], w, values[i]);
-    });
-    m_constraints.rows.for_each_entry([&](int i, int j, double entry) {
-      if(is_free(i) && is_free(j))
-      {
-        add(solution[static_cast<std::size_t>(i)], entry, values[j]);
-        if(i != j)
-          add(solution[static_cast<std::size_t>(j)], entry, values[i]);
-      }
-    });
-    if(!system.solve(solution))
+    std::vector<Coordinates> step = pulls(energy, values);
+    step.resize(m_constraints.is_fixed.size());
+    for(std::size_t v = 0; v < step.size(); ++v)
+      if(m_constraints.is_fixed[v])
+        step[v] = {0, 0, 0};
+    if(!system.solve(step))
       return false;
-    for(int v = 0; v < n; ++v)
-      if(is_free(v))
-        values[v] = solution[static_cast<std::size_t>(v)];
+    for(std::size_t v = 0; v < step.size(); ++v)
+      if(!m_constraints.is_fixed[v])
+        add(values[v], 1, step[v]);
     return true;
+  }
+
+  // by how much the neighbours pull at the value of each vertex
+  static Array<Coordinates> pulls(const Deformation_energy& energy,
+                                  const Array<Coordinates>& values)
+  {
+    Array<Coordinates> sums(values.size(), Coordinates{0, 0, 0});
+    energy.for_each_edge([&](int i, int j, double w) {
+      const Coordinates d = difference(values[j], values[i]);
+      add(sums[i], w, d);
+      add(sums[j], -w, d);
+    });
+    return sums;
+  }
+
+  // Replaces vectors that are 0 where they are unknown by those that are where nothing pulls them
+  // away.
+  bool hold_unknown(const Deformation_energy& energy, Constrained_system& system,
+                    Array<Coordinates>& vectors) const
+  {
+    constexpr double largest = 3.2; // more than half a turn is no mean of rotation vectors
+    Array<Coordinates> ones(vectors.size(), Coordinates{0, 0, 0});
+    for(std::size_t v = 0; v < ones.size(); ++v)
+      ones[v][0] = m_is_known[v];
+    if(!extend(energy, system, ones))
+      return false;
+    const Array<Coordinates> pulls_of_vectors = pulls(energy, vectors),
+                             pulls_of_ones = pulls(energy, ones);
+    vectors = m_known;
+    Array<double> sums(vectors.size(), 0); // rows may share vertices
+    for(int r = 0; r < m_unknown.size(); ++r)
+    {
+      const Coordinates pull = m_unknown.value(r, pulls_of_vectors.data());
+      const double one = m_unknown.value(r, pulls_of_ones.data())[0];
+      if(one > 0 && dot(pull, pull) <= largest * largest * one * one)
+        m_unknown.for_each_coefficient(r, [&](int v, double b) {
+          sums[v] += b * b;
+          add(vectors[v], b * b / one, pull);
+        });
+    }
+    for(std::size_t v = 0; v < vectors.size(); ++v)
+      if(sums[v] > 0 && !m_is_known[v])
+        vectors[v] = scaled(vectors[v], 1 / sums[v]);
+      else
+        vectors[v] = m_known[v];
+    return extend(energy, system, vectors);
   }
 
   Array<Coordinates> m_known; // the rotation vectors of handles
   Array<char> m_is_known;
-  bool m_are_all_known = false;
+  Weighted_rows m_unknown; // single vertices and control points
   const Constraints& m_constraints;
 };
 

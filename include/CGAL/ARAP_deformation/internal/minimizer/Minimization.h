@@ -27,6 +27,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -191,6 +192,8 @@ public:
       measure(); // the run may have come from far away
       estimate_gap();
     }
+    if(is_within_tolerance())
+      report.estimated_relative_gap += gap_of_rotations();
 
     const Visitor_action action = [this] {
       Scoped_seconds visitor(report.seconds.visitor);
@@ -233,6 +236,14 @@ private:
   void estimate_gap()
   {
     report.estimated_relative_gap = is_nothing_free() ? 0 : m_gap(m_value, report);
+  }
+
+  // What rotations that are state can still gain: they may creep, which the energies do not tell.
+  double gap_of_rotations()
+  {
+    const double gain = is_nothing_free() ? 0 : m_energy.gain_of_rotation_step(m_rotations);
+    return gain > report.rounding_level
+             ? gain / (std::max)(std::abs(m_value), negligible_energy(report)) : 0;
   }
 
   bool is_within_tolerance() const

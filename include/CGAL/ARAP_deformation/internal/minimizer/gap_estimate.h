@@ -35,6 +35,13 @@ inline double energy_resolution(double energy, const Report& report)
          16 * std::sqrt(size * report.rounding_level) + report.rounding_level;
 }
 
+// an energy below which nothing is left to be gained
+inline double negligible_energy(const Report& report)
+{
+  return (std::max)(report.rounding_level,
+                    (std::min)(1e-9 * report.energy_scale, 1e-6 * report.energy[0]));
+}
+
 // Estimates (E - E*) / E* for a run that has reached the energy E by some decreases and tends to
 // E*. The decreases of the last tenth of the run and those of the tenth before it are taken for two
 // terms of a geometric series, which is summed to its end. Two things keep the estimate from being
@@ -57,8 +64,7 @@ public:
   // infinity where too little is known, or where the decreases do not shrink
   double operator()(double energy, const Report& report) const
   {
-    const double zero = (std::max)(report.rounding_level,
-                                   (std::min)(1e-9 * report.energy_scale, 1e-6 * report.energy[0]));
+    const double zero = negligible_energy(report);
     if(std::abs(energy) <= report.rounding_level ||
        (!m_decreases.empty() && m_decreases.back() == 0))
       return 0;

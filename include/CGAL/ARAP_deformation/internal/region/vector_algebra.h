@@ -68,6 +68,15 @@ inline void add_product(Matrix_3x3& m, const Coordinates& a, const Coordinates& 
       m[3 * r + c] += a[r] * b[c];
 }
 
+inline Matrix_3x3 product(const Matrix_3x3& a, const Matrix_3x3& b)
+{
+  Matrix_3x3 c{};
+  for(std::size_t i = 0; i < 3; ++i)
+    for(std::size_t j = 0; j < 3; ++j)
+      c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+  return c;
+}
+
 constexpr Matrix_3x3 identity_matrix()
 {
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};

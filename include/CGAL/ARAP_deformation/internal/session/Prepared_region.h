@@ -64,7 +64,7 @@ public:
   bool has_region() const { return m_prepared && m_ready.region == m_present.region; }
 
   // These need has_region().
-  const Domain_region<Domain>& region() const { return m_prepared->region; }
+  const Domain_region<Domain>& region() const { return *m_prepared->region; }
   Deformation_core& core() { return *m_prepared->core; }
   const Deformation_core& core() const { return *m_prepared->core; }
 
@@ -133,6 +133,7 @@ public:
   // To be called when the region of interest, the cells or the rest shape were changed.
   void region_changed()
   {
+    m_restored = Cell_rotations();
     m_present.region = ++m_last_version;
     values_changed();
   }
@@ -177,25 +178,34 @@ public:
   // the rotations become identities
   void reset_rotations()
   {
+    m_restored = Cell_rotations();
     if(m_prepared)
       m_prepared->core->reset_rotations();
   }
+
+  // Rotations with the region whose cells they are of, or nothing.
+  struct Cell_rotations
+  {
+    std::shared_ptr<const Domain_region<Domain>> region;
+    Array<Matrix_3x3> rotations;
+  };
 
   // What is needed to return to the present sets, positions and rotations, bit by bit.
   struct State
   {
     Versions present;
-    std::size_t numbering; // of the vertices and cells that these are of
+    std::size_t numbering; // of the vertices that these are of
     Array<Coordinates> positions;
-    Array<Matrix_3x3> rotations;
+    Cell_rotations cells;
     double inertia; // of the constraints
   };
 
   State state() const
   {
     if(!has_region())
-      return {m_present, none, {}, {}, m_inertia};
-    return {m_present, m_prepared->numbering, m_prepared->positions, core().rotations(), m_inertia};
+      return {m_present, none, {}, m_restored, m_inertia};
+    return {m_present, m_prepared->numbering, m_prepared->positions,
+            {m_prepared->region, core().rotations()}, m_inertia};
   }
 
   // whether stiffness and lengths are those of a state
@@ -210,15 +220,20 @@ public:
     m_present.values = values;
     if(is_inertia_other)
       constraints_changed();
+    m_restored = Cell_rotations();
     if(!has_region())
+    {
+      m_restored = std::move(state.cells);
       return;
+    }
     if(m_prepared->numbering == state.numbering)
     {
       m_prepared->positions.swap(state.positions);
-      core().set_rotations(std::move(state.rotations));
+      core().set_rotations(std::move(state.cells.rotations));
       return;
     }
     core().reset_rotations();
+    take_over(state.cells, vertices.domain(), *m_prepared);
     for(std::size_t k = 0; k < m_prepared->positions.size(); ++k)
       if(const auto* entry = vertices.find(region().vertices[k]))
         m_prepared->positions[k] = Domain::coordinates(entry->present);
@@ -236,7 +251,8 @@ private:
   struct Prepared
   {
     std::size_t numbering;
-    Domain_region<Domain> region; // without its flat part, which the core owns
+    // without its flat part, which the core owns
+    std::shared_ptr<Domain_region<Domain>> region = std::make_shared<Domain_region<Domain>>();
     Array<Coordinates> positions;
     std::unique_ptr<Deformation_core> core;
     bool is_whole = true; // whether all of the region of interest is movable
@@ -276,6 +292,10 @@ private:
       next->is_whole = is_whole(roi_size, number_of_fixed);
       if(Outcome made = make_region(vertices, values, models, options, *next); !made)
         return made;
+      const bool are_kept =
+        m_prepared && (m_rules.are_targets_and_rotations_kept || has_region());
+      take_over(are_kept ? Cell_rotations{m_prepared->region, core().rotations()} : m_restored,
+                vertices.domain(), *next);
     }
     Prepared& prepared = next ? *next : *m_prepared;
     Rows rows;
@@ -296,11 +316,9 @@ private:
     if(next)
     {
       if(!m_rules.are_erased_put_back) // CGAL's class reads them again
-        for(vertex_descriptor v : next->region.vertices)
+        for(vertex_descriptor v : next->region->vertices)
           vertices.keep_rest(v);
-      if(m_prepared && options.cells.has_vertex_cells() &&
-         (m_rules.are_targets_and_rotations_kept || has_region()))
-        take_over_rotations(vertices.domain(), *next);
+      m_restored = Cell_rotations();
       m_prepared = std::move(next);
     }
     m_rows = std::move(rows);
@@ -347,7 +365,7 @@ private:
     });
     if(!prepared.is_whole)
       append_neighbours(vertices, movable);
-    auto& region = prepared.region;
+    auto& region = *prepared.region;
     if(!region.collect(domain, movable, static_cast<int>(options.cells.rings())))
       return outcome(region.refusal(), name(region.refused_vertex()));
 
@@ -404,7 +422,7 @@ private:
     for(const auto& entry : vertices.entries())
     {
       const int v =
-        entry.is_roi ? prepared.region.find_vertex(vertices.domain(), entry.vertex) : -1;
+        entry.is_roi ? prepared.region->find_vertex(vertices.domain(), entry.vertex) : -1;
       const bool is_movable = prepared.is_movable(v);
       if(entry.is_control && (is_movable ? prepared.core->is_isolated(v)
                                          : vertices.domain().is_isolated(entry.vertex)))
@@ -429,7 +447,7 @@ private:
       Array<int> corners;
       Array<double> coefficients;
       for(std::size_t k = 0; k < held.corners.size(); ++k)
-        if(const int v = prepared.region.find_vertex(vertices.domain(), held.corners[k]);
+        if(const int v = prepared.region->find_vertex(vertices.domain(), held.corners[k]);
            prepared.is_movable(v))
         {
           corners.push_back(v);
@@ -455,14 +473,19 @@ private:
     return constraints;
   }
 
-  void take_over_rotations(const Domain& domain, Prepared& next) const
+  // The cells of a region that has just been collected get the rotations that they have elsewhere.
+  static void take_over(const Cell_rotations& from, const Domain& domain, const Prepared& next)
   {
-    const Array<Matrix_3x3>& old = core().rotations();
+    if(!from.region)
+      return;
     Array<Matrix_3x3> rotations = next.core->rotations();
+    const bool are_at_vertices = next.core->has_vertex_cells();
     for(std::size_t c = 0; c < rotations.size(); ++c)
-      if(const int v = region().find_vertex(domain, next.region.vertices[c]);
-         v >= 0 && v < static_cast<int>(old.size()))
-        rotations[c] = old[v];
+      if(const int old = are_at_vertices
+                           ? from.region->find_vertex(domain, next.region->vertices[c])
+                           : from.region->find_simplex(domain, next.region->simplices[c]);
+         old >= 0 && old < static_cast<int>(from.rotations.size()))
+        rotations[c] = from.rotations[old];
     next.core->set_rotations(std::move(rotations));
   }
 
@@ -470,7 +493,7 @@ private:
   {
     if(diagnosis.vertex >= 0)
       return outcome(diagnosis.status,
-                     vertex_name(domain.index(prepared.region.vertices[diagnosis.vertex])));
+                     vertex_name(domain.index(prepared.region->vertices[diagnosis.vertex])));
     if(diagnosis.simplex < 0)
       return outcome(diagnosis.status);
     return outcome(diagnosis.status, simplex_name(prepared.core->region(), diagnosis.simplex));
@@ -479,6 +502,7 @@ private:
   Session_rules m_rules;
   Outcome m_outcome;
   std::optional<Prepared> m_prepared; // what was last prepared with success
+  Cell_rotations m_restored;          // those of a state, until there is a region for it again
   Rows m_rows;
   std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;

@@ -85,7 +85,9 @@ inline const char* sentence(Status status, const std::string& what)
   case Status::iteration_limit: return "the maximum number of iterations was run";
   case Status::stopped: return "the visitor stopped the run; the last iterate was kept";
   case Status::cancelled: return "the visitor cancelled the run; nothing was changed";
-  case Status::invalid_option: return "an option is out of range";
+  case Status::invalid_option:
+    return "the option bending_length or smoothing_length is more than a million times the size of "
+           "what can move";
   case Status::in_a_run:
     return "a visitor must not change the object that it is visiting";
   case Status::foreign_state:
