@@ -14,15 +14,14 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
-#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
@@ -30,8 +29,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -49,7 +46,7 @@ public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
-  using Models = std::function<Core_models()>; // makes those of one region
+  using Models = typename Built_region<Domain>::Models;
 
   // Of the sets of vertices, with all that the stages depend on: what has the same version is the
   // same.
@@ -108,17 +105,7 @@ public:
   std::size_t number_of_controls() const { return m_number_of_controls; }
   const std::vector<std::size_t>& isolated_controls() const { return m_isolated_controls; }
 
-  // whose targets the rows of the constraints have
-  struct Rows
-  {
-    std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
-    std::vector<Control_point> soft_points, hard_points; // the next ones, and the hard rows
-    // If there is inertia, for each movable vertex its share in the area or volume, or 0 if it is
-    // fixed. Those of the others are the last soft rows.
-    Array<double> contents;
-  };
-
-  const Rows& rows() const { return m_rows; }
+  const Region_rows& rows() const { return m_rows; }
 
   // To be called when vertices were fixed or freed, or the weight of a target was changed.
   void constraints_changed() { m_present.constraints = ++m_last_version; }
@@ -133,7 +120,7 @@ public:
   // To be called when the region of interest, the cells or the rest shape were changed.
   void region_changed()
   {
-    m_restored = Cell_rotations();
+    m_restored = Cell_rotations<Domain>();
     m_present.region = ++m_last_version;
     values_changed();
   }
@@ -178,17 +165,10 @@ public:
   // the rotations become identities
   void reset_rotations()
   {
-    m_restored = Cell_rotations();
+    m_restored = Cell_rotations<Domain>();
     if(m_prepared)
       m_prepared->core->reset_rotations();
   }
-
-  // Rotations with the region whose cells they are of, or nothing.
-  struct Cell_rotations
-  {
-    std::shared_ptr<const Domain_region<Domain>> region;
-    Array<Matrix_3x3> rotations;
-  };
 
   // What is needed to return to the present sets, positions and rotations, bit by bit.
   struct State
@@ -196,7 +176,7 @@ public:
     Versions present;
     std::size_t numbering; // of the vertices that these are of
     Array<Coordinates> positions;
-    Cell_rotations cells;
+    Cell_rotations<Domain> cells;
     double inertia; // of the constraints
   };
 
@@ -220,7 +200,7 @@ public:
     m_present.values = values;
     if(is_inertia_other)
       constraints_changed();
-    m_restored = Cell_rotations();
+    m_restored = Cell_rotations<Domain>();
     if(!has_region())
     {
       m_restored = std::move(state.cells);
@@ -233,7 +213,7 @@ public:
       return;
     }
     core().reset_rotations();
-    take_over(state.cells, vertices.domain(), *m_prepared);
+    m_prepared->take_over(state.cells, vertices.domain());
     for(std::size_t k = 0; k < m_prepared->positions.size(); ++k)
       if(const auto* entry = vertices.find(region().vertices[k]))
         m_prepared->positions[k] = Domain::coordinates(entry->present);
@@ -242,26 +222,11 @@ public:
   // a sentence on what the core found
   Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
   {
-    return explain(diagnosis, domain, *m_prepared);
+    return m_prepared->explain(diagnosis, domain);
   }
 
 private:
   static constexpr std::size_t none = 0; // no version
-
-  struct Prepared
-  {
-    std::size_t numbering;
-    // without its flat part, which the core owns
-    std::shared_ptr<Domain_region<Domain>> region = std::make_shared<Domain_region<Domain>>();
-    Array<Coordinates> positions;
-    std::unique_ptr<Deformation_core> core;
-    bool is_whole = true; // whether all of the region of interest is movable
-
-    bool is_movable(int v) const
-    {
-      return v >= 0 && v < core->region().number_of_movable_vertices;
-    }
-  };
 
   Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
                  const Options& options, Stages& stages)
@@ -281,27 +246,25 @@ private:
        }))
       return outcome(Status::no_simplex);
 
-    std::optional<Prepared> next;
+    std::optional<Built_region<Domain>> next;
     if(needs_region(vertices, roi_size, number_of_fixed))
     {
       stages.region = stages.weights = true;
       if(m_prepared)
         m_prepared->core->release_factor(); // there are never two
-      next.emplace();
-      next->numbering = ++m_last_numbering;
-      next->is_whole = is_whole(roi_size, number_of_fixed);
-      if(Outcome made = make_region(vertices, values, models, options, *next); !made)
+      next.emplace(++m_last_numbering, is_whole(roi_size, number_of_fixed));
+      if(Outcome made = next->make(vertices, values, models, options, m_rules); !made)
         return made;
       const bool are_kept =
         m_prepared && (m_rules.are_targets_and_rotations_kept || has_region());
-      take_over(are_kept ? Cell_rotations{m_prepared->region, core().rotations()} : m_restored,
-                vertices.domain(), *next);
+      next->take_over(are_kept ? Cell_rotations<Domain>{m_prepared->region, core().rotations()}
+                               : m_restored, vertices.domain());
     }
-    Prepared& prepared = next ? *next : *m_prepared;
-    Rows rows;
+    Built_region<Domain>& prepared = next ? *next : *m_prepared;
+    Region_rows rows;
     std::vector<std::size_t> isolated_controls;
     const Diagnosis diagnosis = prepared.core->set_constraints(
-      collect_constraints(vertices, prepared, rows, isolated_controls),
+      prepared.collect_constraints(vertices, m_rules, m_inertia, rows, isolated_controls),
       m_rules.are_unconstrained_refused ? Unconstrained_components::refused
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
@@ -310,7 +273,7 @@ private:
       return outcome(diagnosis.status,
                      control_point_name(
                        rows.hard_points[static_cast<std::size_t>(diagnosis.hard_row)]));
-    Outcome result = explain(diagnosis, vertices.domain(), prepared);
+    Outcome result = prepared.explain(diagnosis, vertices.domain());
     if(!result)
       return result;
     if(next)
@@ -318,7 +281,7 @@ private:
       if(!m_rules.are_erased_put_back) // CGAL's class reads them again
         for(vertex_descriptor v : next->region->vertices)
           vertices.keep_rest(v);
-      m_restored = Cell_rotations();
+      m_restored = Cell_rotations<Domain>();
       m_prepared = std::move(next);
     }
     m_rows = std::move(rows);
@@ -355,155 +318,11 @@ private:
            });
   }
 
-  Outcome make_region(const Vertices& vertices, const Cell_values<Domain>& values,
-                      const Models& models, const Options& options, Prepared& prepared) const
-  {
-    const Domain& domain = vertices.domain();
-    const auto name = [&](vertex_descriptor v) { return vertex_name(domain.index(v)); };
-    std::vector<vertex_descriptor> movable = vertices.select([&](const auto& e) {
-      return e.is_roi && (prepared.is_whole || !vertices.is_hard_control(e));
-    });
-    if(!prepared.is_whole)
-      append_neighbours(vertices, movable);
-    auto& region = *prepared.region;
-    if(!region.collect(domain, movable, static_cast<int>(options.cells.rings())))
-      return outcome(region.refusal(), name(region.refused_vertex()));
-
-    prepared.positions.reserve(region.vertices.size());
-    region.flat.rest.reserve(region.vertices.size());
-    for(vertex_descriptor v : region.vertices)
-    {
-      const auto* entry = vertices.find(v);
-      if(entry && !entry->is_roi && m_rules.are_erased_put_back)
-      {
-        const Point point = entry->was_roi ? entry->rest : domain.point(v);
-        prepared.positions.push_back(Domain::coordinates(point));
-        region.flat.rest.push_back(prepared.positions.back());
-        continue;
-      }
-      prepared.positions.push_back(Domain::coordinates(vertices.present(v)));
-      region.flat.rest.push_back(Domain::coordinates(vertices.rest(v)));
-    }
-    if(const int v = find_non_finite(prepared.positions); v >= 0)
-      return outcome(Status::non_finite_point, name(region.vertices[v]));
-    Energy_model model;
-    if(Outcome filled = values.fill_in(model, options, domain, region, region.flat); !filled)
-      return filled;
-    prepared.core = std::make_unique<Deformation_core>(
-      models(), std::move(region.flat), std::move(model), m_rules.order, options.threads);
-    return explain(prepared.core->diagnosis(), domain, prepared);
-  }
-
-  // adds the vertices of the region of interest that are in a simplex with one of those
-  static void append_neighbours(const Vertices& vertices, std::vector<vertex_descriptor>& movable)
-  {
-    const Domain& domain = vertices.domain();
-    Paged_index_map is_there;
-    const std::size_t number_of_free = movable.size();
-    for(vertex_descriptor v : movable)
-      is_there.set(domain.index(v), 1);
-    for(std::size_t k = 0; k < number_of_free; ++k)
-      domain.for_each_incident_simplex(movable[k], [&](const auto&, const auto& corners) {
-        for(vertex_descriptor corner : corners)
-          if(const std::size_t index = domain.index(corner);
-             is_there[index] == Paged_index_map::none && vertices.is_roi(corner))
-          {
-            is_there.set(index, 1);
-            movable.push_back(corner);
-          }
-      });
-  }
-
-  Constraints collect_constraints(const Vertices& vertices, const Prepared& prepared, Rows& rows,
-                                  std::vector<std::size_t>& isolated_controls) const
-  {
-    Constraints constraints;
-    constraints.is_fixed = Array<char>(prepared.core->region().number_of_movable_vertices, false);
-    for(const auto& entry : vertices.entries())
-    {
-      const int v =
-        entry.is_roi ? prepared.region->find_vertex(vertices.domain(), entry.vertex) : -1;
-      const bool is_movable = prepared.is_movable(v);
-      if(entry.is_control && (is_movable ? prepared.core->is_isolated(v)
-                                         : vertices.domain().is_isolated(entry.vertex)))
-        isolated_controls.push_back(vertices.domain().index(entry.vertex));
-      if(!is_movable)
-        continue;
-      if(vertices.is_hard_control(entry))
-        constraints.is_fixed[v] = true;
-      else if(vertices.is_pulled(entry))
-      {
-        constraints.rows.append(v, vertices.weight(entry));
-        rows.soft_vertices.push_back(v);
-      }
-      else if(prepared.core->is_isolated(v) && !m_rules.are_unconstrained_refused)
-        constraints.is_fixed[v] = true;
-    }
-    for(const auto& [point, held] : vertices.points())
-    {
-      const double weight = held.target.weight;
-      if(weight == 0)
-        continue;
-      Array<int> corners;
-      Array<double> coefficients;
-      for(std::size_t k = 0; k < held.corners.size(); ++k)
-        if(const int v = prepared.region->find_vertex(vertices.domain(), held.corners[k]);
-           prepared.is_movable(v))
-        {
-          corners.push_back(v);
-          coefficients.push_back(held.coordinates[k]);
-        }
-      const bool is_pull = Vertices::is_pull(weight);
-      (is_pull ? constraints.rows : constraints.hard_rows).append(corners, coefficients, weight);
-      (is_pull ? rows.soft_points : rows.hard_points).push_back(point);
-    }
-    if(m_inertia > 0)
-    {
-      rows.contents = contents_at_centres(prepared.core->region());
-      rows.contents.resize(constraints.is_fixed.size());
-      for(int v = 0; v < static_cast<int>(rows.contents.size()); ++v)
-        if(constraints.is_fixed[v])
-          rows.contents[v] = 0;
-        else if(rows.contents[v] > 0)
-        {
-          constraints.rows.append(v, m_inertia * rows.contents[v]);
-          constraints.inertia += m_inertia * rows.contents[v];
-        }
-    }
-    return constraints;
-  }
-
-  // The cells of a region that has just been collected get the rotations that they have elsewhere.
-  static void take_over(const Cell_rotations& from, const Domain& domain, const Prepared& next)
-  {
-    if(!from.region)
-      return;
-    Array<Matrix_3x3> rotations = next.core->rotations();
-    const bool are_at_vertices = next.core->has_vertex_cells();
-    for(std::size_t c = 0; c < rotations.size(); ++c)
-      if(const int old = are_at_vertices
-                           ? from.region->find_vertex(domain, next.region->vertices[c])
-                           : from.region->find_simplex(domain, next.region->simplices[c]);
-         old >= 0 && old < static_cast<int>(from.rotations.size()))
-        rotations[c] = from.rotations[old];
-    next.core->set_rotations(std::move(rotations));
-  }
-
-  static Outcome explain(const Diagnosis& diagnosis, const Domain& domain, const Prepared& prepared)
-  {
-    if(diagnosis.vertex >= 0)
-      return outcome(diagnosis.status,
-                     vertex_name(domain.index(prepared.region->vertices[diagnosis.vertex])));
-    if(diagnosis.simplex < 0)
-      return outcome(diagnosis.status);
-    return outcome(diagnosis.status, simplex_name(prepared.core->region(), diagnosis.simplex));
-  }
-
   Session_rules m_rules;
   Outcome m_outcome;
-  std::optional<Prepared> m_prepared; // what was last prepared with success
-  Cell_rotations m_restored;          // those of a state, until there is a region for it again
-  Rows m_rows;
+  std::optional<Built_region<Domain>> m_prepared; // what was last prepared with success
+  Cell_rotations<Domain> m_restored; // those of a state, until there is a region for it again
+  Region_rows m_rows;
   std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
   bool m_are_rotations_coupled = false;

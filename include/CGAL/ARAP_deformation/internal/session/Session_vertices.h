@@ -361,7 +361,8 @@ public:
 
   State state() const
   {
-    return {m_entries, m_targets, m_first_points, m_surroundings.vertices(), m_points, m_velocities};
+    return {m_entries, m_targets, m_first_points, m_surroundings.vertices(), m_points,
+            m_velocities};
   }
 
   // Returns to an earlier state. Vertices that have entered since leave.
