@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -124,8 +125,7 @@ public:
       else
         m_factors[i] = 0;
     Array<Double4> points;
-    for(const Coordinates& p : rest)
-      points.push_back(Double4::of(p[0], p[1], p[2]));
+    assign_padded(points, rest);
     run_kernel<Form_values_kernel>(view(m_factors), 0, size(), points.data(), m_rest_values.data());
   }
 

@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -63,7 +64,7 @@ public:
                      int number_of_movable_vertices)
     : m_cells(std::move(cells)), m_number_of_movable_vertices(number_of_movable_vertices)
   {
-    assign(m_rest, rest);
+    assign_padded(m_rest, rest);
   }
 
   void set_bending(Bending bending) { m_bending = std::move(bending); }
@@ -218,7 +219,7 @@ public:
                           const std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
                           std::vector<Coordinates>& force, bool is_smooth = true)
   {
-    assign(m_x, x);
+    assign_padded(m_x, x);
     m_bending.prepare(m_x.data());
     m_smooth.keep(rotations);
     std::visit([&](auto& cells) {
@@ -315,7 +316,7 @@ public:
   double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
                   std::vector<Coordinates>& force)
   {
-    assign(m_x, x);
+    assign_padded(m_x, x);
     m_bending.prepare(m_x.data());
     return evaluate(rotations, force);
   }
@@ -342,16 +343,6 @@ private:
   static double rounding_error(const Bounding_box& box) // of a position
   {
     return std::numeric_limits<double>::epsilon() * box.largest_coordinate();
-  }
-
-  // points, with a fourth coordinate that is zero, so that each is loaded at once
-  static void assign(std::vector<Double4>& padded, const std::vector<Coordinates>& points)
-  {
-    padded.resize(points.size());
-    for_each_block(points.size(), [&](std::size_t begin, std::size_t end) {
-      for(std::size_t k = begin; k < end; ++k)
-        padded[k] = Double4::of(points[k][0], points[k][1], points[k][2]);
-    }, 16 * default_block_size);
   }
 
   // the covariances of all cells for some positions, without what makes them smooth

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
+#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
@@ -134,8 +135,7 @@ public:
       m_covariances(m_stars.size()), m_means(m_stars.size()), m_rest_covariances(m_stars.size())
   {
     Array<Double4> points;
-    for(const Coordinates& p : rest)
-      points.push_back(Double4::of(p[0], p[1], p[2]));
+    assign_padded(points, rest);
     run_kernel<Star_covariances_kernel>(view(points.data(), points.data()), 0, m_stars.size(),
                                         m_rest_covariances.data());
   }
