@@ -101,7 +101,7 @@ private:
       return false;
     for(std::size_t row = 0; row < 3; ++row)
     {
-      const Coordinates change = internal::product(correction, {r[3 * row], r[3 * row + 1],
+      const Coordinates change = internal::product(correction, Coordinates{r[3 * row], r[3 * row + 1],
                                                                 r[3 * row + 2]});
       for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] += change[column];
