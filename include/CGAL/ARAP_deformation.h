@@ -28,6 +28,7 @@
 #include <CGAL/ARAP_deformation/internal/session/rotation_matrix.h>
 #include <CGAL/ARAP_deformation/internal/session/traits_requirements.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
+#include <CGAL/ARAP_deformation/of_simplices.h>
 #include <CGAL/ARAP_deformation/parameters.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
@@ -504,7 +505,10 @@ public:
   /// A map is a function object, a property map, an associative container, or a vector by indices.
   /// It is copied, and asked when the region is prepared: call the function again after a change of
   /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
-  /// simplices; maps with the other keys have no effect.
+  /// simplices; maps with the other keys have no effect. The keys of a generic lambda, or of
+  /// another function object without one `operator()`, are vertices: `ARAP::of_simplices()` of it
+  /// takes simplices. Where cells are simplices, a run refuses one without it, with
+  /// `ARAP::Status::undeclared_map`.
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, the weights \f$w_i\f$ of Equation (3) of the

@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -37,6 +38,7 @@
 #include <vector>
 
 using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::of_simplices;
 using CGAL::ARAP::Options;
 using CGAL::ARAP::Report;
 using Simplices = std::vector<Dense_reference::Simplex>;
@@ -755,18 +757,79 @@ void test_mesh(const Shape& shape)
     options.smoothing_length = 0.1;
     options.bending_length = cells.has_vertex_cells() ? 0.1 : 0;
     namespace np = CGAL::parameters;
-    const Report report = CGAL::arap_deform(
-      mesh, targets,
-      np::target_rotations(rotations,
-        np::cell_stiffness([](auto c) { return 1 + double(std::size_t(c) % 3); },
-          np::cell_groups([](auto c) { return std::size_t(c) < 3 ? 0 : -1; },
-            np::deformation_options(options)))));
-    CHECK(report);
+    const auto stiffness = [](auto c) { return 1 + double(std::size_t(c) % 3); };
+    const auto groups = [](auto c) { return std::size_t(c) < 3 ? 0 : -1; };
+    const auto deform = [&](const auto& stiffness_map, const auto& group_map) {
+      return CGAL::arap_deform(
+        mesh, targets,
+        np::target_rotations(rotations,
+          np::cell_stiffness(stiffness_map,
+            np::cell_groups(group_map, np::deformation_options(options)))));
+    };
+    CHECK(cells.has_vertex_cells() ? deform(stiffness, groups)
+                                   : deform(of_simplices(stiffness), of_simplices(groups)));
     return points_of(mesh);
   };
   for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements(),
                            Cell_scheme::k_ring(2)})
     CHECK(all_the_same(cells, 1) == all_the_same(cells, 4));
+}
+
+// Generic lambdas are asked for vertices, unless they are declared: their bodies may compile for
+// one kind only. Where cells are of the other kind, one that does not tell is refused.
+void test_generic_maps()
+{
+  test_case() = "generic maps";
+  const Shape shape = shapes()[1];
+  const Scenario s = scenario(shape, 0.8);
+  std::map<Mesh::Vertex_index, double> of_vertex;
+  std::map<Mesh::Face_index, double> of_face;
+  using Deformation = CGAL::ARAP_deformation<Mesh>;
+  const auto run = [&](Cell_scheme cells, const std::function<void(Deformation&)>& set) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    for(Mesh::Vertex_index v : mesh.vertices())
+      of_vertex[v] = 1 + double(v % 3);
+    for(Mesh::Face_index f : mesh.faces())
+      of_face[f] = 1 + double(f % 4);
+    Deformation d(mesh);
+    CHECK(d.set_options(options_for(cells)));
+    prepare(d, s, all_vertices(mesh));
+    set(d);
+    Report report = d.deform(5, 0);
+    if(report.status == CGAL::ARAP::Status::undeclared_map)
+    {
+      CHECK(report.message.find("of_simplices()") != std::string::npos);
+      d.clear_stiffness();
+      d.clear_groups();
+      report = d.deform(5, 0);
+      CHECK(report);
+      report.energy.clear();
+    }
+    return report.energy;
+  };
+  const auto vertex_stiffness = [&](auto v) { return of_vertex.at(v); };
+  const auto vertex_group = [&](auto v) { return int(of_vertex.at(v)) - 2; };
+  const auto face_stiffness = [&](auto f) { return of_face.at(f); };
+  const auto face_group = [&](auto f) { return int(of_face.at(f)) - 2; };
+  const auto plain = [&](Cell_scheme cells) { return run(cells, [](Deformation&) {}); };
+  const auto vertices = Cell_scheme::spokes_and_rims(), faces = Cell_scheme::elements();
+  const auto stiff = [&](Deformation& d) { d.set_stiffness(vertex_stiffness); };
+  const auto grouped = [&](Deformation& d) { d.set_groups(vertex_group); };
+  const auto stiff_faces = [&](Deformation& d) { d.set_stiffness(of_simplices(face_stiffness)); };
+  const auto grouped_faces = [&](Deformation& d) { d.set_groups(of_simplices(face_group)); };
+  CHECK(run(vertices, stiff) == run(vertices, [&](Deformation& d) { d.set_stiffness(of_vertex); }));
+  CHECK(run(vertices, grouped) == run(vertices, [&](Deformation& d) {
+    d.set_groups([&](Mesh::Vertex_index v) { return vertex_group(v); });
+  }));
+  CHECK(run(faces, stiff_faces) == run(faces, [&](Deformation& d) { d.set_stiffness(of_face); }));
+  CHECK(run(faces, grouped_faces) == run(faces, [&](Deformation& d) {
+    d.set_groups([&](Mesh::Face_index f) { return face_group(f); });
+  }));
+  CHECK(run(faces, stiff).empty());
+  CHECK(run(faces, grouped).empty());
+  CHECK(run(vertices, stiff_faces) == plain(vertices));
+  CHECK(run(vertices, grouped_faces) == plain(vertices));
+  CHECK(run(vertices, stiff) != plain(vertices) && run(faces, stiff_faces) != plain(faces));
 }
 
 void test_all()
@@ -793,6 +856,7 @@ void test_all()
   test_wrong_values(models.front());
   test_huge_lengths(models.front());
   test_mesh(shapes()[1]);
+  test_generic_maps();
 }
 
 } // namespace identities

@@ -35,6 +35,8 @@ enum class Status
   in_a_run,             ///< a visitor called a function that changes the object it is visiting
   foreign_state,        ///< the state to restore is of another object
   invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
+  undeclared_map,       ///< cells are simplices, and a generic function object for their stiffness
+                        ///< or groups is not declared with `of_simplices()`
   invalid_rotation,     ///< the rotation of a control vertex is not a rotation
   not_a_control_vertex, ///< a target or its weight was set for what has none
   invalid_weight,       ///< the weight of a target is negative or not a number, or infinite where
@@ -83,6 +85,7 @@ inline const char* to_string(Status status)
   case Status::not_a_control_vertex: return "not_a_control_vertex";
   case Status::invalid_weight: return "invalid_weight";
   case Status::invalid_stiffness: return "invalid_stiffness";
+  case Status::undeclared_map: return "undeclared_map";
   case Status::invalid_rotation: return "invalid_rotation";
   case Status::invalid_coordinates: return "invalid_coordinates";
   case Status::dependent_target: return "dependent_target";

@@ -113,7 +113,7 @@ auto target_rotations(const RotationRange& rotations, const NP&... np)
 }
 
 /// the stiffness of cells, a map from vertices or simplices to numbers, see
-/// `ARAP_deformation::set_stiffness()`; default 1.
+/// `ARAP_deformation::set_stiffness()`, also for generic lambdas; default 1.
 template <typename StiffnessMap, typename... NP>
 auto cell_stiffness(const StiffnessMap& stiffness, const NP&... np)
 {
@@ -121,7 +121,7 @@ auto cell_stiffness(const StiffnessMap& stiffness, const NP&... np)
 }
 
 /// the groups of cells that share a rotation, a map from vertices or simplices to integers, see
-/// `ARAP_deformation::set_groups()`; default none.
+/// `ARAP_deformation::set_groups()`, also for generic lambdas; default none.
 template <typename GroupMap, typename... NP>
 auto cell_groups(const GroupMap& groups, const NP&... np)
 {

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
+#include <CGAL/ARAP_deformation/of_simplices.h>
 
 #include <cstddef>
 #include <functional>
@@ -31,6 +32,9 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+template <typename Map>
+using Call_operator_of = decltype(&Map::operator());
 
 // What a user says of cells: their stiffness, and which share a rotation. Cells are at vertices or
 // are simplices, so that a map of the other kind is not asked.
@@ -65,6 +69,8 @@ public:
     model.bending_length = options.bending_length;
     model.smoothing_length = options.smoothing_length;
     const bool is_at_vertices = options.cells.has_vertex_cells();
+    if(!is_at_vertices && (m_stiffness.is_undeclared() || m_group.is_undeclared()))
+      return outcome(Status::undeclared_map);
     model.stiffness = m_stiffness.of(is_at_vertices, domain, region, flat);
     model.group = m_group.of(is_at_vertices, domain, region, flat);
     if(m_fit_order)
@@ -86,27 +92,32 @@ private:
   public:
     bool is_empty() const { return !m_of_vertex && !m_of_simplex; }
 
+    // whether what is there is for vertices because it does not tell its keys
+    bool is_undeclared() const { return m_is_undeclared; }
+
     template <typename Map>
     void set(Map map, T otherwise)
     {
       Values next; // a map of the user may throw
-      constexpr bool are_both_indices = std::is_same_v<simplex_descriptor, std::size_t>;
-      constexpr bool has_simplices = are_both_indices || is_value_of<Map, simplex_descriptor>;
-      if constexpr(has_simplices)
-        next.m_of_simplex = [map, otherwise](simplex_descriptor s) {
-          std::size_t index = 0;
-          if constexpr(are_both_indices)
-            index = s;
-          T result = otherwise;
-          with_value(map, s, index, [&](T value) { result = value; });
-          return result;
-        };
-      if constexpr(are_both_indices || !has_simplices || is_value_of<Map, vertex_descriptor>)
+      next.m_is_undeclared = !is_for_simplices<Map>() && is_generic<Map>;
+      if constexpr(is_for_simplices<Map>())
+        next.ask_for_simplices(map, otherwise);
+      if constexpr(is_for_vertices<Map>())
         next.m_of_vertex = [map, otherwise](vertex_descriptor v, std::size_t index) {
           T result = otherwise;
           with_value(map, v, index, [&](T value) { result = value; });
           return result;
         };
+      *this = std::move(next);
+    }
+
+    template <typename Map>
+    void set(Simplex_map<Map> map, T otherwise)
+    {
+      static_assert(is_value_of<Map, simplex_descriptor> || is_simplex_index,
+                    "of_simplices: the map must take the simplices of the domain");
+      Values next;
+      next.ask_for_simplices(map.map, otherwise);
       *this = std::move(next);
     }
 
@@ -124,13 +135,55 @@ private:
     }
 
   private:
+    template <typename Map>
+    void ask_for_simplices(const Map& map, T otherwise)
+    {
+      m_of_simplex = [map, otherwise](simplex_descriptor s) {
+        std::size_t index = 0;
+        if constexpr(is_simplex_index)
+          index = s;
+        T result = otherwise;
+        with_value(map, s, index, [&](T value) { result = value; });
+        return result;
+      };
+    }
+
     std::function<T(vertex_descriptor, std::size_t)> m_of_vertex;
     std::function<T(simplex_descriptor)> m_of_simplex;
+    bool m_is_undeclared = false;
   };
+
+  static constexpr bool is_simplex_index = std::is_same_v<simplex_descriptor, std::size_t>;
 
   template <typename Map, typename Key>
   static constexpr bool is_value_of =
     is_valid<Call_map, Map, Key> || is_valid<Call_get, Map, Key> || is_valid<Call_find, Map, Key>;
+
+  // A function object that takes vertices, but has no single call operator that tells so: whether
+  // it takes simplices cannot be asked, as its body may not compile for them.
+  template <typename Map>
+  static constexpr bool is_generic =
+    std::is_class_v<Map> && !is_valid<Call_operator_of, Map> &&
+    is_valid<Call_map, Map, vertex_descriptor>;
+
+  template <typename Map>
+  static constexpr bool is_for_simplices()
+  {
+    if constexpr(is_generic<Map>)
+      return std::is_same_v<vertex_descriptor, simplex_descriptor>;
+    else
+      return is_value_of<Map, simplex_descriptor> ||
+             (is_simplex_index && !is_value_of<Map, vertex_descriptor>);
+  }
+
+  template <typename Map>
+  static constexpr bool is_for_vertices()
+  {
+    if constexpr(is_generic<Map>)
+      return true;
+    else
+      return is_value_of<Map, vertex_descriptor> || !is_value_of<Map, simplex_descriptor>;
+  }
 
   Values<double> m_stiffness;
   Values<int> m_group;
