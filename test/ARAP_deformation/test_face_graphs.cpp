@@ -11,9 +11,10 @@
 
 // Surfaces in data structures for halfedges: kernels, a class derived from Surface_mesh, removed
 // elements, a const mesh with an output map, a part of a mesh, maps of a user's, other orders of
-// vertices and faces, polygons, and shapes that are not clean.
+// vertices and faces, polygons, all terms of the energy, and shapes that are not clean.
 
 #include "include/nasty_runs.h"
+#include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
@@ -377,6 +378,29 @@ void test_polygons()
   }
 }
 
+// Each term of the energy, on triangles in two components and on polygons.
+template <typename Mesh_>
+void test_terms_of(const std::string& name)
+{
+  const auto test = [&](const Shape& shape, const auto& faces) {
+    test_case() = name + ", " + shape.name;
+    test_terms<2>(shape.points, faces, scenario(shape), [&](const auto& compare_with) {
+      Mesh_ mesh = make_mesh<Mesh_>(shape.points, faces);
+      compare_with(Face_graph_domain<Mesh_>(mesh), all_vertices(mesh));
+    });
+  };
+  for(const Shape& shape : {shapes()[6], shapes()[10]})
+  {
+    Polygons triangles;
+    for(const auto& t : shape.triangles)
+      triangles.emplace_back(t.begin(), t.end());
+    test(shape, triangles);
+  }
+  Polygons polygons;
+  const Shape shape = tube(polygons);
+  test(shape, polygons);
+}
+
 // shapes that are not clean, where the points are written to another place
 template <std::size_t N>
 void test_with_output_map(const Nasty_shape<N>& shape)
@@ -421,6 +445,8 @@ int main()
   test_own_map_and_order();
   test_polygons<Mesh>();
   test_polygons<Polyhedron>();
+  test_terms_of<Mesh>("terms over Surface_mesh");
+  test_terms_of<Polyhedron>("terms over Polyhedron_3");
   test_shelf_as_graph<Mesh>("Surface_mesh");
   test_shelf_as_graph<Polyhedron>("Polyhedron_3");
   for_each_manifold([](const auto& shape) { test_with_output_map(shape); });

@@ -10,9 +10,10 @@
 // Author(s)     : The ARAP_deformation authors
 
 // Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps,
-// complexes of tetrahedra over both, and shapes that are not clean.
+// complexes of tetrahedra over both, all terms of the energy, and shapes that are not clean.
 
 #include "include/nasty_runs.h"
+#include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Linear_cell_complex_domain.h>
@@ -108,24 +109,31 @@ auto vertices_at(const Domain& domain, const std::vector<Eigen::Vector3d>& point
 }
 
 template <int Dimension, typename Complex, typename Simplices>
+Complex make_complex(const std::vector<Eigen::Vector3d>& points, const Simplices& simplices)
+{
+  Complex complex;
+  for(const auto& simplex : simplices)
+  {
+    std::vector<Point> corners;
+    for(std::size_t v : simplex)
+      corners.push_back(point(points[v]));
+    if constexpr(Dimension == 2)
+      make_polygon(complex, corners);
+    else
+      complex.make_tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+  }
+  sew(complex);
+  CHECK(complex.is_valid());
+  return complex;
+}
+
+template <int Dimension, typename Complex, typename Simplices>
 void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Simplices& simplices,
                             const Scenario& s, double diameter)
 {
   for(Cell_scheme cells : all_cell_schemes)
   {
-    Complex complex;
-    for(const auto& simplex : simplices)
-    {
-      std::vector<Point> corners;
-      for(std::size_t v : simplex)
-        corners.push_back(point(points[v]));
-      if constexpr(Dimension == 2)
-        make_polygon(complex, corners);
-      else
-        complex.make_tetrahedron(corners[0], corners[1], corners[2], corners[3]);
-    }
-    sew(complex);
-    CHECK(complex.is_valid());
+    Complex complex = make_complex<Dimension, Complex>(points, simplices);
     static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Complex>::Deformation_domain,
                                  Linear_cell_complex_domain<Complex>>);
     const Linear_cell_complex_domain domain(complex);
@@ -134,6 +142,18 @@ void compare_with_reference(const std::vector<Eigen::Vector3d>& points, const Si
     compare(reference<Dimension>(points, simplices, s, cells),
             deform(domain, vertices_at(domain, points), s, cells), diameter);
   }
+}
+
+// each term of the energy
+template <int Dimension, typename Complex, typename Simplices>
+void test_terms_of(const std::vector<Eigen::Vector3d>& points, const Simplices& simplices,
+                   const Scenario& s)
+{
+  test_terms<Dimension>(points, simplices, s, [&](const auto& compare_with) {
+    Complex complex = make_complex<Dimension, Complex>(points, simplices);
+    const Linear_cell_complex_domain domain(complex);
+    compare_with(domain, vertices_at(domain, points));
+  });
 }
 
 // What is not a tetrahedron, or not closed, is refused.
@@ -197,6 +217,7 @@ int main()
                                                    shape.diameter());
     compare_with_reference<2, Plain_surface>(shape.points, polygons, scenario(shape),
                                              shape.diameter());
+    test_terms_of<2, Plain_surface>(shape.points, polygons, scenario(shape));
   }
   for(const Shape& shape : shapes())
   {
@@ -208,6 +229,7 @@ int main()
   test_case() = "a combinatorial map of dimension 3";
   compare_with_reference<3, Volumes>(shape.points, shape.tetrahedra, scenario(shape),
                                      shape.diameter());
+  test_terms_of<3, Volumes>(shape.points, shape.tetrahedra, scenario(shape));
   test_case() = "a generalized map of dimension 3";
   compare_with_reference<3, Generalized_volumes>(shape.points, shape.tetrahedra, scenario(shape),
                                                  shape.diameter());

@@ -10,9 +10,10 @@
 // Author(s)     : The ARAP_deformation authors
 
 // The domain of a complex that 3D mesh generation made: its cells only, one subdomain of several,
-// and weights of points and caches of cells.
+// all terms of the energy, and weights of points and caches of cells.
 
 #include "include/nasty_runs.h"
+#include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -79,6 +80,11 @@ void compare_with_reference(const Domain& domain, const std::set<Triangulation::
     for(Vertex v : vertices)
       domain.set_point(v, point_at(shape.points[domain.index(v)]));
   }
+  test_terms<3>(shape.points, shape.tetrahedra, s, [&](const auto& compare_with) {
+    compare_with(domain, vertices);
+    for(Vertex v : vertices)
+      domain.set_point(v, point_at(shape.points[domain.index(v)]));
+  });
 }
 
 // half of the cells, so that some vertices are isolated

@@ -9,11 +9,12 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The domain of 3D triangulations: all finite cells or some of them, weights that are kept, caches
-// that are renewed, the triangulation of tetrahedral remeshing, and vertices that are moved where
-// they should not be.
+// The domain of 3D triangulations: all finite cells or some of them, each term of the energy,
+// weights that are kept, caches that are renewed, the triangulation of tetrahedral remeshing, and
+// vertices that are moved where they should not be.
 
 #include "include/nasty_runs.h"
+#include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation/Triangulation_domain.h>
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -113,6 +114,30 @@ void test_plain()
   nothing.translate(*flat.finite_vertex_handles().begin(), Epick::Vector_3(3, 0, 0));
   CHECK(nothing.deform().status == CGAL::ARAP::Status::no_simplex);
   CHECK((*flat.finite_vertex_handles().begin())->point() != Epick::Point_3(3, 0, 0));
+}
+
+// each term of the energy, over all cells and over some
+void test_terms_of_cells()
+{
+  using Triangulation = CGAL::Delaunay_triangulation_3<Epick>;
+  for(const double height : {2.0, 0.7})
+  {
+    test_case() = "terms, cells below " + std::to_string(height);
+    const auto make = [&](const auto& compare_with) {
+      auto t = triangulation<Triangulation>();
+      std::set<Triangulation::Cell_handle> selected;
+      for(auto cell : t.finite_cell_handles())
+        if(cell->vertex(0)->point().y() < height)
+          selected.insert(cell);
+      const Triangulation_domain domain(
+        t, [&](Triangulation::Cell_handle cell) { return selected.count(cell) > 0; });
+      compare_with(domain, std::vector<Triangulation::Vertex_handle>(domain.vertices().begin(),
+                                                                     domain.vertices().end()));
+    };
+    Block shape;
+    make([&](const auto& domain, const auto&) { shape = block_of(domain); });
+    test_terms<3>(shape.points, shape.tetrahedra, scenario(shape), make);
+  }
 }
 
 void test_some_cells()
@@ -260,6 +285,7 @@ int main()
 {
   test_plain();
   test_some_cells();
+  test_terms_of_cells();
   test_circumcenters();
   test_seconds();
   test_weights();
