@@ -13,6 +13,7 @@
 
 #include "include/domains.h"
 #include "include/Single_precision_solver.h"
+#include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
@@ -562,6 +563,47 @@ void test_all()
         with_rotation<Closest_rotation_traits_adaptor<CGAL_polar>>(), direct);
 }
 
+// Each term of the energy has with each solver the iterates of the default one.
+class Terms
+{
+public:
+  template <typename Solver>
+  void compare_with_default(const char* name)
+  {
+    const std::vector<Term_run> runs = term_runs(m_shape.diameter());
+    for(std::size_t k = 0; k < runs.size(); ++k)
+    {
+      test_case() = name + (", " + runs[k].name);
+      Mesh mesh = make_mesh<Mesh>(m_shape);
+      CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> deformation(mesh);
+      const Result result = deform_with(deformation, all_vertices(mesh), m_scenario, runs[k]);
+      if(k == m_default.size()) // of the first solver, which is the default
+        m_default.push_back(result);
+      else
+        compare(m_default[k], result, m_shape.diameter(), 1e-9);
+    }
+  }
+
+private:
+  Shape m_shape = shapes()[5];
+  Scenario m_scenario = scenario(m_shape);
+  std::vector<Result> m_default;
+};
+
+void test_terms()
+{
+  Terms terms;
+  terms.compare_with_default<CGAL::Default>("default");
+  terms.compare_with_default<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>("SimplicialLLT");
+  terms.compare_with_default<Eigen_LDLT_solver>("Eigen_LDLT_solver");
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  terms.compare_with_default<Cholmod_solver>("Cholmod_solver");
+#endif
+  terms.compare_with_default<Sparse_linear_algebra_adaptor<CGAL_LU>>("CGAL's SparseLU");
+  terms.compare_with_default<Sparse_linear_algebra_adaptor<CGAL_LDLT>>("CGAL's SimplicialLDLT");
+  terms.compare_with_default<Eigen_conjugate_gradient_solver>("Eigen_conjugate_gradient_solver");
+}
+
 } // namespace swaps
 
 int main()
@@ -569,5 +611,6 @@ int main()
   default_solver::test_all();
   conformance::test_all();
   swaps::test_all();
+  swaps::test_terms();
   return checks_result();
 }
