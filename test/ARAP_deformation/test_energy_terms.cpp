@@ -357,7 +357,7 @@ void test_motions(const Model& model)
     }
 }
 
-// a stiffness of all cells, a length of nothing, no rings: as without
+// a stiffness of all cells, groups of one cell, a length of nothing, no rings: as without
 template <int Dimension>
 void test_limits(const Model& model)
 {
@@ -378,20 +378,29 @@ void test_limits(const Model& model)
     CHECK_AT_MOST(std::abs(four.deformation.deform(5, 0).final_energy() - 4 * a.final_energy()),
                   1e-9 * a.final_energy());
     CHECK_AT_MOST(largest_distance(four.points, plain.points), 1e-10 * diameter_of(model.points));
-    if(cells == Cell_scheme::elements())
-      continue;
-    Terms bending;
-    double last = std::numeric_limits<double>::infinity();
-    for(double b : {1e-2, 1e-4, 1e-6})
+    Terms apart; // each cell is a group
+    for(std::size_t c = 0; c < number_of_cells; ++c)
+      apart.group.push_back(int(c));
+    Run<Dimension> alone(model, s, cells, apart);
+    CHECK(alone.deformation.deform(5, 0));
+    CHECK_AT_MOST(largest_distance(alone.points, plain.points), 1e-10 * diameter_of(model.points));
+    for(double Terms::*length : {&Terms::bending_length, &Terms::smoothing_length})
     {
-      bending.bending_length = b * diameter_of(model.points);
-      Run<Dimension> bent(model, s, cells, bending);
-      CHECK(bent.deformation.deform(5, 0));
-      const double distance = largest_distance(bent.points, plain.points);
-      CHECK(distance < last);
-      last = distance;
+      if(cells == Cell_scheme::elements() && length == &Terms::bending_length)
+        continue;
+      double last = std::numeric_limits<double>::infinity();
+      for(double b : {1e-2, 1e-4, 1e-6})
+      {
+        Terms short_length;
+        short_length.*length = b * diameter_of(model.points);
+        Run<Dimension> bent(model, s, cells, short_length);
+        CHECK(bent.deformation.deform(5, 0));
+        const double distance = largest_distance(bent.points, plain.points);
+        CHECK(distance < last);
+        last = distance;
+      }
+      CHECK_AT_MOST(last, 1e-8 * diameter_of(model.points));
     }
-    CHECK_AT_MOST(last, 1e-8 * diameter_of(model.points));
   }
   CHECK(Cell_scheme::k_ring(0) == Cell_scheme::spokes());
   CHECK(Cell_scheme::k_ring(1) != Cell_scheme::spokes());
@@ -574,6 +583,83 @@ void test_rigid_motions(const Model& model)
   const Report first = run.deformation.deform(200, 0), again = run.deformation.deform(0, 0);
   CHECK(first.final_energy() > 1e-3);
   CHECK_AT_MOST(again.final_energy(), first.final_energy() * (1 + 1e-9));
+  terms.group.resize((std::max)(two.points.size(), two.simplices.size()), 0);
+  for(std::size_t v = 0; v < two.points.size(); ++v) // no rigid motion, or it starts at its minimum
+    if(s.selection[v] == 2)
+      s.targets[v][2] += 0.05 * diameter * std::sin(double(v));
+  for(const double length : {0.0, 0.1, 1.0})
+  {
+    test_case() = "groups over two sheets, smoothing length " + std::to_string(length);
+    terms.smoothing_length = length * diameter;
+    iterates::compare<2>(two, s, Cell_scheme::spokes(), Dense_reference::SPOKES, terms);
+    iterates::compare<2>(two, s, Cell_scheme::elements(), Dense_reference::ELEMENTS, terms);
+  }
+}
+
+// Frames of soft vertices, changed between runs, against the dense reference, with undo.
+void test_soft_frames(const Model& model)
+{
+  const double diameter = diameter_of(model.points);
+  const Scenario hard = whole_scenario(model);
+  Scenario soft = hard; // for the reference, where soft vertices are free
+  std::vector<std::size_t> pulled;
+  for(std::size_t v = 0; v < model.points.size(); ++v)
+    if(hard.selection[v] == 2 && hard.targets[v] != model.points[v])
+    {
+      pulled.push_back(v);
+      soft.selection[v] = 1;
+      soft.targets[v] = model.points[v];
+    }
+  const auto frames = [&](int step) { // other ones in each step, and of other vertices
+    std::map<std::size_t, Eigen::Matrix3d> some;
+    for(std::size_t k = 0; k < pulled.size(); ++k)
+      if((int(k) + step) % 2 == 0)
+        some[pulled[k]] = turn(0.3 + 0.2 * step, {1, 0.1 * double(k), -0.5});
+    return some;
+  };
+  for(const auto& [cells, dense_cells] :
+      {std::pair(Cell_scheme::spokes_and_rims(), Dense_reference::SPOKES_AND_RIMS),
+       std::pair(Cell_scheme::elements(), Dense_reference::ELEMENTS)})
+  {
+    test_case() = model.name + ", frames of soft vertices";
+    Run<2> run(model, hard, cells, {});
+    auto& d = run.deformation;
+    for(std::size_t v : pulled)
+      CHECK(d.set_target_weight(v, 1 + double(v % 3)));
+    std::vector<Eigen::Vector3d> x = soft.targets;
+    std::vector<decltype(d.state())> states;
+    std::vector<std::vector<Point>> points;
+    for(int step = 0; step < 3; ++step)
+    {
+      Terms terms;
+      terms.frames = frames(step);
+      Dense_reference reference(model.points, model.simplices, 2, soft.selection, dense_cells,
+                                Dense_reference::SAFE, terms);
+      for(std::size_t v : pulled)
+      {
+        reference.add_soft_position(v, 1 + double(v % 3), hard.targets[v]);
+        CHECK(terms.frames.count(v) ? d.set_target_rotation(v, terms.frames[v])
+                                    : d.erase_target_rotation(v));
+      }
+      states.push_back(d.state());
+      const Report report = d.deform(4, 0);
+      CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+      CHECK(step == 0 || (!report.stages.weights && !report.stages.factor));
+      for(int k = 0; k < 4; ++k)
+        reference.iterate(x);
+      CHECK_AT_MOST(largest_distance(run.points, x), 1e-10 * diameter);
+      CHECK_AT_MOST(std::abs(report.final_energy() - reference.energy(x)),
+                    1e-10 * report.final_energy());
+      points.push_back(run.points);
+    }
+    for(const std::size_t step : {1, 2, 0})
+    {
+      CHECK(d.restore(states[step]));
+      const Report report = d.deform(4, 0);
+      CHECK(!report.stages.weights && !report.stages.factor);
+      CHECK_AT_MOST(largest_distance(run.points, points[step]), 1e-12 * diameter);
+    }
+  }
 }
 
 // Rotations that are smooth over long lengths do not creep, and if they do nothing has converged.
@@ -848,6 +934,7 @@ void test_all()
   test_groups(models.front());
   test_changes(models.front());
   test_rigid_motions(models.front());
+  test_soft_frames(models.front());
   test_long_lengths<2>(models.front());
   test_long_lengths<3>(iterates::solid());
   test_states<2>(models.front());

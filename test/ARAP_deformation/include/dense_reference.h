@@ -466,44 +466,51 @@ private:
       couple(scheme);
   }
 
-  // the weights between neighbouring cells; there are no groups
+  // the weight between two vertices or simplices that are neighbours
+  double coupling(Cells scheme, std::size_t i, std::size_t j) const
+  {
+    double weight = 0;
+    if(scheme != ELEMENTS)
+    {
+      for(const Simplex& s : m_simplices)
+        if(contains(s, i) && contains(s, j))
+          weight += cotangent_weight(s, i, j);
+      return (std::max)(weight, 0.0);
+    }
+    const Simplex &s = m_simplices[i], &t = m_simplices[j];
+    Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+    for(std::size_t v : s)
+      apart += m_rest[v] / double(s.size());
+    for(std::size_t v : t)
+      apart -= m_rest[v] / double(t.size());
+    std::vector<Eigen::Vector3d> common;
+    for(std::size_t v : s)
+      if(contains(t, v))
+        common.push_back(m_rest[v]);
+    if(m_dimension == 3 && common.size() == 3)
+      weight = (common[1] - common[0]).cross(common[2] - common[0]).norm() / 2;
+    for(std::size_t k = 0; m_dimension == 2 && k < s.size(); ++k)
+      for(std::size_t l = 0; l < t.size(); ++l)
+      {
+        const std::size_t a = s[k], b = s[(k + 1) % s.size()];
+        if(std::minmax(a, b) == std::minmax(t[l], t[(l + 1) % t.size()]))
+          weight += (m_rest[a] - m_rest[b]).norm();
+      }
+    return weight / apart.norm();
+  }
+
+  // the weights between neighbouring cells; that of groups is the sum over what is in them
   void couple(Cells scheme)
   {
-    const double factor = m_terms.smoothing_length * m_terms.smoothing_length;
     for(std::size_t c = 0; c < m_cells.size(); ++c)
       for(std::size_t d = 0; d < c; ++d)
       {
-        const std::size_t i = m_cells[c].names[0], j = m_cells[d].names[0];
         double weight = 0;
-        if(scheme == ELEMENTS)
-        {
-          const Simplex &s = m_simplices[i], &t = m_simplices[j];
-          Eigen::Vector3d apart = Eigen::Vector3d::Zero();
-          for(std::size_t v : s)
-            apart += m_rest[v] / double(s.size());
-          for(std::size_t v : t)
-            apart -= m_rest[v] / double(t.size());
-          std::vector<Eigen::Vector3d> common;
-          for(std::size_t v : s)
-            if(contains(t, v))
-              common.push_back(m_rest[v]);
-          if(m_dimension == 3 && common.size() == 3)
-            weight = (common[1] - common[0]).cross(common[2] - common[0]).norm() / 2;
-          for(std::size_t k = 0; m_dimension == 2 && k < s.size(); ++k)
-            for(std::size_t l = 0; l < t.size(); ++l)
-            {
-              const std::size_t a = s[k], b = s[(k + 1) % s.size()];
-              if(std::minmax(a, b) == std::minmax(t[l], t[(l + 1) % t.size()]))
-                weight += (m_rest[a] - m_rest[b]).norm();
-            }
-          weight /= apart.norm();
-        }
-        else
-          for(const Simplex& s : m_simplices)
-            if(contains(s, i) && contains(s, j))
-              weight += cotangent_weight(s, i, j);
+        for(std::size_t i : m_cells[c].names)
+          for(std::size_t j : m_cells[d].names)
+            weight += coupling(scheme, i, j);
         if(weight > 0)
-          m_couplings[{c, d}] = factor * weight;
+          m_couplings[{c, d}] = std::pow(m_terms.smoothing_length, 2) * weight;
       }
   }
 

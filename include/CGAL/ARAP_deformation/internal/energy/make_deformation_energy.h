@@ -119,10 +119,14 @@ inline Bending make_bending(const Energy_model& energy_model, const Region& regi
 // The weights approximate the integral of the squared gradient of the rotations, times the squared
 // smoothing length: for cells at vertices they are cotangents, where these are positive, and for
 // cells that are simplices the content of the common facet over the distance of the centroids.
+// Cells of one group have none between them: their rotations are one, and it would be held back.
 inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
                                               const Region& region, int number_of_cells)
 {
   const double factor = energy_model.smoothing_length * energy_model.smoothing_length;
+  const auto share_rotation = [&groups = energy_model.group](int c, int d) {
+    return !groups.empty() && groups[c] >= 0 && groups[c] == groups[d];
+  };
   Index_lists neighbours;
   Array<double> weights;
   if(energy_model.cells.has_vertex_cells())
@@ -133,9 +137,9 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
     for(int c = 0; c < number_of_cells; ++c)
     {
       for(int e = stars.neighbours.begin[c]; e < stars.neighbours.begin[c + 1]; ++e)
-        if(stars.neighbours.items[e] < number_of_cells)
+        if(const int d = stars.neighbours.items[e]; d < number_of_cells && !share_rotation(c, d))
         {
-          neighbours.items.push_back(stars.neighbours.items[e]);
+          neighbours.items.push_back(d);
           weights.push_back(factor * stars.weights[e]);
         }
       neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
@@ -157,7 +161,7 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
   for(const auto& [facet, simplices] : simplices_at)
     for(int s : simplices)
       for(int other : simplices)
-        if(s != other)
+        if(s != other && !share_rotation(s, other))
         {
           const Coordinates side = difference(region.rest[facet[1]], region.rest[facet[0]]),
                             apart = difference(centroids[s], centroids[other]);
