@@ -555,8 +555,8 @@ void test_statuses()
     Status::cancelled, Status::invalid_option, Status::in_a_run, Status::not_a_control_vertex,
     Status::invalid_weight, Status::undeclared_map, Status::not_a_simplex, Status::too_many_corners,
     Status::no_simplex, Status::no_tetrahedron, Status::non_finite_point,
-    Status::non_finite_weight, Status::no_fixed_vertex, Status::singular_matrix, Status::solver_failed,
-    Status::non_finite_energy};
+    Status::non_finite_weight, Status::no_fixed_vertex, Status::singular_matrix,
+    Status::solver_failed, Status::non_finite_energy};
   std::set<std::string> names, sentences;
   for(Status status : all)
   {

@@ -594,7 +594,8 @@ void test_terms()
 {
   Terms terms;
   terms.compare_with_default<CGAL::Default>("default");
-  terms.compare_with_default<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>("SimplicialLLT");
+  using LLT = Eigen::SimplicialLLT<Sparse_matrix>;
+  terms.compare_with_default<Eigen_sparse_solver<LLT>>("Eigen_sparse_solver<SimplicialLLT>");
   terms.compare_with_default<Eigen_LDLT_solver>("Eigen_LDLT_solver");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   terms.compare_with_default<Cholmod_solver>("Cholmod_solver");
