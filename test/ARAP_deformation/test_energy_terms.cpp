@@ -84,16 +84,69 @@ Eigen::Matrix3d turn(double angle, const Eigen::Vector3d& axis)
 // Iterates and energies against the dense reference.
 namespace iterates {
 
+// free vertices that get soft targets in some cases
+std::vector<std::size_t> soft_vertices(const Scenario& s)
+{
+  std::vector<std::size_t> vertices;
+  for(std::size_t v = 4; v < s.selection.size() && vertices.size() < 4; v += 7)
+    if(s.selection[v] == 1)
+      vertices.push_back(v);
+  return vertices;
+}
+
+// Soft targets of these vertices, the last of which is a plane, and a soft control point.
+template <typename Deformation>
+void add_rows(const Model& model, const std::vector<std::size_t>& vertices,
+              Deformation& deformation, Dense_reference& reference)
+{
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, -2, 0.5).normalized();
+  for(const std::size_t v : vertices)
+  {
+    const Eigen::Vector3d p = model.points[v], target = p + Eigen::Vector3d(0.1, -0.05, 0.02);
+    const double weight = 0.5 + 0.1 * double(v);
+    deformation.insert_control_vertex(v, point(target));
+    CHECK(deformation.set_target_weight(v, weight));
+    if(v != vertices.back())
+      reference.add_soft_position(v, weight, target);
+    else
+    {
+      const auto project = [=](const Eigen::Vector3d& x) {
+        return Eigen::Vector3d(x - normal * normal.dot(x - target));
+      };
+      CHECK(deformation.set_target_set(v, [=](const Point& x) { return point(project(vector(x))); }));
+      reference.add_row({{v, 1}}, weight, project);
+    }
+  }
+  const std::size_t number = model.simplices.size() / 2;
+  const auto& corners = model.simplices[number];
+  const std::vector<double> shares(corners.size(), 1 / double(corners.size()));
+  const auto inserted = deformation.insert_control_point(number, shares);
+  CHECK(inserted);
+  CHECK(deformation.set_target_weight(inserted.point, 2));
+  CHECK(deformation.translate(inserted.point, Eigen::Vector3d(0.03, 0.1, -0.05)));
+  std::map<std::size_t, double> coefficients;
+  Eigen::Vector3d target(0.03, 0.1, -0.05);
+  for(std::size_t k = 0; k < corners.size(); ++k)
+  {
+    coefficients[corners[k]] = shares[k];
+    target += shares[k] * vector(deformation.domain().point(corners[k]));
+  }
+  reference.add_row({coefficients.begin(), coefficients.end()}, 2,
+                    [target](const Eigen::Vector3d&) { return target; });
+}
+
 template <int Dimension>
 void compare(const Model& model, const Scenario& s, Cell_scheme cells,
-             Dense_reference::Cells dense_cells, const Terms& terms)
+             Dense_reference::Cells dense_cells, const Terms& terms, bool has_rows = false)
 {
   std::vector<Point> points = points_of(model.points);
   CGAL::ARAP_deformation<Soup<Dimension>> deformation(Soup<Dimension>(points, model.simplices));
   prepare(deformation, s, numbers(points.size()));
-  apply(deformation, cells, terms);
   Dense_reference reference(model.points, model.simplices, Dimension, s.selection, dense_cells,
                             Dense_reference::SAFE, terms);
+  if(has_rows)
+    add_rows(model, soft_vertices(s), deformation, reference);
+  apply(deformation, cells, terms);
   std::vector<Eigen::Vector3d> x = s.targets;
   std::vector<double> energies = {reference.energy(x)};
   std::vector<std::vector<Eigen::Vector3d>> iterates = {x};
@@ -124,6 +177,7 @@ struct Case
   Terms terms;
   bool is_for_elements = true;
   bool is_for_stars_only = false;
+  bool has_rows = false;
 };
 
 std::vector<Case> cases(const Model& model, const Scenario& s, double diameter)
@@ -169,6 +223,16 @@ std::vector<Case> cases(const Model& model, const Scenario& s, double diameter)
       terms.group.push_back(c % 5 < 2 ? int(c / 20) : -1);
     some_frames(terms);
   }
+  for(const bool is_bent : {false, true})
+  {
+    Terms& terms = add("rows, with " + std::string(is_bent ? "bending" : "smooth rotations"), !is_bent);
+    terms.stiffness = random_stiffness();
+    (is_bent ? terms.bending_length : terms.smoothing_length) = 0.05 * diameter;
+    for(const std::size_t v : soft_vertices(s)) // frames that are soft
+      if(v % 2 == 0)
+        terms.frames[v] = turn(0.4, {0.3, 1, 0.1 * double(v)});
+    all.back().has_rows = true;
+  }
   add("2-ring").rings = 2;
   all.back().is_for_stars_only = true;
   {
@@ -206,7 +270,7 @@ void compare_all(const Model& model)
           cells == Dense_reference::SPOKES     ? Cell_scheme::k_ring(c.terms.rings)
           : cells == Dense_reference::ELEMENTS ? Cell_scheme::elements()
                                                : Cell_scheme::spokes_and_rims();
-        compare<Dimension>(model, s, scheme, cells, c.terms);
+        compare<Dimension>(model, s, scheme, cells, c.terms, c.has_rows);
       }
 }
 
@@ -295,7 +359,7 @@ std::vector<std::pair<std::string, Terms>> all_terms(const Model& model, const S
   const double diameter = diameter_of(model.points);
   std::vector<std::pair<std::string, Terms>> all;
   for(const iterates::Case& c : iterates::cases(model, s, diameter))
-    if(!c.is_for_stars_only)
+    if(!c.is_for_stars_only && !c.has_rows)
       all.emplace_back(c.name, c.terms);
   return all;
 }
@@ -355,6 +419,51 @@ void test_motions(const Model& model)
       CHECK_AT_MOST(std::abs(b.final_energy() - a.final_energy() * std::pow(size, Dimension)),
                     1e-9 * b.final_energy());
     }
+}
+
+// The vertices in another order: the same iterates, with all schemes and minimizers.
+template <int Dimension>
+void test_orders(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  const std::size_t n = model.points.size();
+  const auto renamed = [n](std::size_t v) { return (n - v + 5) % n; };
+  for(const auto& [name, terms] : all_terms(model, s))
+    for(Cell_scheme cells :
+        {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::k_ring(1)})
+      for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+      {
+        test_case() = model.name + ", " + name + ", another order";
+        Model other = model;
+        Scenario other_s = s;
+        Terms other_terms = terms;
+        other_terms.frames.clear();
+        for(std::size_t v = 0; v < n; ++v)
+        {
+          other.points[renamed(v)] = model.points[v];
+          other_s.targets[renamed(v)] = s.targets[v];
+          other_s.selection[renamed(v)] = s.selection[v];
+          if(v < terms.stiffness.size())
+            other_terms.stiffness[renamed(v)] = terms.stiffness[v];
+          if(v < terms.group.size())
+            other_terms.group[renamed(v)] = terms.group[v];
+        }
+        for(const auto& [v, rotation] : terms.frames)
+          other_terms.frames[renamed(v)] = rotation;
+        for(auto& simplex : other.simplices)
+          std::transform(simplex.begin(), simplex.end(), simplex.begin(), renamed);
+        Run<Dimension> run(model, s, cells, terms, minimizer),
+          other_run(other, other_s, cells, other_terms, minimizer);
+        CHECK(run.deformation.deform(10, 0));
+        CHECK(other_run.deformation.deform(10, 0));
+        std::vector<Point> expected(n, Point(0, 0, 0));
+        for(std::size_t v = 0; v < n; ++v)
+          expected[renamed(v)] = run.points[v];
+        // the pairs of the quasi-Newton method are in single precision
+        CHECK_AT_MOST(largest_distance(other_run.points, expected),
+                      (minimizer == Minimizer::local_global ? 1e-10 : 1e-5) *
+                        diameter_of(model.points));
+      }
 }
 
 // a stiffness of all cells, groups of one cell, a length of nothing, no rings: as without
@@ -925,6 +1034,8 @@ void test_all()
   test_minimizers<3>(iterates::solid());
   test_motions<2>(models.back());
   test_motions<3>(iterates::solid());
+  test_orders<2>(models.back());
+  test_orders<3>(iterates::solid());
   test_limits<2>(models.front());
   test_limits<2>(models.back());
   test_limits<3>(iterates::solid());
