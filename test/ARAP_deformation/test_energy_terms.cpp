@@ -1116,6 +1116,46 @@ void test_cut_region(Initial_guess guess)
   CHECK_AT_MOST(largest_distance(cut, expected), 1e-9);
 }
 
+// Rotations between handles that are turned differently, against the dense reference: on surfaces
+// and tetrahedra, with cells at vertices.
+template <int Dimension>
+void test_two_handles(const Model& model)
+{
+  Scenario s = scenario(Shape{"", model.points, {}}, 1.2);
+  const std::vector<int> handles = s.selection; // 0 and 2
+  const auto moved = [&](int handle, double angle) {
+    const auto motion = Eigen::Translation3d(0.3, 0, 0.1) *
+                        Eigen::AngleAxisd(angle, Eigen::Vector3d(1, handle, -1).normalized());
+    for(std::size_t v = 0; v < s.targets.size(); ++v)
+      if(handles[v] == handle)
+        s.targets[v] = motion * model.points[v];
+    return Eigen::Vector3d(angle * Eigen::Vector3d(1, handle, -1).normalized());
+  };
+  const Eigen::Vector3d first = moved(0, -0.7), second = moved(2, 1.1);
+  for(int& status : s.selection)
+    status = status == 0 ? 2 : status;
+  for(const bool has_rims : {false, true})
+  {
+    test_case() = model.name + ", guess between two handles";
+    std::vector<Point> points = points_of(model.points);
+    CGAL::ARAP_deformation<Soup<Dimension>> d(Soup<Dimension>(points, model.simplices));
+    prepare(d, s, numbers(points.size()));
+    CHECK(d.set_options(options_for(has_rims ? Cell_scheme::spokes_and_rims()
+                                             : Cell_scheme::spokes(),
+                                    Minimizer::local_global, Initial_guess::rotations)));
+    CHECK(d.deform(0, 0));
+    Dense_reference reference(model.points, model.simplices, Dimension, s.selection,
+                              has_rims ? Dense_reference::SPOKES_AND_RIMS : Dense_reference::SPOKES,
+                              Dense_reference::SAFE);
+    std::vector<Eigen::Vector3d> x = s.targets, vectors(x.size(), Eigen::Vector3d::Zero());
+    for(std::size_t v = 0; v < x.size(); ++v)
+      if(handles[v] != 1)
+        vectors[v] = handles[v] == 0 ? first : second;
+    reference.rotation_guess(vectors, x);
+    CHECK_AT_MOST(largest_distance(points, x), 1e-9 * diameter_of(model.points));
+  }
+}
+
 // counts its solutions
 struct Counting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
 {
@@ -1169,11 +1209,33 @@ void test_far_soft_target()
   }
 }
 
+// The guess costs two solutions of the system: of the rotations, and the global step.
+void test_cost_of_guess()
+{
+  test_case() = "the cost of a guess";
+  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0);
+  });
+  const Scenario s = scenario(shape, 1.2);
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Counting_solver>> d(mesh);
+  CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
+                                  Initial_guess::rotations)));
+  prepare(d, s, all_vertices(mesh));
+  CHECK(d.preprocess());
+  const int before = Counting_solver::count();
+  CHECK(d.deform(0, 0));
+  CHECK(Counting_solver::count() == before + 2);
+}
+
 void test_all()
 {
   test_cut_region(Initial_guess::rotations);
   test_cut_region(Initial_guess::automatic);
   test_far_soft_target();
+  test_cost_of_guess();
+  test_two_handles<2>(iterates::surfaces().back());
+  test_two_handles<3>(iterates::solid());
   int number_of_lower = 0;
   for(const Shape& shape : shapes())
   {
