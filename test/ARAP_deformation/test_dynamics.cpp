@@ -112,12 +112,25 @@ CGAL::ARAP::Options options(Cell_scheme cells, Minimizer minimizer, double toler
   return result;
 }
 
+// stiffness, bending, cells of one ring more and a frame at vertex 0
+Terms some_terms(std::size_t n)
+{
+  Terms terms;
+  for(std::size_t k = 0; k < n; ++k)
+    terms.stiffness.push_back(0.5 + 0.2 * double(k % 7));
+  terms.bending_length = 0.2;
+  terms.rings = 1;
+  terms.frames[0] = Eigen::AngleAxisd(0.3, Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  return terms;
+}
+
 // Steps against the dense reference: the same iterates with local/global, the same minimum with
 // both minimizers.
 template <int Dimension>
-void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
+void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer, bool has_terms = false)
 {
   const Model model = make_model<Dimension>();
+  const Terms terms = has_terms ? some_terms(model.points.size()) : Terms();
   const std::size_t n = model.points.size();
   std::vector<Point> points = points_of(model.points);
   Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
@@ -125,6 +138,12 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
   const bool is_local_global = minimizer == Minimizer::local_global;
   CGAL::ARAP::Options o = options(cells, minimizer, is_local_global ? 0 : 1e-12);
   o.iterations = is_local_global ? 5 : 1000;
+  o.bending_length = terms.bending_length;
+  if(has_terms)
+  {
+    o.cells = Cell_scheme::k_ring(terms.rings);
+    deformation.set_stiffness(terms.stiffness);
+  }
   CHECK(deformation.set_options(o));
   Dynamics dynamics;
   dynamics.time_step = 0.05;
@@ -152,8 +171,10 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer)
         x[k] += Vector3d(0.02, 0.01 * step, 0);
         deformation.insert_control_vertex(k, point(x[k]));
       }
+    for(const auto& [k, rotation] : terms.frames)
+      CHECK(deformation.set_target_rotation(k, rotation));
     Dense_reference reference(model.points, model.simplices, Dimension, selection, dense(cells),
-                              Dense_reference::SAFE);
+                              Dense_reference::SAFE, terms);
     for(std::size_t k = 0; k < n; ++k)
       if(selection[k] == 1)
       {
@@ -537,6 +558,8 @@ void run_all()
                     std::to_string(int(minimizer));
       compare<Dimension>(cells, false, minimizer);
       compare<Dimension>(cells, true, minimizer);
+      if(cells == Cell_scheme::spokes())
+        compare<Dimension>(cells, true, minimizer, true);
       const bool is_default = cells == Cell_scheme::spokes_and_rims();
       conserve<Dimension>(cells, minimizer, 0, is_default ? 500 : 50);
       conserve<Dimension>(cells, minimizer, 5, is_default ? 500 : 50);
