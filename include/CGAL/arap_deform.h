@@ -42,8 +42,8 @@ constexpr bool is_named_parameters = false;
 template <typename T, typename Tag, typename Base>
 constexpr bool is_named_parameters<Named_function_parameters<T, Tag, Base>> = true;
 
-// `insert(deformation, set_weight)` makes the control vertices, and calls `set_weight(v)` for those
-// with a target
+// `insert(deformation, insert_target)` makes the control vertices, by `insert_target(v)` those with
+// a target
 template <typename Shape, typename NamedParameters, typename Function>
 Report deform_in_one_call(Shape& shape, const Options& options, const NamedParameters& np,
                           const Function& insert)
@@ -65,12 +65,28 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   else
     deformation.insert_roi_vertices(domain.vertices());
   insert_constrained_vertices(deformation, np);
-  static_cast<Outcome&>(report) = insert(deformation, [&]([[maybe_unused]] auto v) {
-    if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
-      return deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
-    else
-      return Outcome(Status::success, "");
-  });
+  const auto insert_target = [&](auto v) {
+    Outcome outcome(Status::success, "");
+    deformation.insert_control_vertex(v);
+    if(!deformation.is_control_vertex(v))
+      outcome = Outcome(Status::not_a_control_vertex,
+                        "a target is given for a vertex that the mesh does not have");
+    else if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
+      outcome = deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
+    else if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
+      with_value(get_parameter(np, internal_np::target_weight), v, domain.index(v),
+                 [&](double weight) { outcome = deformation.set_target_weight(v, weight); });
+    return outcome;
+  };
+  static_cast<Outcome&>(report) = insert(deformation, insert_target);
+  if constexpr(has_parameter<NamedParameters, internal_np::target_sets_t>)
+    for(const auto& [v, projection] : get_parameter(np, internal_np::target_sets))
+    {
+      if(report)
+        static_cast<Outcome&>(report) = insert_target(v);
+      if(report)
+        static_cast<Outcome&>(report) = deformation.set_target_set(v, projection);
+    }
   if constexpr(has_parameter<NamedParameters, internal_np::target_rotations_t>)
     for(const auto& [v, rotation] : get_parameter(np, internal_np::target_rotations))
       if(report)
@@ -86,7 +102,7 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
       static_cast<Outcome&>(report) = inserted;
       if(report)
         deformation.set_target_position(inserted.point, target);
-      if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
+      if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
         if(report)
           static_cast<Outcome&>(report) = deformation.set_target_weight(
             inserted.point, get_parameter(np, internal_np::target_weight));
@@ -174,17 +190,14 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
                 "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
                 "as a std::map");
   const ARAP::Options options = ARAP::internal::options_from_parameters(np);
-  const auto insert = [&](auto& deformation, const auto& set_weight) {
+  const auto insert = [&](auto& deformation, const auto& insert_target) {
     ARAP::Outcome outcome(ARAP::Status::success, "");
     for(const auto& [v, target] : targets)
     {
-      deformation.insert_control_vertex(v, target);
-      if(!deformation.is_control_vertex(v))
-        return ARAP::Outcome(ARAP::Status::not_a_control_vertex,
-                             "a target is given for a vertex that the mesh does not have");
-      outcome = set_weight(v);
+      outcome = insert_target(v);
       if(!outcome)
         break;
+      deformation.set_target_position(v, target);
     }
     return outcome;
   };
@@ -212,7 +225,7 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
 {
   using ARAP::internal::with_value;
   const ARAP::Options all_options = ARAP::internal::options_from_parameters(np, options);
-  const auto insert = [&](auto& deformation, const auto& set_weight) {
+  const auto insert = [&](auto& deformation, const auto& insert_target) {
     const auto& domain = deformation.domain();
     ARAP::Outcome outcome(ARAP::Status::success, "");
     for(auto v : domain.vertices())
@@ -224,10 +237,10 @@ arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const Vertex
           constexpr bool is_point =
             std::is_convertible_v<decltype(target), decltype(domain.point(v))>;
           static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
+          if(ARAP::Outcome inserted = insert_target(v); !inserted)
+            outcome = std::move(inserted);
           if constexpr(is_point)
             deformation.set_target_position(v, target);
-          if(ARAP::Outcome weighted = set_weight(v); !weighted)
-            outcome = std::move(weighted);
         });
       });
     return outcome;

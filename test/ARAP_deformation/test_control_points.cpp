@@ -31,6 +31,15 @@
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
 
+#include <CGAL/AABB_tree.h>
+#if __has_include(<CGAL/AABB_traits_3.h>) // the names since CGAL 6.0
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,6 +48,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -816,6 +826,60 @@ void test_line_at_vertex()
   CHECK(s.points[v] == target);
 }
 
+// A roof above the sheet, whose nearest points jump below its ridge.
+void test_surface()
+{
+  using Triangles = std::vector<Kernel::Triangle_3>;
+  const auto height = [](double x) { return 0.9 - std::abs(x - 1); };
+  const auto corner = [&](double x, double y) { return Point(x, y, height(x)); };
+  Triangles roof;
+  for(double x : {-2., 1.})
+  {
+    roof.emplace_back(corner(x, -3), corner(x + 3, -3), corner(x + 3, 4));
+    roof.emplace_back(corner(x, -3), corner(x + 3, 4), corner(x, 4));
+  }
+#if __has_include(<CGAL/AABB_traits_3.h>)
+  using Primitive = CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>;
+  const CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>> tree(roof.begin(), roof.end());
+#else
+  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+  const CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(roof.begin(), roof.end());
+#endif
+  const auto onto_roof = CGAL::ARAP::projection_onto(tree);
+  for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+  {
+    test_case() = "surface, minimizer " + std::to_string(int(minimizer));
+    Pulled_sheet sheet(1e6);
+    auto& d = sheet.s.deformation;
+    CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), minimizer)));
+    CHECK(d.set_target_set(sheet.points, onto_roof));
+    const std::vector<Point> before = sheet.s.points;
+    const auto state = d.state();
+    const Report report = d.deform(300, 0);
+    CHECK(report);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK(report.final_energy() < 1e-3 * report.energy[0]);
+    std::set<bool> sides;
+    for(Control_point p : sheet.points)
+    {
+      const Point q = d.control_point_position(p);
+      CHECK_AT_MOST(std::abs(q.z() - height(q.x())), 1e-4);
+      CHECK(d.target_position(p) == onto_roof(q));
+      sides.insert(q.x() < 1);
+    }
+    CHECK(sides.size() == 2);
+
+    test_case() += ", undone";
+    const std::vector<Point> after = sheet.s.points;
+    for(Control_point p : sheet.points)
+      CHECK(d.set_target_position(p, Point(0, 0, 0))); // no set any more
+    CHECK(d.restore(state));
+    CHECK(largest_distance(sheet.s.points, before) == 0);
+    CHECK(d.deform(300, 0).energy == report.energy);
+    CHECK(largest_distance(sheet.s.points, after) == 0);
+  }
+}
+
 void test_refusals()
 {
   test_case() = "sets that are refused";
@@ -938,6 +1002,38 @@ void test_function()
         Status::invalid_coordinates);
   CGAL::ARAP_deformation<Mesh> d(mesh);
   CHECK(d.insert_control_point(*found));
+
+  test_case() = "arap_deform, sets and weights";
+  using Vertex = Mesh::Vertex_index;
+  const Kernel::Plane_3 plane(Point(0, 0, -1), Kernel::Vector_3(1, 2, 3));
+  Mesh by_function = make_mesh<Mesh>(shapes()[2]), by_class = by_function;
+  const std::map<Vertex, double> weights = {{Vertex(9), 4.0}, {Vertex(12), 0.5}};
+  const std::vector<std::pair<Vertex, Point>> points = {{Vertex(5), Point(0, 0, -1)},
+                                                        {Vertex(12), Point(0.2, 0.1, 1)}};
+  const auto sets = [&plane](int v) {
+    return std::map{std::pair(Vertex(v), CGAL::ARAP::projection_onto(plane))};
+  };
+  const auto np = CGAL::parameters::target_weight(
+    weights, CGAL::parameters::target_sets(sets(9), CGAL::parameters::control_points(held)));
+  CHECK(CGAL::arap_deform(by_function, points, np));
+  CGAL::ARAP_deformation<Mesh> e(by_class);
+  e.insert_roi_vertices(by_class.vertices());
+  for(const auto& [v, target] : points)
+    e.insert_control_vertex(v, target);
+  e.insert_control_vertex(Vertex(9));
+  for(const auto& [v, weight] : weights)
+    CHECK(e.set_target_weight(v, weight));
+  CHECK(e.set_target_set(Vertex(9), CGAL::ARAP::projection_onto(plane)));
+  const auto inserted = e.insert_control_point(*found);
+  CHECK(inserted && e.set_target_position(inserted.point, std::get<2>(held[0])));
+  CHECK(e.deform());
+  CHECK(same_points(by_function, by_class));
+  CHECK(by_class.point(Vertex(5)) == points[0].second);
+  CHECK(by_class.point(Vertex(12)) != points[1].second);
+  CHECK(CGAL::arap_deform(by_function, points, CGAL::parameters::target_weight(
+    weights, CGAL::parameters::target_sets(sets(10), CGAL::parameters::control_points(held))))
+          .status == Status::invalid_weight); // 10 has an infinite one
+  CHECK(same_points(by_function, by_class));
 }
 
 } // namespace locations
@@ -1017,6 +1113,7 @@ int main()
   histories::test_fixed_corners();
   sets::test_plane();
   sets::test_line_at_vertex();
+  sets::test_surface();
   sets::test_refusals();
   locations::test_function();
   guess::test_all();

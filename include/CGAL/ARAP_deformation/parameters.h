@@ -28,6 +28,7 @@ enum region_of_interest_t { region_of_interest };
 enum target_weight_t { target_weight };
 enum control_points_t { control_points };
 enum output_point_map_t { output_point_map };
+enum target_sets_t { target_sets };
 enum target_rotations_t { target_rotations };
 enum cell_stiffness_t { cell_stiffness };
 enum cell_groups_t { cell_groups };
@@ -78,18 +79,29 @@ auto region_of_interest(const VertexRange& vertices, const NP&... np)
   return internal_np::prepend<internal_np::region_of_interest_t>(vertices, np...);
 }
 
-/// the weight of each target, a number, see `ARAP_deformation::set_target_weight()`; default
-/// infinite.
-template <typename... NP>
-auto target_weight(double weight, const NP&... np)
+/// the weight of each target, see `ARAP_deformation::set_target_weight()`: a number, or a map from
+/// vertices to numbers (a property map, a function object, a map, or a vector by the indices of
+/// the vertices); default infinite. A map says nothing of control points: they are hard.
+template <typename Weight, typename... NP>
+auto target_weight(const Weight& weight, const NP&... np)
 {
   return internal_np::prepend<internal_np::target_weight_t>(weight, np...);
 }
 
+/// targets that are sets, a range of pairs of a vertex and a projection, such as a
+/// `std::map<Vertex, std::function<Point(const Point&)>>`, see
+/// `ARAP_deformation::set_target_set()`; such a vertex needs no other target, but a finite
+/// `target_weight()`. In `arap_deform()` only.
+template <typename SetRange, typename... NP>
+auto target_sets(const SetRange& sets, const NP&... np)
+{
+  return internal_np::prepend<internal_np::target_sets_t>(sets, np...);
+}
+
 /// control points, a range of tuples of a simplex, barycentric coordinates and a target, such as
 /// `std::vector<std::tuple<Simplex, std::array<double, 3>, Point>>`, see
-/// `ARAP_deformation::insert_control_point()`; `target_weight()` counts for them, too. In
-/// `arap_deform()` only.
+/// `ARAP_deformation::insert_control_point()`; a `target_weight()` that is a number counts for them,
+/// too. In `arap_deform()` only.
 template <typename ControlPointRange, typename... NP>
 auto control_points(const ControlPointRange& points, const NP&... np)
 {

@@ -20,6 +20,10 @@
 #include <CGAL/Point_3.h>
 
 namespace CGAL {
+
+template <typename AABBTraits>
+class AABB_tree; // programs that have one include its header
+
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRef
@@ -39,6 +43,19 @@ auto projection_onto(const Line_3<Kernel>& line)
 {
   return [line](const Point_3<Kernel>& p) { return line.projection(p); };
 }
+
+/// \ingroup PkgARAPDeformationRef
+/// returns the function that finds the point of a surface that is nearest to a point, for
+/// `CGAL::ARAP_deformation::set_target_set()`. It refers to the tree, of the triangles of the
+/// surface, which must not be empty.
+template <typename AABBTraits>
+auto projection_onto(const AABB_tree<AABBTraits>& tree)
+{
+  return [&tree](const typename AABB_tree<AABBTraits>::Point& p) { return tree.closest_point(p); };
+}
+
+template <typename AABBTraits>
+auto projection_onto(const AABB_tree<AABBTraits>&& tree) = delete; // it would be gone
 
 } // namespace ARAP
 } // namespace CGAL

@@ -99,7 +99,7 @@ public:
     {
       Scoped_seconds total(report.seconds.total);
       static_cast<Outcome&>(report) =
-        deform(m_options.iterations, m_options.tolerance, Default_visitor(), report, &step);
+        deform(m_options.iterations, m_options.tolerance, visitor, report, &step);
       if(!report)
         return report;
       Scoped_seconds seconds(report.seconds.transfer);

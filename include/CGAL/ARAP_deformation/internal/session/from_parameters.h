@@ -29,9 +29,15 @@ namespace ARAP {
 namespace internal {
 
 template <typename NamedParameters, typename Tag>
-constexpr bool has_parameter = !std::is_same_v<
-  std::decay_t<decltype(parameters::get_parameter(std::declval<const NamedParameters&>(), Tag()))>,
-  internal_np::Param_not_found>;
+using Parameter_of = std::decay_t<decltype(parameters::get_parameter(
+  std::declval<const NamedParameters&>(), Tag()))>;
+
+template <typename NamedParameters, typename Tag>
+constexpr bool has_parameter =
+  !std::is_same_v<Parameter_of<NamedParameters, Tag>, internal_np::Param_not_found>;
+
+template <typename NamedParameters, typename Tag>
+constexpr bool has_number = std::is_arithmetic_v<Parameter_of<NamedParameters, Tag>>;
 
 // The domain of a shape that is a domain or a mesh. Maps apply to a FaceGraph only.
 template <typename Shape, typename NamedParameters>
