@@ -38,6 +38,7 @@ using CGAL::ARAP::Status;
 using CGAL::ARAP::Step_report;
 using Eigen::Vector3d;
 using Simplices = std::vector<Dense_reference::Simplex>;
+using Terms = Dense_reference::Terms;
 
 template <int Dimension>
 using Soup = CGAL::ARAP::Simplex_soup_domain<Dimension, std::vector<Point>, Simplices>;
@@ -226,7 +227,7 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer, bool has_
     CHECK_AT_MOST((eigen(report.angular_momentum) + center.cross(momentum) - moment).norm(), 1e-10);
     CHECK_AT_MOST(std::abs(report.kinetic_energy - kinetic), 1e-10);
     Dense_reference shape(model.points, model.simplices, Dimension, std::vector<int>(n, 1),
-                          dense(cells), Dense_reference::SAFE);
+                          dense(cells), Dense_reference::SAFE, terms);
     CHECK_AT_MOST(std::abs(report.elastic_energy - dynamics.modulus * shape.energy(x)), 1e-10);
   }
 }

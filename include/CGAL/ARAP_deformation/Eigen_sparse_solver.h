@@ -28,6 +28,11 @@
 #include <type_traits>
 #include <utility>
 
+namespace Eigen {
+template <typename Matrix, typename Ordering>
+class SparseLU;
+} // namespace Eigen
+
 namespace CGAL {
 namespace ARAP {
 
@@ -54,6 +59,12 @@ template <template <typename, int, typename...> class EigenSolver, typename Matr
           typename... Arguments>
 constexpr bool
   reads_lower_triangle_only<EigenSolver<Matrix, Eigen::Lower, Arguments...>> = true;
+
+// Eigen::SparseLU has no info() before it has a factor.
+template <typename EigenSolver>
+constexpr bool reports_analysis = true;
+template <typename Matrix, typename Ordering>
+constexpr bool reports_analysis<Eigen::SparseLU<Matrix, Ordering>> = false;
 
 } // namespace internal
 
@@ -111,7 +122,10 @@ public:
     if(m_prepare)
       m_prepare(m_state->solver);
     m_state->solver.analyzePattern(keep(a));
-    return m_state->solver.info() == Eigen::Success;
+    if constexpr(internal::reports_analysis<EigenSolver>)
+      return m_state->solver.info() == Eigen::Success;
+    else
+      return true;
   }
 
   /// factorizes `a`, or prepares an iteration. Returns `false` if `a` is refused.
