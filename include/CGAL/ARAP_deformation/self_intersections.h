@@ -38,7 +38,7 @@ namespace ARAP {
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
 /// Polygons are cut from one of their corners. Triangles without area do not count. This header
-/// includes a part of the package \ref PkgPolygonMeshProcessing, which no other one needs.
+/// includes a part of CGAL's package Polygon Mesh Processing, which no other one needs.
 ///
 /// \param domain a model of `ARAPDomain`, with the points of the deformed shape
 template <typename Domain>
