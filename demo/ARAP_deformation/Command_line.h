@@ -37,6 +37,18 @@ namespace CGAL::ARAP::demo {
 
 enum class Weight_choice { safe_cotangent, cotangent, clamped_cotangent, uniform };
 
+enum class Solver_choice
+{
+  automatic,
+  single_precision,
+  eigen,
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  cholmod
+#endif
+};
+
+enum class Rotation_choice { newton, svd };
+
 // --move or --rotate
 struct Motion_step
 {
@@ -51,6 +63,7 @@ struct Handle_options
 {
   std::vector<Motion_step> steps;
   std::optional<double> weight;
+  std::optional<Pick> plane; // to which its targets pull, and not to points
   bool is_frame = false; // it turns the cells at its vertices, too
   bool is_point = false; // it is a point inside a simplex
 };
@@ -77,6 +90,8 @@ struct Command_line
   bool has_quality = false;            // self-intersections are looked for
   std::string color;                   // what is measured at the vertices, or empty
   Weight_choice weights = Weight_choice::safe_cotangent;
+  Solver_choice solver = Solver_choice::automatic;
+  Rotation_choice rotation = Rotation_choice::newton;
   Options options;
 };
 
@@ -92,11 +107,13 @@ inline boost::program_options::options_description described_options()
   task.add_options()
     ("fix", in_order()->value_name("WHAT"), "these vertices stay")
     ("handle", in_order()->value_name("WHAT"),
-     "these are a handle, for the next four options; each --handle is a new one")
+     "these are a handle, for the next five options; each --handle is a new one")
     ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
      "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
     ("soft", in_order()->value_name("WEIGHT"), "its targets pull with this weight")
+    ("onto", in_order()->value_name("PLANE"),
+     "to this plane, plane:X,Y,Z,NX,NY,NZ, along which they glide; the plane moves as the handle")
     ("turn", "its rotation is that of the cells around it: even one vertex turns its surroundings")
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
     ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")
@@ -143,6 +160,11 @@ inline boost::program_options::options_description described_options()
     ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
      "quasi_newton unless the tolerance is 0")
+    ("solver", value<std::string>()->default_value("default")->value_name("NAME"),
+     "of linear systems: default, single_precision (its factor takes half the memory), eigen, or "
+     "cholmod where the command is linked with it")
+    ("rotation", value<std::string>()->default_value("newton")->value_name("NAME"),
+     "how rotations are fitted: newton, or svd")
     ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
      "laplacian, or automatic: the better one of the first two")
@@ -348,6 +370,8 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
       line.handles.emplace_back();
       line.handles.back().is_point = line.picks.back().second.is_point();
     }
+    else if(name == "onto")
+      handle_before(name, line).plane = Pick(name, value);
     else if(name == "move" || name == "rotate" || name == "soft")
     {
       Handle_options& handle = handle_before(name, line);
@@ -370,12 +394,18 @@ inline void check_task(const Command_line& line)
     throw Usage_error("nothing moves: give a --handle, or a --selection");
   if(!line.selection.empty() && !line.handles.empty())
     throw Usage_error("--selection already tells the handles; leave out --handle");
-  bool has_steps = !line.all_handles.steps.empty();
-  for(const Handle_options& handle : line.handles)
+  bool has_steps = false, has_planes = false;
+  const auto look_at = [&](const Handle_options& handle) {
     has_steps = has_steps || !handle.steps.empty();
+    has_planes = has_planes || handle.plane;
+    if(handle.plane && !handle.weight)
+      throw Usage_error(handle.plane->name() + ": only soft targets glide; give --soft, too");
+  };
+  look_at(line.all_handles);
+  std::for_each(line.handles.begin(), line.handles.end(), look_at);
   if(has_steps && !line.transforms.empty())
     throw Usage_error("--transform already tells how handles move; leave out --move and --rotate");
-  if(!has_steps && line.transforms.empty() && !line.dynamics)
+  if(!has_steps && !has_planes && line.transforms.empty() && !line.dynamics)
     throw Usage_error("nothing moves: give --move, --rotate or --transform");
   for(const auto& pick : line.picks)
     if(pick.second.is_point() && !line.save_selection.empty())
@@ -482,6 +512,17 @@ inline Command_line parse_command_line(int argc, char** argv)
        {"clamped_cotangent", Weight_choice::clamped_cotangent},
        {"uniform", Weight_choice::uniform},
        {"safe_cotangent", Weight_choice::safe_cotangent}});
+    line.solver = chosen<Solver_choice>(
+      "solver", values["solver"].as<std::string>(),
+      {{"default", Solver_choice::automatic},
+       {"single_precision", Solver_choice::single_precision},
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+       {"cholmod", Solver_choice::cholmod},
+#endif
+       {"eigen", Solver_choice::eigen}});
+    line.rotation = chosen<Rotation_choice>(
+      "rotation", values["rotation"].as<std::string>(),
+      {{"newton", Rotation_choice::newton}, {"svd", Rotation_choice::svd}});
     line.options.cells = chosen_cells(values["cells"].as<std::string>());
     line.options.minimizer = chosen<Minimizer>(
       "minimizer", values["minimizer"].as<std::string>(),

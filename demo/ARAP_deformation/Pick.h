@@ -40,7 +40,9 @@ public:
     : m_name("--" + option + ' ' + what), m_kind(what.substr(0, what.find(':')))
   {
     const std::string value = what.substr((std::min)(what.size(), m_kind.size() + 1));
-    if(m_kind == "box")
+    if(option == "onto" && m_kind != "plane")
+      throw Usage_error(m_name + ": expected plane:X,Y,Z,NX,NY,NZ");
+    else if(m_kind == "box")
       m_measures = measures(m_name, value, "x0,y0,z0,x1,y1,z1");
     else if(m_kind == "sphere")
       m_measures = measures(m_name, value, "x,y,z,r");
@@ -49,7 +51,11 @@ public:
     else if(m_kind == "point")
       throw Usage_error(m_name + ": a point inside a simplex is for --fix and --handle only");
     else if(m_kind == "plane")
+    {
       m_measures = measures(m_name, value, "x,y,z,nx,ny,nz");
+      if(option == "onto" && normal() == CGAL::NULL_VECTOR)
+        throw Usage_error(m_name + ": the normal 0,0,0 has no direction");
+    }
     else if(m_kind == "x" || m_kind == "y" || m_kind == "z")
       read_range(value);
     else if(m_kind == "list" && value.rfind('@', 0) == 0)
@@ -72,6 +78,9 @@ public:
   {
     return point(CGAL::bbox_3(points.begin(), points.end()), 0);
   }
+
+  // the plane of --onto
+  Kernel::Plane_3 plane(const Bbox_3& box) const { return {point(box, 0), normal()}; }
 
   // The vertices that are picked. Throws if there is none.
   std::vector<std::size_t> vertices(const std::vector<Kernel::Point_3>& points) const
@@ -118,6 +127,11 @@ private:
             m_measures[first + 2].coordinate(box, 2)};
   }
 
+  Kernel::Vector_3 normal() const
+  {
+    return {m_measures[3].value, m_measures[4].value, m_measures[5].value};
+  }
+
   bool contains(const Bbox_3& box, const Kernel::Point_3& p) const
   {
     if(m_kind == "sphere")
@@ -126,8 +140,7 @@ private:
       return r >= 0 && CGAL::squared_distance(p, point(box, 0)) <= r * r;
     }
     if(m_kind == "plane")
-      return (p - point(box, 0)) * Kernel::Vector_3(m_measures[3].value, m_measures[4].value,
-                                                    m_measures[5].value) >= 0;
+      return (p - point(box, 0)) * normal() >= 0;
     if(m_kind == "box")
     {
       const Kernel::Point_3 low = point(box, 0), high = point(box, 3);

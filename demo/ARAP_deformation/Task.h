@@ -42,6 +42,7 @@ struct Handle
   std::vector<std::size_t> vertices;
   std::vector<Kernel::Point_3> points; // inside simplices
   std::optional<double> weight; // of its targets, if they are soft
+  std::optional<Kernel::Plane_3> plane; // which they are, before it moves, if they are no points
   bool is_frame = false;        // it turns the cells at its vertices, too
   std::function<Transform(double)> transform; // at a time from 0 to the number of key frames
 };
@@ -220,6 +221,8 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
       : internal::centroid(handle.points, {0});
     handle.weight = options.weight;
     handle.is_frame = options.is_frame;
+    if(options.plane)
+      handle.plane = options.plane->plane(box);
     std::vector<Transform> keys;
     for(const auto& key : key_frames)
       keys.push_back(key[key.size() == 1 ? 0 : k]);

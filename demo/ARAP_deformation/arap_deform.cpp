@@ -11,6 +11,7 @@
 
 // The command arap_deform: deforms a mesh file as rigidly as possible. See arap_deform --help.
 
+#include "Chosen_models.h"
 #include "Command_line.h"
 #include "Delayed_interruption.h"
 #include "Film.h"
@@ -25,6 +26,7 @@
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/ARAP_deformation/self_intersections.h>
+#include <CGAL/ARAP_deformation/target_sets.h>
 #include <CGAL/Real_timer.h>
 
 #include <nlohmann/json.hpp>
@@ -35,7 +37,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -54,7 +55,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace {
@@ -62,38 +62,7 @@ namespace {
 using namespace CGAL::ARAP::demo;
 using CGAL::ARAP::Report;
 
-// edge weights chosen at run time, so that a single instantiation of the deformation suffices
-class Chosen_weight
-{
-public:
-  explicit Chosen_weight(Weight_choice choice)
-  {
-    switch(choice)
-    {
-    case Weight_choice::safe_cotangent: break;
-    case Weight_choice::cotangent: m_weight = CGAL::ARAP::Cotangent_weight(); break;
-    case Weight_choice::clamped_cotangent: m_weight = CGAL::ARAP::Clamped_cotangent_weight(); break;
-    case Weight_choice::uniform: m_weight = CGAL::ARAP::Uniform_weight(); break;
-    }
-  }
-
-  template <std::size_t N>
-  auto simplex_weights(const std::array<CGAL::ARAP::Coordinates, N>& simplex) const
-  {
-    return std::visit([&](const auto& w) { return w.simplex_weights(simplex); }, m_weight);
-  }
-
-  double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
-  {
-    return std::visit([&](const auto& w) { return w.edge_weight(edge_set, i, j, sum); }, m_weight);
-  }
-
-private:
-  std::variant<CGAL::ARAP::Safe_cotangent_weight, CGAL::ARAP::Cotangent_weight,
-               CGAL::ARAP::Clamped_cotangent_weight, CGAL::ARAP::Uniform_weight> m_weight;
-};
-
-using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Chosen_weight>;
+using Traits = CGAL::ARAP_deformation_traits<Chosen_solver, Chosen_weight, Chosen_rotation>;
 
 // the report of the deformation, and what the command adds to it
 struct Result
@@ -353,7 +322,8 @@ void deform(const Command_line& line, const Domain& domain, const Task& task,
             const std::function<void(const CGAL::ARAP::Step_report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
-  Deformation deformation(domain, Traits({}, Chosen_weight(line.weights)));
+  Deformation deformation(domain, Traits(Chosen_solver(line.solver), Chosen_weight(line.weights),
+                                         chosen_rotation(line.rotation)));
   CGAL::ARAP::Options options = line.options;
   options.bending_length *= task.diagonal;
   options.smoothing_length *= task.diagonal;
@@ -393,9 +363,13 @@ void deform(const Command_line& line, const Domain& domain, const Task& task,
     {
       const auto map = task.handles[k].transform(time);
       const auto move = [&](const auto& targets) {
-        expect_success(line, deformation.transform(
-          targets, [&map](const auto& p) { return transformed(map, p); },
-          CGAL::ARAP::Transformed::rest_shape));
+        if(const auto& plane = task.handles[k].plane)
+          expect_success(line, deformation.set_target_set(
+            targets, CGAL::ARAP::projection_onto(transformed(map, *plane))));
+        else
+          expect_success(line, deformation.transform(
+            targets, [&map](const auto& p) { return transformed(map, p); },
+            CGAL::ARAP::Transformed::rest_shape));
       };
       move(handles[k]);
       move(points[k]);
@@ -456,8 +430,13 @@ void print_summary(std::ostream& out, const Command_line& line, const Result& re
   out << line.mesh << ": " << result.vertices << " vertices, "
             << report.free_vertices << " free\n"
             << report.iterations << " iterations: " << report.message << '\n'
-            << "energy " << report.energy.front() << " -> " << report.final_energy()
-            << ", edge length error " << result.quality.edge_length_error << '\n';
+            << "energy ";
+  if(line.dynamics) // the energy that a step minimizes has its inertia, too
+    out << result.frames.back().kinetic_energy << " kinetic, "
+        << result.frames.back().elastic_energy << " elastic";
+  else
+    out << report.energy.front() << " -> " << report.final_energy();
+  out << ", edge length error " << result.quality.edge_length_error << '\n';
   if(result.self_intersections)
     out << *result.self_intersections << " pairs of faces intersect\n";
   if(report.inverted_simplices > 0)

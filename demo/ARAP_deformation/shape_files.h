@@ -64,6 +64,12 @@ inline Kernel::Point_3 transformed(const Transform& m, const Kernel::Point_3& p)
           m[8] * p.x() + m[9] * p.y() + m[10] * p.z() + m[11]};
 }
 
+inline Kernel::Plane_3 transformed(const Transform& m, const Kernel::Plane_3& plane)
+{
+  return plane.transform(Kernel::Aff_transformation_3(m[0], m[1], m[2], m[3], m[4], m[5], m[6],
+                                                      m[7], m[8], m[9], m[10], m[11]));
+}
+
 // Passes the selection to a deformation, with the targets of the handles.
 template <typename Deformation>
 void insert_selection(Deformation& deformation, const std::vector<int>& selection,

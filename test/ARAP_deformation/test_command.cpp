@@ -11,7 +11,7 @@
 
 // The command arap_deform on surfaces and tetrahedra, run as a user runs it: results, report,
 // formats, and what it says and leaves behind when it is given nonsense.
-// usage: test_command PATH_OF_ARAP_DEFORM
+// usage: test_command PATH_OF_ARAP_DEFORM [FOLDER_OF_MODELS]
 
 #include "include/check.h"
 #include "include/command.h"
@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/of_simplices.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
@@ -39,6 +40,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <set>
@@ -46,6 +48,25 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+fs::path models; // the folder of those that the help names
+
+#if defined(__unix__) || defined(__APPLE__)
+// The scene of which a run with these arguments makes a picture: it is drawn by a program that
+// copies it.
+std::string scene(const std::string& arguments)
+{
+  fs::create_directory(folder / "renderer");
+  write("renderer/povray", "#!/bin/sh\ntest \"$1\" = --version || cp \"${1#+I}\" \"${2#+O}\"\n");
+  fs::permissions(folder / "renderer/povray", fs::perms::owner_all);
+  const std::string shell_command = command;
+  command = "/usr/bin/env\" \"PATH=" + (folder / "renderer").string() + ":/usr/bin:/bin\" \"" +
+            command;
+  CHECK(run(arguments + " --image scene.png").exit_code == 0);
+  command = shell_command;
+  return content(folder / "scene.png");
+}
+#endif
 
 // The command arap_deform on surfaces, run as a user runs it: results, report, formats, and what it
 // says and leaves behind when it is given nonsense.
@@ -221,6 +242,16 @@ void test_success()
   CHECK(no_povray.err.find("povray") != std::string::npos);
   CHECK(!fs::exists(folder / "other.off") && !fs::exists(folder / "other.png"));
   command = shell_command;
+
+  test_case() = "view and colours of a picture";
+  const std::string from_x = scene(call + "-o new.off --view 0,0");
+  CHECK(from_x == scene(call + "-o new.off --view 2,0,0"));
+  CHECK(from_x != scene(call + "-o new.off"));
+  CHECK(from_x.find("\"after\"") != std::string::npos);
+  const std::string coloured = scene(call + "-o new.off --view 0,0 --color edge_error");
+  CHECK(coloured.find("\"edge_error up to ") != std::string::npos);
+  const auto faces_of = [](const std::string& text) { return text.substr(0, text.find("Caption")); };
+  CHECK(faces_of(coloured) == faces_of(from_x)); // before the run all is as without colours
 #endif
 
   test_case() = "choices";
@@ -486,6 +517,27 @@ void test_handles()
       CHECK_AT_MOST((result[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
                                                  mesh.point(v).z())).norm(), 1e-12);
   }
+
+  test_case() = "targets that glide along a plane";
+  const std::string glide = "in.off --fix z:..0.1 --handle z:4.5.. --soft 1e6 --onto "
+                            "plane:0,0,110%,0,0,2 --iterations 100 -o ";
+  CHECK(run(glide + "up.off").exit_code == 0);
+  CHECK(run(glide + "turned.off --rotate z 90").exit_code == 0); // the plane is the same
+  CHECK(run(glide + "tilted.off --rotate x 30 0,0,5").exit_code == 0);
+  CHECK(content(folder / "up.off") == content(folder / "turned.off"));
+  const auto up = read_points("up.off"), tilted = read_points("tilted.off");
+  const double s = std::sin(std::acos(-1.0) / 6), c = std::cos(std::acos(-1.0) / 6);
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(shape.points[v].z() >= 4.5)
+    {
+      CHECK_AT_MOST(std::abs(up[v].z() - 5.5), 1e-4);
+      CHECK_AT_MOST(std::abs(c * (tilted[v].z() - 5) - s * tilted[v].y() - 0.5), 1e-4);
+    }
+  const std::string onto = "in.off --handle z:4.5.. -o new.off --onto ";
+  check_refused(onto + "plane:0,0,6,0,0,1", 2, "only soft targets glide; give --soft");
+  check_refused(onto + "plane:0,0,6,0,0,0 --soft 1", 2, "the normal 0,0,0 has no direction");
+  check_refused(onto + "z:4.. --soft 1", 2, "expected plane:X,Y,Z,NX,NY,NZ");
+
   write("three.def", text(maps[0]) + text(maps[0]) + text(maps[1]));
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def: has 3 matrices, but there are 2 handles");
@@ -1141,8 +1193,13 @@ void test_dynamics()
 {
   test_case() = "free fall";
   const std::string gravity = " --gravity 0,0,-9.5 --time_step 0.02 --modulus 300 ";
-  CHECK(run("in.off --frames 3 -o fall.off --report r.json" + gravity).exit_code == 0);
+  const Run fall = run("in.off --frames 3 -o fall.off --report r.json" + gravity);
+  CHECK(fall.exit_code == 0);
   auto json = nlohmann::json::parse(content(folder / "r.json"));
+  std::ostringstream energies;
+  energies << "energy " << json["frames"][2]["kinetic_energy"].get<double>() << " kinetic, "
+           << json["frames"][2]["elastic_energy"].get<double>() << " elastic,";
+  CHECK(fall.out.find(energies.str()) != std::string::npos);
   CHECK(json["frames"].size() == 3);
   for(int n = 1; n <= 3; ++n)
   {
@@ -1203,9 +1260,30 @@ void test_help()
       {"--selection", "--transform", "--output", "--report", "--image", "--cells", "--weights",
        "--minimizer", "--initial_guess", "--iterations", "--tolerance", "--threads",
        "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
-       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform", "--stiffness", "--rigid",
-       "--gravity", "--time_step", "--modulus", "--damping"})
+       "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform",
+       "--stiffness", "--rigid", "--gravity", "--time_step", "--modulus", "--damping", "--bending",
+       "--smoothing", "--turn", "--onto", "--solver", "--rotation"})
     CHECK(help.out.find(option) != std::string::npos);
+
+  test_case() = "the first command that the help shows";
+  const std::string name = "\n  arap_deform ";
+  std::string first = help.out.substr((std::min)(help.out.find(name) + name.size(),
+                                                 help.out.size()));
+  first.resize((std::min)(first.find("\n\n"), first.size()));
+  const std::string mesh = first.substr(0, first.find(' '));
+  if(!fs::exists(models / mesh))
+  {
+    std::cout << "NOTICE: the first command of the help was not tested without " << mesh
+              << std::endl;
+    return;
+  }
+  fs::copy(models / mesh, folder / mesh);
+  CHECK(run(first + " --report r.json --quality").exit_code == 0);
+  const auto json = nlohmann::json::parse(content(folder / "r.json"));
+  if(json["vertices"] < 5000) // it is a stand-in
+    return;
+  CHECK_AT_MOST(json["edge_length_error"].get<double>(), 0.025); // there is no fold
+  CHECK(json["self_intersections"] == 0);
 }
 
 void test_all()
@@ -1333,13 +1411,18 @@ void write_task(const Task& task)
 const std::string call = "in.mesh --selection in.sel --transform in.def -o out.mesh "
                          "--report r.json --quiet ";
 
+using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
+                                                   std::vector<std::array<std::size_t, 4>>>;
 template <typename Weight>
-CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_scheme cells)
+using Deformation =
+  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>>;
+
+// `change(d)` follows when all else is set
+template <typename Weight>
+CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_scheme cells,
+                          const std::function<void(Deformation<Weight>&)>& change = {})
 {
-  using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
-                                                     std::vector<std::array<std::size_t, 4>>>;
-  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>> d(
-    Domain(points, shape.tetrahedra));
+  Deformation<Weight> d(Domain(points, shape.tetrahedra));
   CHECK(d.set_options(options_for(cells, CGAL::ARAP::Minimizer::automatic,
                                   CGAL::ARAP::Initial_guess::automatic)));
   const Eigen::Matrix4d m = task.motion.matrix();
@@ -1353,6 +1436,8 @@ CGAL::ARAP::Report deform(const Task& task, std::vector<Point>& points, Cell_sch
       d.set_target_position(v, point((m * shape.points[v].homogeneous()).head<3>()));
     }
   }
+  if(change)
+    change(d);
   return d.deform(5, 0);
 }
 
@@ -1421,6 +1506,108 @@ void test_choices()
       CHECK(content(folder / "out.mesh") == mesh_file(result));
     }
   CHECK(energies.size() >= 9); // only safe ones agree with the clamped or the plain ones
+}
+
+// Everything else that changes the result, against the library.
+void test_terms()
+{
+  using Deformation = volumes::Deformation<CGAL::ARAP::Safe_cotangent_weight>;
+  const Task task = make_task();
+  write("in.mesh", mesh_file(shape.points));
+  write_task(task);
+  Eigen::AlignedBox3d box;
+  for(const auto& p : shape.points)
+    box.extend(p);
+  const auto x = [](std::size_t v) { return shape.points[v].x(); };
+  const auto set = [](Deformation& d, auto CGAL::ARAP::Options::*option, auto value) {
+    CGAL::ARAP::Options options = d.options();
+    options.*option = value;
+    CHECK(d.set_options(options));
+  };
+  using Options = CGAL::ARAP::Options;
+  struct Term
+  {
+    std::string options;
+    std::function<void(Deformation&)> change;
+  };
+  const Term terms[] = {
+    {"", {}},
+    {"--bending 0.3",
+     [&](auto& d) { set(d, &Options::bending_length, 0.3 * box.diagonal().norm()); }},
+    {"--smoothing 0.1",
+     [&](auto& d) { set(d, &Options::smoothing_length, 0.1 * box.diagonal().norm()); }},
+    {"--cells k_ring:1", [&](auto& d) { set(d, &Options::cells, Cell_scheme::k_ring(1)); }},
+    {"--stiffness x:..0.6 20",
+     [&](auto& d) { d.set_stiffness([=](std::size_t v) { return x(v) <= 0.6 ? 20. : 1.; }); }},
+    {"--cells elements --stiffness x:..0.6 20",
+     [&](auto& d) {
+       set(d, &Options::cells, Cell_scheme::elements());
+       d.set_stiffness(CGAL::ARAP::of_simplices([=](std::size_t t) {
+         const auto& corners = shape.tetrahedra[t];
+         return std::all_of(corners.begin(), corners.end(),
+                            [=](std::size_t v) { return x(v) <= 0.6; }) ? 20. : 1.;
+       }));
+     }},
+    {"--rigid x:0.9..",
+     [&](auto& d) { d.set_groups([=](std::size_t v) { return x(v) >= 0.9 ? 0 : -1; }); }},
+    {"--turn",
+     [&](auto& d) {
+       for(std::size_t v : d.control_vertices())
+         CHECK(d.set_target_rotation(v, task.motion.rotation()));
+     }},
+    {"--soft 0.1", [&](auto& d) { CHECK(d.set_target_weight(d.control_vertices(), 0.1)); }},
+    {"--solver eigen", {}}, {"--rotation svd", {}}, {"--solver single_precision", {}},
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+    {"--solver cholmod", {}},
+#endif
+  };
+  std::vector<Eigen::Vector3d> plain;
+  for(const auto& [options, change] : terms)
+  {
+    test_case() = "tetrahedra, " + options;
+    std::vector<Point> points = points_of(shape.points);
+    CHECK(deform<CGAL::ARAP::Safe_cotangent_weight>(task, points, Cell_scheme::spokes_and_rims(),
+                                                    change));
+    const Run done = run(call + "--iterations 5 --tolerance 0 " + options);
+    if(!CHECK(done.exit_code == 0))
+      std::cerr << "    " << done.err;
+    const auto result = read_points("out.mesh");
+    if(plain.empty())
+      plain = result;
+    double difference = 0, change_by_option = 0;
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+    {
+      difference = (std::max)(difference, (result[v] - vector(points[v])).norm());
+      change_by_option = (std::max)(change_by_option, (result[v] - plain[v]).norm());
+    }
+    CHECK_AT_MOST(difference, options == "--solver single_precision" ? 1e-4 : 1e-9);
+    CHECK(change ? change_by_option > 1e-6
+                 : (change_by_option > 0) == (!options.empty())); // other models round otherwise
+  }
+}
+
+// Free fall in frames, with a film and all measures; and colours in a picture.
+void test_frames()
+{
+  test_case() = "frames of tetrahedra";
+  write("in.mesh", mesh_file(shape.points));
+  CHECK(run("in.mesh --frames 2 --gravity 0,0,-9.5 --time_step 0.02 --modulus 300 -o fall.mesh "
+            "--animation fall.gltf --quality --report r.json --quiet").exit_code == 0);
+  for(int n = 1; n <= 2; ++n)
+  {
+    const auto points = read_points("fall-000" + std::to_string(n) + ".mesh");
+    const Eigen::Vector3d way(0, 0, -9.5 * 0.02 * 0.02 * n * (n + 1) / 2);
+    for(std::size_t v = 0; v < number_of_vertices; ++v)
+      CHECK_AT_MOST((points[v] - shape.points[v] - way).norm(), 1e-9);
+    CHECK(content(folder / ("fall-000" + std::to_string(n) + ".mesh")) == mesh_file(points));
+  }
+  const auto json = report();
+  CHECK(json["frames"].size() == 2);
+  CHECK(json["self_intersections"] == 0);
+  CHECK_AT_MOST(json["edge_length_error"].get<double>(), 1e-8);
+  CHECK_AT_MOST(std::abs(json["volume_change"].get<double>()), 1e-8);
+  const auto gltf = nlohmann::json::parse(content(folder / "fall.gltf"));
+  CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
 }
 
 void test_text()
@@ -1594,10 +1781,13 @@ void test_control_points()
   };
   std::string place = row(centroid(shape.points));
   std::replace(place.begin(), place.end(), ' ', ',');
-  CHECK(run("in.mesh --fix x:..0.1 --handle point:" + place + " --move 0.25,0,0.5 -o out.mesh")
-          .exit_code == 0);
-  CHECK_AT_MOST((centroid(read_points("out.mesh")) - centroid(shape.points) -
-                 Eigen::Vector3d(0.25, 0, 0.5)).norm(), 1e-9);
+  for(const std::string solver : {"default", "eigen"}) // with a border, and without
+  {
+    CHECK(run("in.mesh --fix x:..0.1 --handle point:" + place + " --move 0.25,0,0.5 -o out.mesh "
+              "--solver " + solver).exit_code == 0);
+    CHECK_AT_MOST((centroid(read_points("out.mesh")) - centroid(shape.points) -
+                   Eigen::Vector3d(0.25, 0, 0.5)).norm(), 1e-9);
+  }
   const Run done = run("in.mesh --fix x:..0.1 --handle point:9,9,9 --move 0,0,0 -o out.mesh");
   CHECK(done.exit_code == 0);
   const auto result = read_points("out.mesh");
@@ -1666,6 +1856,10 @@ void test_inside_out()
   }
   else
     std::cout << "NOTICE: povray is not installed; no picture was tested" << std::endl;
+#if defined(__unix__) || defined(__APPLE__)
+  CHECK(scene(call + "--view 0,0") == scene(call + "--view 0,1,0"));
+  CHECK(scene(call + "--color volume").find("\"volume up to ") != std::string::npos);
+#endif
 }
 
 void test_refusals()
@@ -1757,6 +1951,8 @@ void test_refusals()
 void test_all()
 {
   test_choices();
+  test_terms();
+  test_frames();
   test_text();
   test_other_formats();
   test_control_points();
@@ -1769,5 +1965,7 @@ void test_all()
 
 int main(int argc, char** argv)
 {
+  if(argc > 2)
+    models = argv[2];
   return test_command(argc, argv, {surfaces::test_all, volumes::test_all});
 }
