@@ -171,9 +171,11 @@ inline boost::program_options::options_description described_options()
 inline void print_help(std::ostream& out)
 {
   out << "usage: arap_deform MESH -o OUT --handle WHAT --rotate AXIS ANGLE ... [options]\n\n"
-         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. --rotate y 60\n\n"
-         "holds the lowest twentieth of the shape, turns the top, and lets the rest follow\n"
-         "so that every small part of it only rotates (Sorkine and Alexa 2007).\n\n"
+         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
+         "    --rotate x 60 50%,50%,40%\n\n"
+         "holds the lowest twentieth of the shape, turns the top by 60 degrees about a\n"
+         "point at two fifths of the height, and lets the rest follow so that every small\n"
+         "part of it only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
          "in a .mesh (Medit), .msh (Gmsh, text or binary), .vtk (text) or .vtu file. OUT is\n"
          "of the same kind; a pipe gets the format of MESH. A note says what OUT does not\n"
