@@ -111,7 +111,9 @@ inline boost::program_options::options_description described_options()
     ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
      "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
-    ("soft", in_order()->value_name("WEIGHT"), "its targets pull with this weight")
+    ("soft", in_order()->value_name("WEIGHT"),
+     "its targets pull with this weight, instead of being met; edges have weights of "
+     "about 1 on a surface, and of their length in a volume")
     ("onto", in_order()->value_name("PLANE"),
      "to this plane, plane:X,Y,Z,NX,NY,NZ, along which they glide; the plane moves as the handle")
     ("turn", "its rotation is that of the cells around it: even one vertex turns its surroundings")
@@ -132,15 +134,17 @@ inline boost::program_options::options_description described_options()
     ("output,o", value<std::string>()->value_name("OUT")->required(),
      "the deformed mesh; for tetrahedra .mesh or the format of MESH")
     ("frames", value<std::string>()->value_name("N"),
-     "write OUT-0001 to OUT-N, the way to the end in N frames, each from the one before")
+     "write OUT-0001, OUT-0002 and so on, the number before the ending: the way to the end in N "
+     "frames, each from the one before")
     ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
      "of the frames: .gif, .mp4 or .webm (needs ffmpeg), .gltf or .glb")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")
     ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
-     "colour the picture, and add a property to a .ply file: edge_error, area, volume, angle, "
-     "spike (how far a vertex is from its neighbours)")
+     "colour the picture, and add a property to a .ply file: edge_error, area or volume (two "
+     "names for one measure, of faces or of tetrahedra), angle, spike (how far a vertex is from "
+     "its neighbours)")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
      "draw the shape before and after, fixed red, handles yellow; needs povray")
     ("view", value<std::string>()->value_name("A,E"),
@@ -151,7 +155,7 @@ inline boost::program_options::options_description described_options()
      "all vertices within K rings")
     ("bending", value<std::string>()->default_value("0")->value_name("B"),
      "the length over which a sharp bend is spread, as a share of the bounding box's diagonal; "
-     "0.02 to 0.1 keep a pulled vertex from being a spike")
+     "0.02 to 0.1 keep a pulled vertex from being a spike, except on a border")
     ("smoothing", value<std::string>()->default_value("0")->value_name("S"),
      "the length over which rotations are made smooth, as such a share")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
@@ -167,7 +171,8 @@ inline boost::program_options::options_description described_options()
      "how rotations are fitted: newton, or svd")
     ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
-     "laplacian, or automatic: the better one of the first two")
+     "laplacian, or automatic: previous, or rotations where a handle is torn away by over a "
+     "tenth of the diagonal and that is better")
     ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<std::string>()->value_name("T")
@@ -193,9 +198,11 @@ inline boost::program_options::options_description described_options()
 inline void print_help(std::ostream& out)
 {
   out << "usage: arap_deform MESH -o OUT --handle WHAT --rotate AXIS ANGLE ... [options]\n\n"
-         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. --rotate y 60\n\n"
-         "holds the lowest twentieth of the shape, turns the top, and lets the rest follow\n"
-         "so that every small part of it only rotates (Sorkine and Alexa 2007).\n\n"
+         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
+         "    --rotate x 60 50%,50%,40%\n\n"
+         "holds the lowest twentieth of the shape, turns the top by 60 degrees about a\n"
+         "point at two fifths of the height, and lets the rest follow so that every small\n"
+         "part of it only rotates (Sorkine and Alexa 2007).\n\n"
          "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
          "in a .mesh (Medit), .msh (Gmsh, text or binary), .vtk (text) or .vtu file. OUT is\n"
          "of the same kind; a pipe gets the format of MESH. A note says what OUT does not\n"
@@ -213,7 +220,16 @@ inline void print_help(std::ostream& out)
          "of whose corners are picked.\n\n"
       << described_options()
       << "\nBetween key frames the centre of a handle moves along a straight line, its\n"
-         "rotation turns at constant speed, and its stretch is interpolated linearly.\n\n"
+         "rotation turns at constant speed, and its stretch is interpolated linearly. This\n"
+         "makes two key frames, a way through them, and a film of a body under gravity:\n\n"
+         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
+         "    --rotate x 60 50%,50%,40% --save-transform bent.def\n"
+         "  arap_deform cactus.off -o turned.off --fix z:..5% --handle z:90%.. \\\n"
+         "    --rotate z 90 --save-transform turned.def\n"
+         "  arap_deform cactus.off -o film.off --fix z:..5% --handle z:90%.. \\\n"
+         "    --transform bent.def --transform turned.def --frames 24\n"
+         "  arap_deform cactus.off -o hanging.off --fix z:..5% --gravity 1,0,0 \\\n"
+         "    --modulus 20 --frames 60 --animation hanging.gif\n\n"
          "The report tells status, message, iterations, energy (initial, and after each),\n"
          "estimated_relative_gap to the minimum, edge_length_error (relative root mean\n"
          "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"

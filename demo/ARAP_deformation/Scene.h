@@ -334,7 +334,8 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
 
   // Each panel is centred in its slot from left to right, but all stand on the same ground.
   const double width = double(view.width) * panels.size();
-  const double letters = has_captions ? 0.04 * view.height : 0;
+  const double legible = 16; // pixels: thin letters vanish in less
+  const double letters = has_captions ? (std::max)(0.04 * view.height, legible) : 0;
   const double margin = 0.06 * (std::min)(view.width, view.height);
   const double scale = (std::min)((view.width - 2 * margin) / widest,
                                   (view.height - 2 * margin - 2 * letters) / all.y_span());

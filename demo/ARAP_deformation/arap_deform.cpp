@@ -487,21 +487,6 @@ void check_mesh_files(const Command_line& line, const std::string& format)
                              "file");
 }
 
-// The measures as colours: from 0 to 1 for the largest, which the caption tells.
-void colour(Panel& panel, const std::string& name, const Skin& boundary,
-            const std::vector<double>& values)
-{
-  for(std::size_t v : boundary.vertices)
-    panel.values.push_back(std::abs(values[v]));
-  const double largest = *std::max_element(panel.values.begin(), panel.values.end());
-  for(double& value : panel.values)
-    value = largest > 0 ? value / largest : 0;
-  std::ostringstream caption;
-  caption.precision(3);
-  caption << name << " up to " << largest;
-  panel.caption = caption.str();
-}
-
 // The outputs: opened before the run, so that nothing is computed in vain, and kept only after all
 // have been written.
 class Outputs

@@ -17,7 +17,7 @@
 //                                      data folder MESHES if it is given
 //   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
 //                                      pictures of the manual; prints a table
-//   arap_demo figures FOLDER           draws the figures of the paper from what figures.sh has
+//   arap_demo figures FOLDER           draws the figures of the manual from what figures.sh has
 //                                      computed; prints a table
 
 #include "Command_line.h"
@@ -30,9 +30,11 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Embedding.h>
+#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/subdivision_method_3.h>
 
@@ -207,14 +209,15 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
-// A pulled vertex is a spike without bending.
+// A pulled vertex is a spike without bending, and with smooth rotations, too.
 void draw_bending(const fs::path& folder)
 {
   const Demo_shape sheet = make_pulled_sheet();
-  CGAL::ARAP::Options bending;
-  bending.bending_length = 0.05 * std::sqrt(2.0); // a share of the diagonal
+  CGAL::ARAP::Options bending, smooth;
+  bending.bending_length = smooth.smoothing_length = 0.05 * std::sqrt(2.0); // of the diagonal
   draw({deformed_panel(sheet, "without bending", {}),
-        deformed_panel(sheet, "with bending", bending)},
+        deformed_panel(sheet, "with bending", bending),
+        deformed_panel(sheet, "with smooth rotations", smooth)},
        sheet.view, folder / "bending.png");
 }
 
@@ -392,12 +395,13 @@ void print_row(const fs::path& folder, const std::string& name)
             << report["seconds"]["deform"].get<double>() << '\n';
 }
 
-// The sizes of the pictures of the paper's figures, in pixels for each panel.
+// The sizes of the pictures that figures.sh computes, in pixels for each panel.
 const std::map<std::string, std::array<int, 2>> figure_sizes = {
   {"figure_1", {320, 340}},        {"figure_3", {185, 290}},        {"figure_4", {340, 280}},
   {"figure_5_sheet", {280, 230}},  {"figure_5_cactus", {280, 280}}, {"figure_6", {270, 330}},
   {"figure_7", {220, 290}},        {"figure_7_side", {270, 290}},   {"figure_8_front", {330, 320}},
-  {"figure_8_back", {330, 320}}};
+  {"figure_8_back", {330, 320}},   {"terms", {250, 330}},           {"quality", {280, 330}},
+  {"frames", {200, 290}}};
 
 // The commands that figures.sh has run: a line for each argument, and an empty one at the end.
 std::vector<Command_line> read_commands(const fs::path& list)
@@ -423,19 +427,40 @@ std::vector<Command_line> read_commands(const fs::path& list)
   return commands;
 }
 
-// The figures of the paper, from the results of the commands in the manual: PICTURE_CAPTION.off is
-// a panel of PICTURE.png, after the original.
+// A panel of what a command has computed, or of one of its frames.
+Panel result_panel(const Command_line& line, const Mesh& rest, const std::string& file,
+                   const std::string& caption)
+{
+  Mesh mesh = read_mesh(file);
+  Panel result = panel(mesh, make_task(line, points_of(rest)).selection, caption);
+  if(!line.color.empty())
+    colour(result, line.color, skin(mesh),
+           CGAL::ARAP::quality_at_vertices(vertex_measure(line.color),
+                                           CGAL::ARAP::Face_graph_domain<Mesh>(mesh),
+                                           rest.points()));
+  return result;
+}
+
+// The figures of the commands in the manual, from their results: PICTURE_CAPTION.off is a panel of
+// PICTURE.png, after the original; each of several frames is one.
 void draw_figures(const fs::path& folder)
 {
-  const std::vector<Command_line> commands = read_commands(folder / "figures.txt");
+  fs::current_path(folder); // where the commands were run
+  const std::vector<Command_line> commands = read_commands("figures.txt");
   const auto name = [](const Command_line& line) { return fs::path(line.output).stem().string(); };
   const auto picture = [&](const Command_line& line) {
     return name(line).substr(0, name(line).rfind('_'));
   };
+  std::vector<std::string> results;
   for(auto line = commands.begin(); line != commands.end();)
   {
     const std::string file = picture(*line);
-    const Mesh rest = read_mesh((folder / line->mesh).string());
+    if(line->image.empty() && !line->is_sequence) // it only prepares another one
+    {
+      ++line;
+      continue;
+    }
+    const Mesh rest = read_mesh(line->mesh);
     std::vector<Panel> panels = {panel(rest, std::vector<int>(rest.num_vertices(), FREE),
                                        "original")};
     View view = default_view(panels[0].points);
@@ -444,14 +469,21 @@ void draw_figures(const fs::path& folder)
     view.width = figure_sizes.at(file)[0];
     view.height = figure_sizes.at(file)[1];
     for(; line != commands.end() && picture(*line) == file; ++line)
-      panels.push_back(panel(read_mesh((folder / line->output).string()),
-                             make_task(*line, points_of(rest)).selection,
-                             name(*line).substr(file.size() + 1)));
-    draw(panels, view, folder / (file + ".png"));
+    {
+      results.push_back(name(*line));
+      if(line->is_sequence)
+        for(const std::string& frame : mesh_files(*line))
+          panels.push_back(result_panel(*line, rest, frame, "frame " + std::to_string(
+                                                              panels.size())));
+      else
+        panels.push_back(result_panel(*line, rest, line->output,
+                                      name(*line).substr(file.size() + 1)));
+    }
+    draw(panels, view, file + ".png");
   }
   print_title();
-  for(const Command_line& line : commands)
-    print_row(folder, name(line));
+  for(const std::string& result : results)
+    print_row("", result);
 }
 
 // Section 5 of the paper: a surface in many pieces follows a coarse volume around it.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the commands by which the manual makes the figures of the paper, as they are written there,
+# Runs the commands by which the manual makes its figures, as they are written there,
 # in a folder with the models of arap_demo. Lists those whose model is there in figures.txt, a line
 # for each argument and an empty one at the end, from which arap_demo draws them side by side.
 # usage: figures.sh ARAP_DEFORM FOLDER [ITERATIONS]   at most so many ITERATIONS
@@ -18,7 +18,7 @@ arap_deform() { # with a report instead of the picture of this result alone
   ! [ -f "$model" ] || { printf '%s\n' "$@"; echo; } >>figures.txt
   while [ $# -gt 0 ]; do
     case $1 in
-      --image) shift ;;
+      --image|--color) shift ;;
       --iterations) options+=("$1" "$((iterations && iterations < $2 ? iterations : $2))"); shift ;;
       -o) output=$2; options+=("$1" "$2"); shift ;;
       *) options+=("$1") ;;

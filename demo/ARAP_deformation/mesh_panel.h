@@ -21,7 +21,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,6 +117,21 @@ template <typename Shape>
 Panel panel(const Shape& shape, const std::vector<int>& selection, const std::string& caption)
 {
   return panel(skin(shape), points_of(shape), selection, caption);
+}
+
+// The measures as colours: from 0 to 1 for the largest, which the caption tells.
+inline void colour(Panel& panel, const std::string& name, const Skin& boundary,
+                   const std::vector<double>& values)
+{
+  for(std::size_t v : boundary.vertices)
+    panel.values.push_back(std::abs(values[v]));
+  const double largest = *std::max_element(panel.values.begin(), panel.values.end());
+  for(double& value : panel.values)
+    value = largest > 0 ? value / largest : 0;
+  std::ostringstream caption;
+  caption.precision(3);
+  caption << name << " up to " << largest;
+  panel.caption = caption.str();
 }
 
 } // namespace CGAL::ARAP::demo

@@ -4,6 +4,8 @@
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/boost/graph/generators.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -25,15 +27,27 @@ int main()
     return Point(std::cos(turn * j), std::sin(turn * j), 10.0 * i / along);
   }, true);
 
-  // the top moves to the side and turns by a right angle, the bottom stays
+  // the top moves to the side and turns by a right angle, with the cells at its rim; the bottom stays
+  const Eigen::Quaterniond right_angle(Eigen::AngleAxisd(CGAL_PI / 2, Eigen::Vector3d::UnitY()));
   std::map<vertex_descriptor, Point> targets;
+  std::map<vertex_descriptor, Eigen::Quaterniond> rotations;
   for(vertex_descriptor v : mesh.vertices())
     if(const Point& p = mesh.point(v); p.z() > 9.5)
+    {
       targets[v] = Point(4 + p.z() - 5, p.y(), 6 - p.x());
+      rotations.emplace(v, right_angle);
+    }
   const auto is_bottom = [&mesh](vertex_descriptor v) { return mesh.point(v).z() < 0.5; };
 
-  const CGAL::ARAP::Report report =
-    CGAL::arap_deform(mesh, targets, CGAL::parameters::vertex_is_constrained_map(is_bottom));
+  // the cells of the middle keep their shape, and leave the bending to the others
+  const auto stiffness = [&mesh](vertex_descriptor v) {
+    return std::abs(mesh.point(v).z() - 5) < 1 ? 100.0 : 1.0;
+  };
+
+  namespace params = CGAL::parameters;
+  const CGAL::ARAP::Report report = CGAL::arap_deform(
+    mesh, targets, params::target_rotations(rotations, params::cell_stiffness(stiffness))
+                     .vertex_is_constrained_map(is_bottom));
   if(!report)
   {
     std::cerr << "not deformed: " << report.message << std::endl;

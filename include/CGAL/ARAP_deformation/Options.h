@@ -44,7 +44,8 @@ enum class Initial_guess
 
 /// \ingroup PkgARAPDeformationOptions
 /// the minimization algorithm. With either one the energy never rises, and an iteration costs about
-/// the same: one fit of the rotations and one solve of the linear system.
+/// the same: one fit of the rotations and one solve of the linear system; with
+/// `Options::smoothing_length` the quasi-Newton one takes two more solves, of another system.
 enum class Minimizer
 {
   automatic,    ///< `quasi_newton` if `Options::tolerance` is positive, else `local_global`
