@@ -13,23 +13,19 @@
 // computation, in their limits, with every solver, and over a history of changes.
 
 #include "include/check.h"
+#include "include/compiled_solvers.h"
 #include "include/dense_reference.h"
 #include "include/domains.h"
 #include "include/shapes.h"
 #include "include/Single_precision_solver.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/target_sets.h>
 #include <CGAL/ARAP_deformation_traits.h>
 #include <CGAL/arap_deform.h>
 #include <CGAL/boost/graph/Euler_operations.h>
-
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-#include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
 
 #include <CGAL/AABB_tree.h>
 #if __has_include(<CGAL/AABB_traits_3.h>) // the names since CGAL 6.0
@@ -268,7 +264,7 @@ void compare_all(const Held_shape<Dimension>& shape)
   {
     test_case() = shape.name + ", cells " + std::to_string(dense);
     compare<CGAL::Default>(shape, cells, dense);
-    compare<CGAL::ARAP::Eigen_LDLT_solver>(shape, cells, dense);
+    compare<Compiled_LDLT_solver>(shape, cells, dense);
   }
 }
 
@@ -303,10 +299,10 @@ void test_all(const Held_shape<Dimension>& shape)
 {
   test<CGAL::Default>("default", shape);
   test<Single_precision_solver>("single precision", shape);
-  test<CGAL::ARAP::Eigen_LDLT_solver>("Eigen", shape);
-  test<CGAL::ARAP::Eigen_conjugate_gradient_solver>("conjugate gradients", shape);
+  test<Compiled_LDLT_solver>("Eigen", shape);
+  test<Compiled_conjugate_gradients>("conjugate gradients", shape);
 #ifdef CGAL_LINKED_WITH_CHOLMOD
-  test<CGAL::ARAP::Cholmod_solver>("CHOLMOD", shape);
+  test<Compiled_cholmod_solver>("CHOLMOD", shape);
 #endif
 }
 
@@ -1047,7 +1043,7 @@ void test_all(const Held_shape<Dimension>& shape)
   for(bool is_held : {true, false})
   {
     histories::test_random_changes<CGAL::Default>(shape, is_held);
-    histories::test_random_changes<CGAL::ARAP::Eigen_LDLT_solver>(shape, is_held);
+    histories::test_random_changes<Compiled_LDLT_solver>(shape, is_held);
   }
   locations::test(shape);
 }
@@ -1106,7 +1102,7 @@ int main()
   test_all(quads());
   test_all(tetrahedra());
   refusals::test_dependent<CGAL::Default>();
-  refusals::test_dependent<CGAL::ARAP::Eigen_LDLT_solver>();
+  refusals::test_dependent<Compiled_LDLT_solver>();
   refusals::test_input();
   histories::test_stages();
   histories::test_reset();

@@ -13,12 +13,12 @@
 // that are held by next to nothing.
 
 #include "include/check.h"
+#include "include/compiled_solvers.h"
 #include "include/domains.h"
 #include "include/length.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
@@ -42,10 +42,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-#include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
 
 // Control vertices that are pulled to their targets: the balance of forces at the minimum, the
 // limits of large and small weights, rigid motions, and either minimizer.
@@ -1027,7 +1023,7 @@ void test_all()
 {
   test_random_changes<Solver>("Multifrontal_cholesky_solver");
 #ifdef CGAL_LINKED_WITH_CHOLMOD
-  test_random_changes<CGAL::ARAP::Cholmod_solver>("Cholmod_solver");
+  test_random_changes<Compiled_cholmod_solver>("Cholmod_solver");
 #endif
   test_many_changes();
   test_failure();
@@ -1260,7 +1256,7 @@ void test_pulls()
 void test_all()
 {
   test_bridge<CGAL::ARAP_deformation_traits<>>("multifrontal");
-  test_bridge<CGAL::ARAP_deformation_traits<CGAL::ARAP::Eigen_LDLT_solver>>("Eigen");
+  test_bridge<CGAL::ARAP_deformation_traits<Compiled_LDLT_solver>>("Eigen");
   test_pulls();
 }
 

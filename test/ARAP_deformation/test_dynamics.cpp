@@ -12,13 +12,13 @@
 // Time steps with inertia: against the dense reference, and by what mechanics says of motions.
 
 #include "include/check.h"
+#include "include/compiled_solvers.h"
 #include "include/dense_reference.h"
 #include "include/domains.h"
 #include "include/misuse.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
@@ -521,7 +521,7 @@ std::vector<Point> falling_mesh(const Shape& shape, unsigned int threads)
 
 void falling_meshes()
 {
-  using Traits = CGAL::ARAP_deformation_traits<CGAL::ARAP::Eigen_LDLT_solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Compiled_LDLT_solver>;
   const Shape shape = shapes()[5];
   const auto one = falling_mesh<CGAL::ARAP_deformation<Mesh>>(shape, 1);
   CHECK(one == falling_mesh<CGAL::ARAP_deformation<Mesh>>(shape, 4));

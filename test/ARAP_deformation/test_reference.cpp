@@ -286,16 +286,6 @@ void test_weights()
   }
 }
 
-Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& m)
-{
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::Matrix3d u = svd.matrixU();
-  const Eigen::Matrix3d v = svd.matrixV();
-  if((u * v.transpose()).determinant() < 0)
-    u.col(2) *= -1;
-  return u * v.transpose();
-}
-
 // whether a vertex of the block lies on its surface
 std::vector<bool> on_surface(const Block& shape)
 {
@@ -348,7 +338,8 @@ void test_linear_maps()
       rigid_motion(3 * entry(random), {1, entry(random), entry(random)}, {0, 0, 0}).linear() *
       (Eigen::Matrix3d::Identity() +
        0.3 * Eigen::Matrix3d::NullaryExpr([&] { return entry(random); }));
-    const double distance = (map - closest_rotation(map)).squaredNorm();
+    const Eigen::Matrix3d rotation = Dense_reference::closest_rotation(map.transpose());
+    const double distance = (map - rotation).squaredNorm();
     Scenario s{{}, {}};
     for(std::size_t v = 0; v < shape.points.size(); ++v)
     {
