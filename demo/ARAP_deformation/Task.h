@@ -155,7 +155,8 @@ inline std::vector<int> make_selection(const Command_line& line,
       for(std::size_t v : pick.vertices(points))
         selection[v] = status;
   for(const auto& [status, pick] : line.picks)
-    if(status != FIXED && !pick.is_point() && std::count(selection.begin(), selection.end(), status) == 0)
+    if(status != FIXED && !pick.is_point() &&
+       std::count(selection.begin(), selection.end(), status) == 0)
       throw std::runtime_error(pick.name() + ": a later --fix or --handle picks all its vertices");
   std::vector<bool> is_in_region(points.size(), line.region.empty());
   for(const Pick& pick : line.region)
