@@ -27,7 +27,7 @@ int main()
     return Point(std::cos(turn * j), std::sin(turn * j), 10.0 * i / along);
   }, true);
 
-  // the top moves to the side and turns by a right angle, with the cells at its rim; the bottom stays
+  // the top moves to the side and turns by a right angle, as its cells do; the bottom stays
   const Eigen::Quaterniond right_angle(Eigen::AngleAxisd(CGAL_PI / 2, Eigen::Vector3d::UnitY()));
   std::map<vertex_descriptor, Point> targets;
   std::map<vertex_descriptor, Eigen::Quaterniond> rotations;

@@ -15,8 +15,8 @@ using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using CGAL::ARAP::Initial_guess;
 
-// Bends a wavy sheet. One edge stays, and the opposite one goes to the end of an arc of 120 degrees,
-// turned by some degrees. A run with 0 iterations is a preview.
+// Bends a wavy sheet. One edge stays, and the opposite one goes to the end of an arc of 120
+// degrees, turned by some degrees. A run with 0 iterations is a preview.
 bool bend(const std::string& name, double degrees, Initial_guess guess, unsigned int iterations)
 {
   Mesh mesh;
