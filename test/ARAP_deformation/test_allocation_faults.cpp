@@ -50,6 +50,8 @@ void test_cell_schemes()
     test_stories(fault_test<Session<Surface>>(statistics), "surface", cells);
     test_stories(fault_test<Session<Solid>>(statistics), "solid", cells);
   }
+  test_story_of_terms(fault_test<Session<Surface>>(statistics), "surface, terms");
+  test_story_of_terms(fault_test<Session<Solid>>(statistics), "solid, terms");
 }
 
 template <typename Solver>

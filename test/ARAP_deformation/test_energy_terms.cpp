@@ -977,7 +977,8 @@ void test_generic_maps()
   test_case() = "generic maps";
   const Shape shape = shapes()[1];
   const Scenario s = scenario(shape, 0.8);
-  std::map<Mesh::Vertex_index, double> of_vertex;
+  Mesh keys = make_mesh<Mesh>(shape);
+  auto of_vertex = keys.add_property_map<Mesh::Vertex_index, double>("v:stiffness").first;
   std::map<Mesh::Face_index, double> of_face;
   using Deformation = CGAL::ARAP_deformation<Mesh>;
   const auto run = [&](Cell_scheme cells, const std::function<void(Deformation&)>& set) {
@@ -1002,8 +1003,8 @@ void test_generic_maps()
     }
     return report.energy;
   };
-  const auto vertex_stiffness = [&](auto v) { return of_vertex.at(v); };
-  const auto vertex_group = [&](auto v) { return int(of_vertex.at(v)) - 2; };
+  const auto vertex_stiffness = [&](auto v) { return of_vertex[v]; };
+  const auto vertex_group = [&](auto v) { return int(of_vertex[v]) - 2; };
   const auto face_stiffness = [&](auto f) { return of_face.at(f); };
   const auto face_group = [&](auto f) { return int(of_face.at(f)) - 2; };
   const auto plain = [&](Cell_scheme cells) { return run(cells, [](Deformation&) {}); };

@@ -20,6 +20,7 @@
 #include "shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/Surface_mesh_deformation.h>
 
@@ -218,6 +219,40 @@ struct Steps
     }, false};
   }
 
+  // stiffness, groups, a frame, bending and smooth rotations
+  static Step_ set_terms()
+  {
+    return {"set terms", [](Session& s) {
+      using Vertex = typename Session::Deformation::vertex_descriptor;
+      auto& d = *s.deformation;
+      d.set_stiffness([](Vertex v) { return 1 + double(std::size_t(v) % 3); });
+      d.set_groups([](Vertex v) { return std::size_t(v) < 3 ? 0 : -1; });
+      CGAL::ARAP::Options options = d.options();
+      options.bending_length = options.smoothing_length = 0.1;
+      const Eigen::AngleAxisd turn(0.3, Eigen::Vector3d::UnitX());
+      return d.set_options(options) &&
+             d.set_target_rotation(d.control_vertices().front(), turn.toRotationMatrix());
+    }, false};
+  }
+
+  // of the first control vertex
+  static Step_ set_target_set()
+  {
+    return {"set a target that is a set", [](Session& s) {
+      auto& d = *s.deformation;
+      const auto v = d.control_vertices().front();
+      return d.set_target_weight(v, 2) &&
+             d.set_target_set(v, [](const Point& p) { return Point(p.x(), p.y(), 0.5); });
+    }, false};
+  }
+
+  static Step_ advance()
+  {
+    return {"advance", [](Session& s) {
+      return bool(s.deformation->advance(CGAL::ARAP::Dynamics()));
+    }};
+  }
+
   static Step_ overwrite()
   {
     return {"overwrite the rest shape", [](Session& s) {
@@ -256,6 +291,19 @@ void test_stories(Fault_test<Session> test, const std::string& name, Cell_scheme
         S::deform(" with soft targets"), S::insert_control_point(),
         S::deform(" with a control point"), S::overwrite(), S::deform(" again"), S::reset(),
         S::deform(" after a reset")}, 4);
+}
+
+// The same for all that the energy can have, and for time steps.
+template <typename Session>
+void test_story_of_terms(Fault_test<Session> test, const std::string& name)
+{
+  using S = Steps<Session>;
+  test(name, [] { return std::make_unique<Session>(); },
+       {S::construct(), S::insert(),
+        S::set_options(Cell_scheme::spokes_and_rims(), CGAL::ARAP::Minimizer::local_global,
+                       CGAL::ARAP::Initial_guess::previous),
+        S::set_terms(), S::deform(" with all terms"), S::set_target_set(),
+        S::deform(" with a set"), S::advance()}, 3);
 }
 
 // with the class that replaces CGAL's

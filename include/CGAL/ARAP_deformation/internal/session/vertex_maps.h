@@ -33,8 +33,18 @@ constexpr bool is_range = is_valid<Begin_of, const T>;
 template <typename Map, typename Vertex>
 using Call_map = decltype(std::declval<const Map&>()(std::declval<Vertex>()));
 
+// false only for property maps with other keys, whose get() is often declared for any key
+template <typename Map, typename Vertex, typename = void>
+struct Is_key : std::true_type {};
+
 template <typename Map, typename Vertex>
-using Call_get = decltype(get(std::declval<const Map&>(), std::declval<Vertex>()));
+struct Is_key<Map, Vertex, std::void_t<typename boost::property_traits<Map>::key_type>>
+  : std::is_convertible<Vertex, typename boost::property_traits<Map>::key_type> {};
+
+template <typename Map, typename Vertex>
+using Call_get = std::enable_if_t<
+  Is_key<Map, Vertex>::value,
+  decltype(get(std::declval<const Map&>(), std::declval<Vertex>()))>;
 
 template <typename Map, typename Vertex>
 using Call_find = decltype(std::declval<const Map&>().find(std::declval<Vertex>())->second);
