@@ -396,7 +396,8 @@ void deform(const Command_line& line, const Domain& domain, const Task& task,
     CGAL::ARAP::Step_report report;
     if(line.dynamics)
       report = deformation.advance(
-        *line.dynamics, std::map<typename Deformation::vertex_descriptor, CGAL::ARAP::Coordinates>(),
+        *line.dynamics,
+        std::map<typename Deformation::vertex_descriptor, CGAL::ARAP::Coordinates>(),
         visitor);
     else
       static_cast<Report&>(report) = deformation.deform(visitor);

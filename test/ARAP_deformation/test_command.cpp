@@ -250,7 +250,9 @@ void test_success()
   CHECK(from_x.find("\"after\"") != std::string::npos);
   const std::string coloured = scene(call + "-o new.off --view 0,0 --color edge_error");
   CHECK(coloured.find("\"edge_error up to ") != std::string::npos);
-  const auto faces_of = [](const std::string& text) { return text.substr(0, text.find("Caption")); };
+  const auto faces_of = [](const std::string& text) {
+    return text.substr(0, text.find("Caption"));
+  };
   CHECK(faces_of(coloured) == faces_of(from_x)); // before the run all is as without colours
 #endif
 
@@ -1052,8 +1054,8 @@ std::string numbers(const Eigen::Vector3d& p)
   return out.str();
 }
 
-// Points inside faces: held where they are, moved, or pulled; also where a corner is fixed, and where
-// they are picked from a point near the surface.
+// Points inside faces: held where they are, moved, or pulled; also where a corner is fixed, and
+// where they are picked from a point near the surface.
 void test_control_points()
 {
   test_case() = "control points";
@@ -1080,7 +1082,8 @@ void test_control_points()
   {
     CHECK(run(call + " --soft " + weight).exit_code == 0);
     const double before = gap;
-    gap = (centroid(read_points("points.off"), moved) - centroid(shape.points, moved) - step).norm();
+    gap =
+      (centroid(read_points("points.off"), moved) - centroid(shape.points, moved) - step).norm();
     CHECK(weight == "0.1" ? gap > 1e-3 : gap < before);
   }
   CHECK_AT_MOST(gap, 1e-6);
@@ -1088,8 +1091,8 @@ void test_control_points()
   test_case() = "a control point with fixed corners";
   const auto& corners = shape.triangles[held];
   CHECK(run("in.off --fix list:" + std::to_string(corners[0]) + ',' + std::to_string(corners[1]) +
-            " --handle point:" + near_face(held) + " --move 0.1,-0.2,0.3 -o points.off").exit_code ==
-        0);
+            " --handle point:" + near_face(held) + " --move 0.1,-0.2,0.3 -o points.off")
+          .exit_code == 0);
   result = read_points("points.off");
   CHECK_AT_MOST((centroid(result, held) - centroid(shape.points, held) - step).norm(), 1e-9);
   for(int k = 0; k < 2; ++k)
@@ -1107,7 +1110,8 @@ void test_control_points()
   check_refused(handle + " --region point:0,0,0", 2, "for --fix and --handle only");
   check_refused(handle + " --save-selection new.sel", 2, "a selection has vertices only, not "
                                                          "--handle point:0,0,0");
-  check_refused("in.off --handle point:0,0 --move 1,0,0 -o new.off", 2, "expected the numbers x,y,z");
+  check_refused("in.off --handle point:0,0 --move 1,0,0 -o new.off", 2,
+                "expected the numbers x,y,z");
   std::string all = "0";
   for(std::size_t v = 1; v < shape.points.size(); ++v)
     all += ',' + std::to_string(v);
@@ -1187,8 +1191,8 @@ void test_cell_values()
   check_refused(call + "--rigid everything", 2, "expected box:, sphere:");
 }
 
-// Time steps: free fall, against the sum of what implicit Euler adds; a body that hangs, against the
-// library; and what makes no sense.
+// Time steps: free fall, against the sum of what implicit Euler adds; a body that hangs, against
+// the library; and what makes no sense.
 void test_dynamics()
 {
   test_case() = "free fall";
@@ -1749,7 +1753,8 @@ void test_other_formats()
                     grid = vtk("5.1", shape.points);
   refuse("msh", "OFF\n", ", line 1: a .msh file starts with '$MeshFormat', but this with 'OFF'");
   refuse("msh", replaced(good, "2.2 0", "4 0"), ", line 2: only the versions 2.2 and 4.1");
-  refuse("msh", replaced(good, "2.2 0", "2.2 1"), ": is binary, but does not show its byte order by the number 1");
+  refuse("msh", replaced(good, "2.2 0", "2.2 1"),
+         ": is binary, but does not show its byte order by the number 1");
   refuse("msh", replaced(good, "\n$Nodes\n", "\n$Node\n"), ": has no $Nodes");
   refuse("msh", replaced(good, "\n101 ", "\n100 "), ", line 11: a node has the same number as");
   refuse("msh", replaced(good, "100 101 102", "100 101 7"), ", line 58: there is no node '7'");

@@ -113,7 +113,9 @@ void add_rows(const Model& model, const std::vector<std::size_t>& vertices,
       const auto project = [=](const Eigen::Vector3d& x) {
         return Eigen::Vector3d(x - normal * normal.dot(x - target));
       };
-      CHECK(deformation.set_target_set(v, [=](const Point& x) { return point(project(vector(x))); }));
+      CHECK(deformation.set_target_set(v, [=](const Point& x) {
+        return point(project(vector(x)));
+      }));
       reference.add_row({{v, 1}}, weight, project);
     }
   }
@@ -225,7 +227,8 @@ std::vector<Case> cases(const Model& model, const Scenario& s, double diameter)
   }
   for(const bool is_bent : {false, true})
   {
-    Terms& terms = add("rows, with " + std::string(is_bent ? "bending" : "smooth rotations"), !is_bent);
+    const std::string with = is_bent ? "bending" : "smooth rotations";
+    Terms& terms = add("rows, with " + with, !is_bent);
     terms.stiffness = random_stiffness();
     (is_bent ? terms.bending_length : terms.smoothing_length) = 0.05 * diameter;
     for(const std::size_t v : soft_vertices(s)) // frames that are soft

@@ -101,8 +101,8 @@ private:
       return false;
     for(std::size_t row = 0; row < 3; ++row)
     {
-      const Coordinates change = internal::product(correction, Coordinates{r[3 * row], r[3 * row + 1],
-                                                                r[3 * row + 2]});
+      const Coordinates old = {r[3 * row], r[3 * row + 1], r[3 * row + 2]};
+      const Coordinates change = internal::product(correction, old);
       for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] += change[column];
     }

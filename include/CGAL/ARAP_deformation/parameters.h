@@ -100,8 +100,8 @@ auto target_sets(const SetRange& sets, const NP&... np)
 
 /// control points, a range of tuples of a simplex, barycentric coordinates and a target, such as
 /// `std::vector<std::tuple<Simplex, std::array<double, 3>, Point>>`, see
-/// `ARAP_deformation::insert_control_point()`; a `target_weight()` that is a number counts for them,
-/// too. In `arap_deform()` only.
+/// `ARAP_deformation::insert_control_point()`; a `target_weight()` that is a number counts for
+/// them, too. In `arap_deform()` only.
 template <typename ControlPointRange, typename... NP>
 auto control_points(const ControlPointRange& points, const NP&... np)
 {

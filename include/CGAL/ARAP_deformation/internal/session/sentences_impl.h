@@ -99,8 +99,8 @@ inline const char* sentence(Status status, const std::string& what)
   case Status::invalid_stiffness:
     return " has a stiffness that is negative, infinite or not a number";
   case Status::undeclared_map:
-    return "cells are simplices, but a generic function object for stiffness or groups is asked for "
-           "vertices; pass of_simplices() of it, or give its parameter a type";
+    return "cells are simplices, but a generic function object for stiffness or groups is asked "
+           "for vertices; pass of_simplices() of it, or give its parameter a type";
   case Status::invalid_rotation:
     return " was given a target rotation that is not a rotation: its columns must have "
            "length 1, be orthogonal, and be right-handed";
