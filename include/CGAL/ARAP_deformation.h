@@ -352,9 +352,9 @@ public:
 
   /// \name Targets
   /// Targets are absolute positions; `translate()` and `rotate()` move the current target. The type
-  /// `Handles` is of a control vertex, a control point, or a range of either. Passing what is neither violates a
-  /// precondition; in Release the call returns `ARAP::Status::not_a_control_vertex`. Functions on
-  /// ranges stop at the first error.
+  /// `Handles` is of a control vertex, a control point, or a range of either. Passing what is
+  /// neither violates a precondition; in Release the call returns
+  /// `ARAP::Status::not_a_control_vertex`. Functions on ranges stop at the first error.
   /// @{
 
   /// sets the target of a control vertex or a control point. A hard target becomes the point of the
