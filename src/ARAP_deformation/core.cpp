@@ -14,6 +14,7 @@
 #define CGAL_ARAP_DEFORMATION_COMPILED
 #endif
 
+#include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
@@ -23,4 +24,5 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
 
+template class CGAL::ARAP::internal::Bordered_substitution<double>;
 template class CGAL::ARAP::internal::Edge_weight_model_of<CGAL::ARAP::Safe_cotangent_weight>;

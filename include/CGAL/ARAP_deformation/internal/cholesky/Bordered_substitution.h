@@ -143,6 +143,10 @@ private:
   Array<double> m_products; // scratch
 };
 
+#ifdef CGAL_ARAP_DEFORMATION_COMPILED
+extern template class Bordered_substitution<double>; // that of Cholmod_solver, too
+#endif
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
