@@ -609,7 +609,7 @@ public:
       });
       return force;
     };
-    return m_session.advance(dynamics, force_at, visitor);
+    return m_session.advance(dynamics, force_at, std::ref(visitor));
   }
 
   /// advances by a time step without a visitor.
@@ -622,8 +622,7 @@ public:
   /// advances without forces beside the acceleration of the dynamics.
   [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics)
   {
-    ARAP::Default_visitor visitor;
-    return m_session.advance(dynamics, {}, visitor);
+    return m_session.advance(dynamics, {}, ARAP::Default_visitor());
   }
 
   /// returns the velocity of `v`: what the last `advance()` has moved it, over the time step, or

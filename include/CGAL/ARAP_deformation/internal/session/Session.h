@@ -87,9 +87,8 @@ public:
   }
 
   // A time step with these forces, or none if the function is empty.
-  template <typename Visitor>
   Step_report advance(const Dynamics& dynamics, std::function<Coordinates(vertex_descriptor)> force,
-                      Visitor& visitor)
+                      const Visitor& visitor)
   {
     Step_report report;
     static_cast<Outcome&>(report) = dynamics.check();
