@@ -222,11 +222,13 @@ public:
     assign_padded(m_x, x);
     m_bending.prepare(m_x.data());
     m_smooth.keep(rotations);
+    const bool has_steps = is_smooth && m_number_of_rotation_steps > 0;
+    if(has_steps)
+      m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     std::visit([&](auto& cells) {
       cells.prepare_covariances(m_rest.data(), m_x.data());
       const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
-        cells.compute_covariances(m_rest.data(), m_x.data(), begin, end, covariances);
-        m_bending.add_covariances(begin, end, covariances);
+        covariances_of_cells(cells, m_x, begin, end, covariances);
         if(is_smooth)
           m_smooth.add_covariances(begin, end, covariances);
       };
@@ -241,7 +243,11 @@ public:
         return;
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        compute_covariances(begin, end, covariances.data());
+        covariances_of_cells(cells, m_x, begin, end, covariances.data());
+        if(has_steps)
+          std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
+        if(is_smooth)
+          m_smooth.add_covariances(begin, end, covariances.data());
         closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
                           rotations.data() + begin);
       });
@@ -262,9 +268,7 @@ public:
     for(const auto& [c, rotation] : m_given)
       if(m_is_chosen[c])
         set_rotation_of_group(c, rotation, rotations);
-    if(is_smooth && m_number_of_rotation_steps > 0)
-      compute_covariances(m_x);
-    for(int k = 0; is_smooth && k < m_number_of_rotation_steps; ++k)
+    for(int k = 0; has_steps && k < m_number_of_rotation_steps; ++k)
       if(!m_rotation_steps->take(m_smooth, m_covariances, rotations))
         break;
     return evaluate(rotations, force);
@@ -353,11 +357,18 @@ private:
     std::visit([&](auto& cells) {
       cells.prepare_covariances(m_rest.data(), x.data());
       m_batches.for_each([&](int begin, int end) {
-        Matrix_3x3* const covariances = m_covariances.data() + begin;
-        cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
-        m_bending.add_covariances(begin, end, covariances);
+        covariances_of_cells(cells, x, begin, end, m_covariances.data() + begin);
       });
     }, m_cells);
+  }
+
+  // the same for some cells, when cells and bending are prepared for these positions
+  template <typename Cell_energy>
+  void covariances_of_cells(const Cell_energy& cells, const std::vector<Double4>& x, int begin,
+                            int end, Matrix_3x3* covariances) const
+  {
+    cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
+    m_bending.add_covariances(begin, end, covariances);
   }
 
   // at the positions m_x
