@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>

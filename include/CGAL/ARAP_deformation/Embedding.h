@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
-#include <CGAL/ARAP_deformation/internal/domain/Tetrahedron_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
@@ -160,7 +160,7 @@ private:
   struct Binding
   {
     Tetrahedron vertices;
-    internal::Barycentric_coordinates coordinates;
+    std::array<double, 4> coordinates;
     double distance;
   };
 
@@ -207,7 +207,7 @@ private:
     std::vector<Tetrahedron> tetrahedra;
     if(Outcome outcome = find_tetrahedra(tetrahedra); !outcome)
       return outcome;
-    std::vector<internal::Tetrahedron_corners> corners(tetrahedra.size());
+    std::vector<internal::Simplex_search<4>::Corners> corners(tetrahedra.size());
     for(std::size_t t = 0; t < tetrahedra.size(); ++t)
       for(std::size_t k = 0; k < 4; ++k)
       {
@@ -217,8 +217,8 @@ private:
           return internal::outcome(Status::non_finite_point,
                                    internal::vertex_name(m_domain.index(v)));
       }
-    const internal::Tetrahedron_search search(std::move(corners));
-    if(search.is_empty())
+    const auto search = internal::make_simplex_search(corners);
+    if(search->is_empty())
       return internal::outcome(Status::no_tetrahedron);
 
     for(const auto& point : points)
@@ -230,7 +230,7 @@ private:
       const std::string name = "point " + std::to_string(size());
       if(!internal::is_finite(c))
         return internal::outcome(Status::non_finite_point, name);
-      const auto location = search.locate(c);
+      const auto location = search->locate(c);
       if(!location)
         return Outcome(Status::non_finite_point,
                        name + " is too far from the tetrahedra: the computation overflows");

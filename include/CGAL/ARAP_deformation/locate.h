@@ -17,8 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
-#include <CGAL/ARAP_deformation/internal/domain/Tetrahedron_search.h>
-#include <CGAL/ARAP_deformation/internal/domain/Triangle_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
@@ -28,7 +27,6 @@
 #include <memory>
 #include <optional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -69,7 +67,7 @@ public:
         if(is_first && all.size() > Domain::dimension && internal::find_non_finite(points) < 0)
           append(s, points, corners);
       });
-    m_search = std::make_unique<Search>(std::move(corners));
+    m_search = internal::make_simplex_search(corners);
   }
 
   /// \brief returns the place of the nearest simplex that is nearest to `point`, and its
@@ -94,8 +92,7 @@ public:
   }
 
 private:
-  using Search = std::conditional_t<Domain::dimension == 3, internal::Tetrahedron_search,
-                                    internal::Triangle_search>;
+  using Search = internal::Simplex_search<Domain::dimension + 1>;
   using Corners = typename Search::Corners;
 
   // a simplex, or a triangle (0, fan + 1, fan + 2) of a polygon

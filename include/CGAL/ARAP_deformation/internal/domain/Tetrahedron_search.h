@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -28,7 +29,6 @@
 #include <limits>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -36,13 +36,12 @@ namespace ARAP {
 namespace internal {
 
 using Barycentric_coordinates = std::array<double, 4>;
-using Tetrahedron_corners = std::array<Coordinates, 4>;
 
 // The barycentric coordinates of a point, or none if the tetrahedron has no volume up to rounding.
 // Their sum is 1. The solution is backward stable: the coordinates reproduce the point even if the
 // tetrahedron is thin.
 inline std::optional<Barycentric_coordinates>
-barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& point)
+barycentric_coordinates(const Simplex_search<4>::Corners& corners, const Coordinates& point)
 {
   const Eigen::Map<const Eigen::Matrix<double, 3, 4>> c(corners.data()->data());
   const Eigen::Matrix3d edges = c.rightCols<3>().colwise() - c.col(0);
@@ -62,26 +61,17 @@ barycentric_coordinates(const Tetrahedron_corners& corners, const Coordinates& p
 // faces can be equally near, for example at an edge or a vertex. Of the tetrahedra of all faces
 // that are nearest up to rounding, the one with the largest minimum barycentric coordinate is
 // chosen: it contains the point if any of them does, and otherwise extrapolates least. Ties go to
-// the first one.
-class Tetrahedron_search
+// the first one. The distance is 0 if it contains the point up to rounding.
+class Tetrahedron_search final : public Simplex_search<4>
 {
 public:
-  using Corners = Tetrahedron_corners;
-
-  struct Location
-  {
-    std::size_t simplex;                 // its index in the argument of the constructor
-    Barycentric_coordinates coordinates;
-    double distance; // from the tetrahedron; 0 if it contains the point up to rounding
-  };
-
   // Tetrahedra without volume are ignored.
-  explicit Tetrahedron_search(std::vector<Tetrahedron_corners> tetrahedra)
-    : m_tetrahedra(std::move(tetrahedra)), m_tree(m_tetrahedra)
+  explicit Tetrahedron_search(const std::vector<Corners>& tetrahedra)
+    : m_tetrahedra(tetrahedra), m_tree(tetrahedra)
   {
     for(std::size_t t = 0; t < m_tetrahedra.size(); ++t)
     {
-      const Tetrahedron_corners& c = m_tetrahedra[t];
+      const Corners& c = m_tetrahedra[t];
       if(barycentric_coordinates(c, c[0]))
         for(std::size_t k = 0; k < 4; ++k)
         {
@@ -105,10 +95,9 @@ public:
   Tetrahedron_search(const Tetrahedron_search&) = delete;
   Tetrahedron_search& operator=(const Tetrahedron_search&) = delete;
 
-  bool is_empty() const { return m_tree.is_empty(); }
+  bool is_empty() const override { return m_tree.is_empty(); }
 
-  // returns none if the point is so far away that the computation overflows
-  std::optional<Location> locate(const Coordinates& point) const
+  std::optional<Location> locate(const Coordinates& point) const override
   {
     const auto nearest = m_tree.nearest(point);
     if(!nearest)
@@ -160,7 +149,7 @@ private:
     return best;
   }
 
-  std::vector<Tetrahedron_corners> m_tetrahedra;
+  std::vector<Corners> m_tetrahedra;
   Triangle_tree m_tree;
   std::vector<Face> m_faces; // faces with the same corners are consecutive
 };

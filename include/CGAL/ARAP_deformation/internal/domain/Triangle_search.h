@@ -15,12 +15,12 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
 
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -29,19 +29,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Finds the triangle nearest to a point.
-class Triangle_search
+// Finds the triangle nearest to a point. The coordinates are those of the nearest point, and not
+// negative.
+class Triangle_search final : public Simplex_search<3>
 {
 public:
-  using Corners = std::array<Coordinates, 3>;
-
-  struct Location
-  {
-    std::size_t simplex;               // its index in the argument of the constructor
-    std::array<double, 3> coordinates; // of the nearest point, not negative
-    double distance;
-  };
-
   // Triangles without area are ignored.
   explicit Triangle_search(const std::vector<Corners>& triangles) : m_tree(triangles)
   {
@@ -62,10 +54,9 @@ public:
   Triangle_search(const Triangle_search&) = delete;
   Triangle_search& operator=(const Triangle_search&) = delete;
 
-  bool is_empty() const { return m_tree.is_empty(); }
+  bool is_empty() const override { return m_tree.is_empty(); }
 
-  // returns none if the point is so far away that the computation overflows
-  std::optional<Location> locate(const Coordinates& point) const
+  std::optional<Location> locate(const Coordinates& point) const override
   {
     const auto nearest = m_tree.nearest(point);
     if(!nearest)
