@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_CHOSEN_MODELS_H
 #define CGAL_ARAP_DEFORMATION_DEMO_CHOSEN_MODELS_H
 
-// Weights, solver and rotation fitting chosen at run time, so that a single instantiation of the
+// Solver and rotation fitting chosen at run time, so that a single instantiation of the
 // deformation suffices.
 
 #include "Command_line.h"
@@ -21,50 +21,17 @@
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
-#include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
 #include <variant>
 
 namespace CGAL::ARAP::demo {
-
-// edge weights chosen at run time, so that a single instantiation of the deformation suffices
-class Chosen_weight
-{
-public:
-  explicit Chosen_weight(Weight_choice choice)
-  {
-    switch(choice)
-    {
-    case Weight_choice::safe_cotangent: break;
-    case Weight_choice::cotangent: m_weight = Cotangent_weight(); break;
-    case Weight_choice::clamped_cotangent: m_weight = Clamped_cotangent_weight(); break;
-    case Weight_choice::uniform: m_weight = Uniform_weight(); break;
-    }
-  }
-
-  template <std::size_t N>
-  auto simplex_weights(const std::array<Coordinates, N>& simplex) const
-  {
-    return std::visit([&](const auto& w) { return w.simplex_weights(simplex); }, m_weight);
-  }
-
-  double edge_weight(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
-  {
-    return std::visit([&](const auto& w) { return w.edge_weight(edge_set, i, j, sum); }, m_weight);
-  }
-
-private:
-  std::variant<Safe_cotangent_weight, Cotangent_weight,
-               Clamped_cotangent_weight, Uniform_weight> m_weight;
-};
 
 class Chosen_solver
 {

@@ -16,9 +16,11 @@
 #include "Pick.h"
 #include "arguments.h"
 
+#include <CGAL/ARAP_deformation/Chosen_edge_weight.h>
 #include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/quality.h>
+#include <CGAL/ARAP_deformation/set_option.h>
 
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
@@ -29,13 +31,13 @@
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
 
-enum class Weight_choice { safe_cotangent, cotangent, clamped_cotangent, uniform };
 
 enum class Solver_choice
 {
@@ -89,7 +91,7 @@ struct Command_line
   std::vector<double> view;            // azimuth and elevation, or a direction; empty if not given
   bool has_quality = false;            // self-intersections are looked for
   std::string color;                   // what is measured at the vertices, or empty
-  Weight_choice weights = Weight_choice::safe_cotangent;
+  Chosen_edge_weight weights;
   Solver_choice solver = Solver_choice::automatic;
   Rotation_choice rotation = Rotation_choice::newton;
   Options options;
@@ -335,15 +337,16 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
   return step;
 }
 
-inline Cell_scheme chosen_cells(const std::string& name)
+inline Chosen_edge_weight chosen_weight(const std::string& name)
 {
-  const std::string ring = "k_ring:";
-  if(name.compare(0, ring.size(), ring) == 0)
-    return Cell_scheme::k_ring(static_cast<unsigned int>(
-      number<int>("cells k_ring", name.substr(ring.size()))));
-  return chosen<Cell_scheme>("cells", name, {{"spokes", Cell_scheme::spokes()},
-                                             {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
-                                             {"elements", Cell_scheme::elements()}});
+  try
+  {
+    return Chosen_edge_weight(name);
+  }
+  catch(const std::invalid_argument& error)
+  {
+    throw Usage_error(std::string("--") + error.what());
+  }
 }
 
 inline Handle_options& handle_before(const std::string& option, Command_line& line)
@@ -522,12 +525,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.color = values["color"].as<std::string>();
     if(!line.color.empty())
       vertex_measure(line.color);
-    line.weights = chosen<Weight_choice>(
-      "weights", values["weights"].as<std::string>(),
-      {{"cotangent", Weight_choice::cotangent},
-       {"clamped_cotangent", Weight_choice::clamped_cotangent},
-       {"uniform", Weight_choice::uniform},
-       {"safe_cotangent", Weight_choice::safe_cotangent}});
+    line.weights = chosen_weight(values["weights"].as<std::string>());
     line.solver = chosen<Solver_choice>(
       "solver", values["solver"].as<std::string>(),
       {{"default", Solver_choice::automatic},
@@ -539,20 +537,11 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.rotation = chosen<Rotation_choice>(
       "rotation", values["rotation"].as<std::string>(),
       {{"newton", Rotation_choice::newton}, {"svd", Rotation_choice::svd}});
-    line.options.cells = chosen_cells(values["cells"].as<std::string>());
-    line.options.minimizer = chosen<Minimizer>(
-      "minimizer", values["minimizer"].as<std::string>(),
-      {{"automatic", Minimizer::automatic},
-       {"local_global", Minimizer::local_global},
-       {"quasi_newton", Minimizer::quasi_newton}});
-    line.options.initial_guess = chosen<Initial_guess>(
-      "initial_guess", values["initial_guess"].as<std::string>(),
-      {{"automatic", Initial_guess::automatic}, {"previous", Initial_guess::previous},
-       {"rotations", Initial_guess::rotations}, {"laplacian", Initial_guess::laplacian}});
     const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
-    line.options.iterations = number<int>("iterations", text("iterations"));
-    line.options.threads = number<int>("threads", text("threads"));
-    line.options.tolerance = number<double>("tolerance", text("tolerance"));
+    for(const char* name :
+        {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance"})
+      if(const Outcome set = set_option(line.options, name, text(name)); !set)
+        throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
     line.options.bending_length = number<double>("bending", text("bending"));
     line.options.smoothing_length = number<double>("smoothing", text("smoothing"));
     if(const Outcome checked = line.options.check(); !checked)

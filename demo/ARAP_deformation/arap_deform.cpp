@@ -62,7 +62,8 @@ namespace {
 using namespace CGAL::ARAP::demo;
 using CGAL::ARAP::Report;
 
-using Traits = CGAL::ARAP_deformation_traits<Chosen_solver, Chosen_weight, Chosen_rotation>;
+using Traits =
+  CGAL::ARAP_deformation_traits<Chosen_solver, CGAL::ARAP::Chosen_edge_weight, Chosen_rotation>;
 
 // the report of the deformation, and what the command adds to it
 struct Result
@@ -322,7 +323,7 @@ void deform(const Command_line& line, const Domain& domain, const Task& task,
             const std::function<void(const CGAL::ARAP::Step_report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
-  Deformation deformation(domain, Traits(Chosen_solver(line.solver), Chosen_weight(line.weights),
+  Deformation deformation(domain, Traits(Chosen_solver(line.solver), line.weights,
                                          chosen_rotation(line.rotation)));
   CGAL::ARAP::Options options = line.options;
   options.bending_length *= task.diagonal;

@@ -1,0 +1,411 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#include "Array_deformation.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Chosen_edge_weight.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/ARAP_deformation/of_simplices.h>
+#include <CGAL/ARAP_deformation/set_option.h>
+
+#include <boost/range/iterator_range.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace CGAL::ARAP::bindings {
+namespace {
+
+using Point = std::array<double, 3>;
+using Points = std::vector<Point>;
+
+void require(const Outcome& outcome)
+{
+  if(!outcome)
+    throw Deformation_error(outcome);
+}
+
+void require(bool condition, const std::string& sentence)
+{
+  if(!condition)
+    throw std::invalid_argument(sentence);
+}
+
+// simplices of the same number of corners, as a range of ranges
+class Simplices
+{
+public:
+  explicit Simplices(Indices rows)
+    : m_corners(rows.data, rows[rows.rows]), m_columns(rows.columns)
+  {}
+  std::size_t size() const { return m_corners.size() / m_columns; }
+  auto operator[](std::size_t s) const
+  {
+    const std::int32_t* corners = m_corners.data() + s * m_columns;
+    return boost::make_iterator_range(corners, corners + m_columns);
+  }
+  class Iterator
+  {
+  public:
+    Iterator(const Simplices& simplices, std::size_t s) : m_simplices(&simplices), m_s(s) {}
+    auto operator*() const { return (*m_simplices)[m_s]; }
+    Iterator& operator++() { ++m_s; return *this; }
+    bool operator!=(const Iterator& other) const { return m_s != other.m_s; }
+
+  private:
+    const Simplices* m_simplices;
+    std::size_t m_s;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+private:
+  std::vector<std::int32_t> m_corners;
+  std::size_t m_columns;
+};
+
+template <int Dimension>
+class Array_deformation_of final : public Array_deformation
+{
+public:
+  Array_deformation_of(Numbers points, Indices simplices, const std::string& weights)
+    : m_points(points_of(points)), m_rest(m_points), m_simplices(simplices),
+      m_deformation(Domain(m_points, m_simplices), Traits({}, Chosen_edge_weight(weights)))
+  {
+    m_deformation.insert_roi_vertices(domain().vertices());
+  }
+
+  std::size_t number_of_vertices() const override { return m_points.size(); }
+  std::size_t number_of_simplices() const override { return m_simplices.size(); }
+  bool is_volume() const override { return Dimension == 3; }
+  const double* points() const override { return m_points.data()->data(); }
+  const double* rest_points() const override { return m_rest.data()->data(); }
+
+  const Options& options() const override { return m_deformation.options(); }
+  void set_option(const std::string& name, const std::string& value) override
+  {
+    Options options = m_deformation.options();
+    require(ARAP::set_option(options, name, value));
+    require(m_deformation.set_options(options));
+  }
+
+  void set_region(Indices vertices) override
+  {
+    const auto chosen = vertices_of(vertices);
+    std::vector<char> is_chosen(number_of_vertices(), 0);
+    for(std::size_t v : chosen)
+      is_chosen[v] = 1;
+    for(std::size_t v : domain().vertices())
+      is_chosen[v] ? m_deformation.insert_roi_vertex(v) : m_deformation.erase_roi_vertex(v);
+  }
+  std::vector<std::int32_t> region() const override
+  {
+    return numbers_of(m_deformation.roi_vertices());
+  }
+
+  void insert_handles(Indices vertices) override
+  {
+    m_deformation.insert_control_vertices(vertices_of(vertices));
+  }
+  void erase_handles(Indices handles) override
+  {
+    for_each(handles, [&](auto handle) {
+      if constexpr(is_point<decltype(handle)>)
+        m_deformation.erase_control_point(handle);
+      else
+        m_deformation.erase_control_vertex(handle);
+      return Outcome(Status::success, "");
+    });
+  }
+  void clear_handles() override { m_deformation.clear_control_vertices(); }
+  std::vector<std::int32_t> handles() const override
+  {
+    std::vector<std::int32_t> result = numbers_of(m_deformation.control_vertices());
+    for(Control_point point : m_deformation.control_points())
+      result.push_back(handle_of(point));
+    return result;
+  }
+
+  std::optional<Place> locate(const double* point) const override
+  {
+    const auto found = ARAP::locate(domain(), point_at(point));
+    if(!found)
+      return std::nullopt;
+    return Place{found->simplex, found->coordinates, found->distance};
+  }
+  std::int32_t insert_point(std::size_t simplex, Numbers coordinates) override
+  {
+    const auto inserted = m_deformation.insert_control_point(
+      simplex, std::vector<double>(coordinates.data, coordinates[coordinates.rows]));
+    require(inserted);
+    return handle_of(inserted.point);
+  }
+  void point_position(std::int32_t handle, double* point) const override
+  {
+    const Control_point known = control_point(handle);
+    require(m_deformation.is_control_point(known), name(handle) + " is not a control point");
+    const Point p = m_deformation.control_point_position(known);
+    std::copy(p.begin(), p.end(), point);
+  }
+
+  void set_targets(Indices handles, Numbers targets) override
+  {
+    require(targets.rows == handles.rows && targets.columns == 3,
+            "there are " + std::to_string(handles.rows) + " handles, but " +
+            std::to_string(targets.rows) + " targets of " + std::to_string(targets.columns) +
+            " coordinates");
+    std::size_t row = 0;
+    for_each(handles, [&](auto handle) {
+      return m_deformation.set_target_position(handle, point_at(targets[row++]));
+    });
+  }
+  void target(std::int32_t handle, double* point) const override
+  {
+    visit_handle(handle, [&](auto known) {
+      const Point p = m_deformation.target_position(known);
+      std::copy(p.begin(), p.end(), point);
+    });
+  }
+  void transform(Indices handles, Numbers matrix, bool from_rest) override
+  {
+    require((matrix.rows == 3 || matrix.rows == 4) && matrix.columns == 4,
+            "a transformation is a matrix of 4 x 4 or 3 x 4 numbers");
+    if(matrix.rows == 4)
+      require(std::equal(matrix[3], matrix[4], std::array<double, 4>{0, 0, 0, 1}.begin()),
+              "the last row of a transformation must be 0, 0, 0, 1");
+    const auto apply = [&](const Point& p) {
+      Point q;
+      for(std::size_t k = 0; k < 3; ++k)
+        q[k] = matrix[k][0] * p[0] + matrix[k][1] * p[1] + matrix[k][2] * p[2] + matrix[k][3];
+      return q;
+    };
+    for_each(handles, [&](auto handle) {
+      return m_deformation.transform(handle, apply,
+                                     from_rest ? Transformed::rest_shape : Transformed::targets);
+    });
+  }
+  void set_weight(Indices handles, double weight) override
+  {
+    for_each(handles, [&](auto handle) { return m_deformation.set_target_weight(handle, weight); });
+  }
+  void set_rotation(Indices vertices, const double* matrix) override
+  {
+    Matrix_3x3 rotation;
+    std::copy(matrix, matrix + rotation.size(), rotation.begin());
+    for(std::size_t v : control_vertices_of(vertices))
+      require(m_deformation.set_target_rotation(v, rotation));
+  }
+  void set_rotations_of_motion(Indices vertices) override
+  {
+    require(m_deformation.set_target_rotations(control_vertices_of(vertices)));
+  }
+  void erase_rotations(Indices vertices) override
+  {
+    for(std::size_t v : control_vertices_of(vertices))
+      require(m_deformation.erase_target_rotation(v));
+  }
+
+  void set_stiffness(Numbers values) override
+  {
+    if(values.rows == 0)
+      return require(m_deformation.clear_stiffness());
+    with_cell_map(values, [&](const auto& map) { return m_deformation.set_stiffness(map); });
+  }
+  void set_groups(Indices groups) override
+  {
+    if(groups.rows == 0)
+      return require(m_deformation.clear_groups());
+    with_cell_map(groups, [&](const auto& map) { return m_deformation.set_groups(map); });
+  }
+
+  Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) override
+  {
+    return checked(m_deformation.deform(iterations, tolerance, visitor_of(visitor)));
+  }
+  Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) override
+  {
+    if(forces.rows == 0)
+      return checked(m_deformation.advance(dynamics, std::vector<Point>(number_of_vertices()),
+                                           visitor_of(visitor)));
+    require(forces.rows == number_of_vertices() && forces.columns == 3,
+            "forces have three coordinates for each of the " +
+            std::to_string(number_of_vertices()) + " vertices");
+    return checked(m_deformation.advance(
+      dynamics, [&](std::size_t v) { return point_at(forces[v]); }, visitor_of(visitor)));
+  }
+
+  void reset() override { m_deformation.reset(); }
+  void make_rest_shape() override
+  {
+    m_deformation.overwrite_initial_geometry();
+    m_rest = m_points;
+  }
+  std::any state() const override { return State{m_deformation.state(), m_rest}; }
+  void restore(const std::any& state) override
+  {
+    const State* known = std::any_cast<State>(&state);
+    require(known != nullptr, "the state is of another kind of shape");
+    Points rest = known->rest;
+    require(m_deformation.restore(known->session));
+    m_rest = std::move(rest);
+  }
+
+  double energy() const override { return m_deformation.energy(); }
+  std::vector<double> rotations() const override
+  {
+    const bool at_vertices = options().cells.has_vertex_cells();
+    std::vector<double> result;
+    for(std::size_t c = 0; c < (at_vertices ? number_of_vertices() : number_of_simplices()); ++c)
+    {
+      const Matrix_3x3 r = at_vertices ? m_deformation.rotation(c)
+                                       : m_deformation.simplex_rotation(c);
+      result.insert(result.end(), r.begin(), r.end());
+    }
+    return result;
+  }
+  Quality quality() const override { return ARAP::quality(domain(), m_rest); }
+  std::vector<double> quality_at_vertices(Vertex_measure measure) const override
+  {
+    return ARAP::quality_at_vertices(measure, domain(), m_rest);
+  }
+
+private:
+  using Domain = Simplex_soup_domain<Dimension, Points, Simplices>;
+  using Traits = ARAP_deformation_traits<Default, Chosen_edge_weight>;
+  using Deformation = ARAP_deformation<Domain, Traits>;
+
+  struct State
+  {
+    typename Deformation::State session;
+    Points rest;
+  };
+
+  template <typename Handle>
+  static constexpr bool is_point = std::is_same_v<std::decay_t<Handle>, Control_point>;
+
+  const Domain& domain() const { return m_deformation.domain(); }
+  static Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
+
+  static Points points_of(Numbers rows)
+  {
+    Points points(rows.rows);
+    for(std::size_t v = 0; v < rows.rows; ++v)
+      points[v] = point_at(rows[v]);
+    return points;
+  }
+  static std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& vertices)
+  {
+    return std::vector<std::int32_t>(vertices.begin(), vertices.end());
+  }
+
+  static std::string name(std::int32_t handle) { return "handle " + std::to_string(handle); }
+  std::int32_t handle_of(Control_point point) const
+  {
+    return static_cast<std::int32_t>(number_of_vertices() + point.number() - 1);
+  }
+  Control_point control_point(std::int32_t handle) const
+  {
+    const auto n = static_cast<std::int32_t>(number_of_vertices());
+    return handle < n ? Control_point() : Control_point(static_cast<std::size_t>(handle - n + 1));
+  }
+
+  std::vector<std::size_t> vertices_of(Indices vertices) const
+  {
+    std::vector<std::size_t> result(vertices.data, vertices[vertices.rows]);
+    for(std::size_t v : result)
+      domain().index(v); // throws if there is none
+    return result;
+  }
+  std::vector<std::size_t> control_vertices_of(Indices vertices) const
+  {
+    std::vector<std::size_t> result = vertices_of(vertices);
+    for(std::size_t v : result)
+      require(m_deformation.is_control_vertex(v),
+              "vertex " + std::to_string(v) + " is not a control vertex");
+    return result;
+  }
+
+  template <typename Function>
+  void visit_handle(std::int32_t handle, const Function& f) const
+  {
+    const auto v = static_cast<std::size_t>(handle);
+    const bool is_vertex = handle >= 0 && v < number_of_vertices();
+    require(is_vertex ? m_deformation.is_control_vertex(v)
+                      : m_deformation.is_control_point(control_point(handle)),
+            name(handle) + " is neither a control vertex nor a control point");
+    if(is_vertex)
+      f(v);
+    else
+      f(control_point(handle));
+  }
+  // All handles are known before the first one is changed.
+  template <typename Function>
+  void for_each(Indices handles, const Function& f) const
+  {
+    for(std::size_t k = 0; k < handles.rows; ++k)
+      visit_handle(*handles[k], [](auto) {});
+    for(std::size_t k = 0; k < handles.rows; ++k)
+      visit_handle(*handles[k], [&](auto handle) { require(f(handle)); });
+  }
+
+  // calls f with a map of vertices, or of simplices, whichever have cells
+  template <typename Number, typename Function>
+  void with_cell_map(Rows<Number> values, const Function& f) const
+  {
+    const bool at_vertices = options().cells.has_vertex_cells();
+    const std::size_t cells = at_vertices ? number_of_vertices() : number_of_simplices();
+    require(values.rows == cells, "there are " + std::to_string(values.rows) + " values for the " +
+                                  std::to_string(cells) +
+                                  (at_vertices ? " vertices" : " simplices"));
+    const std::vector<Number> map(values.data, values[values.rows]);
+    require(at_vertices ? f(map) : f(of_simplices(map)));
+  }
+
+  template <typename Report_>
+  static Report_ checked(Report_ report)
+  {
+    if(!report && report.status != Status::cancelled)
+      throw Deformation_error(report);
+    return report;
+  }
+  static auto visitor_of(const Visitor& visitor)
+  {
+    return [&visitor](const typename Deformation::Iterate& iterate) {
+      return visitor ? visitor(iterate.iteration(), iterate.energy()) : Visitor_action::proceed;
+    };
+  }
+
+  Points m_points, m_rest;
+  Simplices m_simplices;
+  Deformation m_deformation;
+};
+
+} // namespace
+
+std::unique_ptr<Array_deformation> make_array_deformation(Numbers points, Indices simplices,
+                                                          bool is_volume,
+                                                          const std::string& weights)
+{
+  require(points.columns == 3, "points need three coordinates, not " +
+                               std::to_string(points.columns));
+  require(is_volume ? simplices.columns == 4 : simplices.columns >= 3,
+          is_volume ? "tetrahedra have four corners, not " + std::to_string(simplices.columns)
+                    : "faces have at least three corners, not " +
+                      std::to_string(simplices.columns));
+  if(is_volume)
+    return std::make_unique<Array_deformation_of<3>>(points, simplices, weights);
+  return std::make_unique<Array_deformation_of<2>>(points, simplices, weights);
+}
+
+} // namespace CGAL::ARAP::bindings

@@ -1,0 +1,138 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_BINDINGS_ARRAY_DEFORMATION_H
+#define CGAL_ARAP_DEFORMATION_BINDINGS_ARRAY_DEFORMATION_H
+
+// CGAL::ARAP_deformation for arrays of numbers: what other languages are bound to. It only forwards.
+
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Dynamics.h>
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/quality.h>
+
+#include <any>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL::ARAP::bindings {
+
+// A call that failed: the message is the sentence of the outcome. What is misuse, such as an index
+// that is out of range, is a std::logic_error with a sentence. Either changes nothing.
+struct Deformation_error : std::runtime_error
+{
+  explicit Deformation_error(const Outcome& outcome)
+    : std::runtime_error(outcome.message), status(outcome.status)
+  {}
+  Status status;
+};
+
+// indices of vertices or handles, or numbers, row by row
+template <typename Number>
+struct Rows
+{
+  const Number* data = nullptr;
+  std::size_t rows = 0, columns = 1;
+
+  const Number* operator[](std::size_t row) const { return data + row * columns; }
+};
+using Indices = Rows<std::int32_t>;
+using Numbers = Rows<double>;
+
+struct Place // in a face or tetrahedron
+{
+  std::size_t simplex;
+  std::vector<double> coordinates; // barycentric
+  double distance;
+};
+
+// A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a control
+// point inside a simplex. The coordinates of a point, and the entries of a matrix, follow each other.
+class Array_deformation
+{
+public:
+  // returns what to do next, for the number and the energy of an iterate
+  using Visitor = std::function<Visitor_action(unsigned int, double)>;
+
+  virtual ~Array_deformation() = default;
+
+  virtual std::size_t number_of_vertices() const = 0;
+  virtual std::size_t number_of_simplices() const = 0;
+  virtual bool is_volume() const = 0;
+
+  // n x 3: where the vertices are. The memory stays the same as long as this object lives.
+  virtual const double* points() const = 0;
+  // n x 3: the rest shape
+  virtual const double* rest_points() const = 0;
+
+  virtual const Options& options() const = 0;
+  virtual void set_option(const std::string& name, const std::string& value) = 0;
+
+  // All vertices are in the region of interest at first.
+  virtual void set_region(Indices vertices) = 0;
+  virtual std::vector<std::int32_t> region() const = 0;
+
+  // vertices that become handles, whose targets are where they are
+  virtual void insert_handles(Indices vertices) = 0;
+  virtual void erase_handles(Indices handles) = 0;
+  virtual void clear_handles() = 0;
+  virtual std::vector<std::int32_t> handles() const = 0;
+
+  // the place nearest to a point, if there is any
+  virtual std::optional<Place> locate(const double* point) const = 0;
+  // returns the handle of a new control point
+  virtual std::int32_t insert_point(std::size_t simplex, Numbers coordinates) = 0;
+  virtual void point_position(std::int32_t handle, double* point) const = 0;
+
+  virtual void set_targets(Indices handles, Numbers targets) = 0; // k x 3
+  virtual void target(std::int32_t handle, double* point) const = 0;
+  // targets p to A p, with a 3 x 4 or 4 x 4 matrix; of the rest shape or of the present targets
+  virtual void transform(Indices handles, Numbers matrix, bool from_rest) = 0;
+  virtual void set_weight(Indices handles, double weight) = 0; // infinite: hard
+  virtual void set_rotation(Indices vertices, const double* matrix) = 0; // 3 x 3
+  virtual void set_rotations_of_motion(Indices vertices) = 0;
+  virtual void erase_rotations(Indices vertices) = 0;
+
+  // a value for each cell: n, or one for each simplex if cells are simplices; none clears them
+  virtual void set_stiffness(Numbers values) = 0;
+  virtual void set_groups(Indices groups) = 0;
+
+  virtual Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) = 0;
+  virtual Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) = 0;
+
+  virtual void reset() = 0;
+  virtual void make_rest_shape() = 0; // of the present positions
+  virtual std::any state() const = 0;
+  virtual void restore(const std::any& state) = 0;
+
+  virtual double energy() const = 0;
+  virtual std::vector<double> rotations() const = 0; // 3 x 3 for each cell
+  virtual Quality quality() const = 0;
+  virtual std::vector<double> quality_at_vertices(Vertex_measure measure) const = 0;
+};
+
+// points: n x 3; simplices: m x k. A volume has tetrahedra, k = 4; else they are faces of k corners.
+// All is copied. weights: see CGAL::ARAP::Chosen_edge_weight.
+std::unique_ptr<Array_deformation> make_array_deformation(Numbers points, Indices simplices,
+                                                          bool is_volume,
+                                                          const std::string& weights);
+
+} // namespace CGAL::ARAP::bindings
+
+#endif // CGAL_ARAP_DEFORMATION_BINDINGS_ARRAY_DEFORMATION_H
