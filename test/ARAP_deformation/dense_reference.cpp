@@ -330,12 +330,16 @@ void Dense_reference::make_cells(Cells scheme)
   const auto add = [&](std::size_t name, const std::vector<Edge>& edges) {
     Cell cell;
     cell.names = {name};
-    cell.is_moving = m_terms.smoothing_length > 0;
+    bool is_at_region = false;
     for(const Edge& e : edges)
     {
       cell.forms.push_back({stiffness(name) * e.weight, {{e.i, 1.0}, {e.j, -1.0}}});
       cell.is_moving |= m_selection[e.i] == 1 || m_selection[e.j] == 1;
+      is_at_region |= m_selection[e.i] != 0 || m_selection[e.j] != 0;
     }
+    if(!is_at_region)
+      return;
+    cell.is_moving |= m_terms.smoothing_length > 0;
     Form form;
     if(m_terms.bending_length > 0 &&
        make_bending_form(name, std::pow(m_terms.bending_length, 2) * stiffness(name), form))

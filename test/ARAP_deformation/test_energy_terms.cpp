@@ -94,11 +94,12 @@ std::vector<std::size_t> soft_vertices(const Scenario& s)
   return vertices;
 }
 
-// Soft targets of these vertices, the last of which is a plane, and a soft control point.
+// Soft targets of free vertices, the last of which is a plane, and a soft control point.
 template <typename Deformation>
-void add_rows(const Model& model, const std::vector<std::size_t>& vertices,
-              Deformation& deformation, Dense_reference& reference)
+void add_rows(const Model& model, const Scenario& s, Deformation& deformation,
+              Dense_reference& reference)
 {
+  const std::vector<std::size_t> vertices = soft_vertices(s);
   const Eigen::Vector3d normal = Eigen::Vector3d(1, -2, 0.5).normalized();
   for(const std::size_t v : vertices)
   {
@@ -119,7 +120,10 @@ void add_rows(const Model& model, const std::vector<std::size_t>& vertices,
       reference.add_row({{v, 1}}, weight, project);
     }
   }
-  const std::size_t number = model.simplices.size() / 2;
+  std::size_t number = model.simplices.size() / 2;
+  const auto is_outside = [&](std::size_t v) { return s.selection[v] == 0; };
+  while(std::any_of(model.simplices[number].begin(), model.simplices[number].end(), is_outside))
+    ++number; // it would get into the region of interest
   const auto& corners = model.simplices[number];
   const std::vector<double> shares(corners.size(), 1 / double(corners.size()));
   const auto inserted = deformation.insert_control_point(number, shares);
@@ -147,7 +151,7 @@ void compare(const Model& model, const Scenario& s, Cell_scheme cells,
   Dense_reference reference(model.points, model.simplices, Dimension, s.selection, dense_cells,
                             Dense_reference::SAFE, terms);
   if(has_rows)
-    add_rows(model, soft_vertices(s), deformation, reference);
+    add_rows(model, s, deformation, reference);
   apply(deformation, cells, terms);
   std::vector<Eigen::Vector3d> x = s.targets;
   std::vector<double> energies = {reference.energy(x)};
@@ -246,6 +250,14 @@ std::vector<Case> cases(const Model& model, const Scenario& s, double diameter)
     some_frames(terms);
     all.back().is_for_stars_only = true;
   }
+  {
+    Terms& terms = add("1-ring, groups and smooth rotations");
+    terms.rings = 1;
+    terms.smoothing_length = 0.05 * diameter;
+    for(std::size_t c = 0; c < model.points.size(); ++c)
+      terms.group.push_back(c % 3 == 0 ? int(c / 15) : -1);
+    all.back().is_for_stars_only = true;
+  }
   return all;
 }
 
@@ -258,15 +270,23 @@ void compare_all(const Model& model)
   for(int& status : whole.selection)
     if(status == 0)
       status = 2;
-  for(const Scenario& s : {part, whole})
+  Scenario patch = part; // a group, and what has smooth rotations, is cut where it ends
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for(const Eigen::Vector3d& p : model.points)
+    middle += p / double(model.points.size());
+  for(std::size_t v = 0; v < model.points.size(); ++v)
+    if((model.points[v] - middle).dot(Eigen::Vector3d(1, 0.9, 0.8)) < -0.05 * diameter)
+    {
+      patch.selection[v] = 0;
+      patch.targets[v] = model.points[v];
+    }
+  for(const Scenario& s : {part, patch, whole})
     for(const Case& c : cases(model, s, diameter))
       for(Dense_reference::Cells cells :
           {Dense_reference::SPOKES, Dense_reference::SPOKES_AND_RIMS, Dense_reference::ELEMENTS})
       {
-        const bool needs_all = !c.terms.group.empty() || c.terms.smoothing_length > 0;
         if((cells == Dense_reference::ELEMENTS && !c.is_for_elements) ||
-           (cells != Dense_reference::SPOKES && c.is_for_stars_only) ||
-           (needs_all && &s != &whole && s.selection != whole.selection))
+           (cells != Dense_reference::SPOKES && c.is_for_stars_only))
           continue;
         test_case() = model.name + ", " + c.name + ", cells " + std::to_string(cells);
         const Cell_scheme scheme =

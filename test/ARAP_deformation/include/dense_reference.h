@@ -138,7 +138,8 @@ private:
 
   double stiffness(std::size_t name) const;
 
-  // All cells that have an edge set with a free vertex, whole; where rotations are smooth all.
+  // All cells that have an edge set with a free vertex, whole; where rotations are smooth, and of a
+  // group in which something moves, all that have one with a vertex of the region of interest.
   void make_cells(Cells scheme);
 
   // the weight between two vertices or simplices that are neighbours
