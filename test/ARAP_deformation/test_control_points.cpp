@@ -199,8 +199,10 @@ void compare(const Held_shape<Dimension>& shape, Cell_scheme cells, Dense_refere
   Subject<Dimension, Solver> s(shape);
   auto& d = s.deformation;
   CHECK(d.set_options(options_for(cells, Minimizer::local_global)));
+  Dense_reference::Terms terms_of_energy;
+  terms_of_energy.rings = cells.rings();
   Dense_reference reference(shape.points, shape.simplices, Dimension, shape.scenario.selection,
-                            dense, Dense_reference::SAFE);
+                            dense, Dense_reference::SAFE, terms_of_energy);
   const Kernel::Plane_3 plane(Point(0.3, 0.2, 0.4), Kernel::Vector_3(1, 2, 3));
   const std::vector<std::size_t> places = shape.places(8);
   for(std::size_t k = 0; k < places.size(); ++k)
@@ -258,11 +260,14 @@ void compare_all(const Held_shape<Dimension>& shape)
 {
   const std::pair<Cell_scheme, Dense_reference::Cells> schemes[] = {
     {Cell_scheme::spokes(), Dense_reference::SPOKES},
+    {Cell_scheme::k_ring(1), Dense_reference::SPOKES},
+    {Cell_scheme::k_ring(2), Dense_reference::SPOKES},
     {Cell_scheme::spokes_and_rims(), Dense_reference::SPOKES_AND_RIMS},
     {Cell_scheme::elements(), Dense_reference::ELEMENTS}};
   for(const auto& [cells, dense] : schemes)
   {
-    test_case() = shape.name + ", cells " + std::to_string(dense);
+    test_case() = shape.name + ", cells " + std::to_string(dense) + ", rings " +
+                  std::to_string(cells.rings());
     compare<CGAL::Default>(shape, cells, dense);
     compare<Compiled_LDLT_solver>(shape, cells, dense);
   }
@@ -277,7 +282,7 @@ namespace solvers {
 template <typename Solver, int Dimension>
 void test(const std::string& name, const Held_shape<Dimension>& shape)
 {
-  for_all_options([&](const CGAL::ARAP::Options& options) {
+  const auto run = [&](const CGAL::ARAP::Options& options) {
     test_case() = name + ", " + shape.name;
     Subject<Dimension, Solver> s(shape);
     CHECK(s.deformation.set_options(options));
@@ -291,7 +296,10 @@ void test(const std::string& name, const Held_shape<Dimension>& shape)
     CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
     CHECK(report.energy[30] < report.energy[0]);
     CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
-  });
+  };
+  for_all_options(run);
+  for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+    run(options_for(Cell_scheme::k_ring(2), minimizer));
 }
 
 template <int Dimension>
@@ -372,8 +380,10 @@ void test_rigid(const Held_shape<Dimension>& shape)
   std::vector<Eigen::Vector3d> moved;
   for(const auto& p : shape.points)
     moved.push_back(motion * p);
+  std::vector<Cell_scheme> schemes(all_cell_schemes.begin(), all_cell_schemes.end());
+  schemes.push_back(Cell_scheme::k_ring(2));
   for(double weight : {infinite, 0.5})
-    for(const Cell_scheme& cells : all_cell_schemes)
+    for(const Cell_scheme& cells : schemes)
     {
       if(Dimension == 2 && cells == Cell_scheme::elements())
         continue; // triangles fold
@@ -534,12 +544,13 @@ void test_input()
 namespace histories {
 
 template <typename Solver, int Dimension>
-void test_random_changes(const Held_shape<Dimension>& shape, bool is_held)
+void test_random_changes(const Held_shape<Dimension>& shape, bool is_held, Cell_scheme cells)
 {
   std::mt19937 generator(5);
   const auto random = [&](std::size_t n) { return generator() % n; };
   Subject<Dimension, Solver> s(shape, false);
   auto& d = s.deformation;
+  CHECK(d.set_options(options_for(cells)));
   for(std::size_t v = 0; v < s.points.size(); ++v)
     d.insert_roi_vertex(v);
   if(is_held)
@@ -592,6 +603,7 @@ void test_random_changes(const Held_shape<Dimension>& shape, bool is_held)
     // a fresh object in the same state; its rest shape is what it finds first
     Subject<Dimension, Solver> t(shape, false);
     auto& fresh = t.deformation;
+    CHECK(fresh.set_options(options_for(cells)));
     for(std::size_t v = 0; v < t.points.size(); ++v)
       fresh.insert_roi_vertex(v);
     t.points = s.points;
@@ -1041,10 +1053,12 @@ void test_all(const Held_shape<Dimension>& shape)
   solvers::test_all(shape);
   limits::test_all(shape);
   for(bool is_held : {true, false})
-  {
-    histories::test_random_changes<CGAL::Default>(shape, is_held);
-    histories::test_random_changes<Compiled_LDLT_solver>(shape, is_held);
-  }
+    for(const Cell_scheme& cells :
+        {Cell_scheme::spokes_and_rims(), Cell_scheme::k_ring(1), Cell_scheme::k_ring(2)})
+    {
+      histories::test_random_changes<CGAL::Default>(shape, is_held, cells);
+      histories::test_random_changes<Compiled_LDLT_solver>(shape, is_held, cells);
+    }
   locations::test(shape);
 }
 

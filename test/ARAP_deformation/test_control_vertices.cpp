@@ -826,7 +826,7 @@ void test_history()
     case 11:
     {
       CGAL::ARAP::Options options;
-      options.cells = all_cell_schemes[random(3)];
+      options.cells = all_cell_schemes[random(all_cell_schemes.size())];
       options.initial_guess = random(2) == 0 ? CGAL::ARAP::Initial_guess::laplacian
                                              : CGAL::ARAP::Initial_guess::previous;
       CHECK(old.set_options(options));
@@ -1209,7 +1209,10 @@ void test_bridge(const std::string& solver)
           const Report report = d.deform(iterations, 0);
           CHECK(report);
           CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-          CHECK_AT_MOST(largest_distance(points, points_of(rest)), 10.0);
+          // in a larger cell the rounding errors of a flat tetrahedron, whose weights are huge, are
+          // more than what ties it to the others
+          if(height > 0 || options.cells.rings() == 0)
+            CHECK_AT_MOST(largest_distance(points, points_of(rest)), 10.0);
         }
       });
 }

@@ -93,9 +93,9 @@ std::vector<double> contents(const Model& model)
 
 Dense_reference::Cells dense(Cell_scheme cells)
 {
-  return cells == Cell_scheme::spokes()            ? Dense_reference::SPOKES
-         : cells == Cell_scheme::spokes_and_rims() ? Dense_reference::SPOKES_AND_RIMS
-                                                   : Dense_reference::ELEMENTS;
+  return cells.edge_set() == CGAL::ARAP::Edge_set::star ? Dense_reference::SPOKES
+         : cells == Cell_scheme::spokes_and_rims()      ? Dense_reference::SPOKES_AND_RIMS
+                                                        : Dense_reference::ELEMENTS;
 }
 
 Vector3d eigen(const Coordinates& c) { return {c[0], c[1], c[2]}; }
@@ -113,14 +113,20 @@ CGAL::ARAP::Options options(Cell_scheme cells, Minimizer minimizer, double toler
   return result;
 }
 
-// stiffness, bending, cells of one ring more and a frame at vertex 0
-Terms some_terms(std::size_t n)
+Terms terms_of(Cell_scheme cells)
 {
   Terms terms;
+  terms.rings = cells.rings();
+  return terms;
+}
+
+// stiffness, bending and a frame at vertex 0
+Terms some_terms(Cell_scheme cells, std::size_t n)
+{
+  Terms terms = terms_of(cells);
   for(std::size_t k = 0; k < n; ++k)
     terms.stiffness.push_back(0.5 + 0.2 * double(k % 7));
   terms.bending_length = 0.2;
-  terms.rings = 1;
   terms.frames[0] = Eigen::AngleAxisd(0.3, Vector3d(1, 2, 2) / 3).toRotationMatrix();
   return terms;
 }
@@ -131,7 +137,7 @@ template <int Dimension>
 void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer, bool has_terms = false)
 {
   const Model model = make_model<Dimension>();
-  const Terms terms = has_terms ? some_terms(model.points.size()) : Terms();
+  const Terms terms = has_terms ? some_terms(cells, model.points.size()) : terms_of(cells);
   const std::size_t n = model.points.size();
   std::vector<Point> points = points_of(model.points);
   Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
@@ -141,10 +147,7 @@ void compare(Cell_scheme cells, bool has_handles, Minimizer minimizer, bool has_
   o.iterations = is_local_global ? 5 : 1000;
   o.bending_length = terms.bending_length;
   if(has_terms)
-  {
-    o.cells = Cell_scheme::k_ring(terms.rings);
     deformation.set_stiffness(terms.stiffness);
-  }
   CHECK(deformation.set_options(o));
   Dynamics dynamics;
   dynamics.time_step = 0.05;
@@ -315,7 +318,9 @@ void fall(Cell_scheme cells, Minimizer minimizer)
     const Step_report report = deformation.advance(dynamics);
     if(!CHECK(report))
       return;
-    CHECK(report.iterations == 0); // rounding errors are known for what they are
+    // rounding errors are known for what they are; the steps add them up, and large cells turn
+    // after few of them
+    CHECK_AT_MOST(report.iterations, cells.rings() > 0 ? 1.0 : 0.0);
     std::vector<Vector3d> expected = model.points;
     for(auto& p : expected)
       p += way;
@@ -359,7 +364,7 @@ void hang(Cell_scheme cells, Minimizer minimizer)
     x.push_back(vector(p));
   CHECK(largest_distance(x, model.points) > 0.02);
   Dense_reference reference(model.points, model.simplices, Dimension, selection, dense(cells),
-                            Dense_reference::SAFE);
+                            Dense_reference::SAFE, terms_of(cells));
   const std::vector<double> content = contents(model);
   for(std::size_t v = 4; v < n; ++v)
     for(int k = 0; k < 3; ++k) // the derivative of mu E - m a x
@@ -371,8 +376,9 @@ void hang(Cell_scheme cells, Minimizer minimizer)
         return dynamics.modulus * reference.energy(y);
       };
       const double force = content[v] * dynamics.acceleration[std::size_t(k)];
+      // larger cells have as many times the energy as they have stars
       CHECK_AT_MOST(std::abs((shifted(eps) - shifted(-eps)) / (2 * eps) - force),
-                    is_local_global ? 1e-3 : 1e-6);
+                    (is_local_global ? 1e-3 : 1e-6) * (1 + 6 * cells.rings()));
     }
 }
 
@@ -555,11 +561,12 @@ void run_all()
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
     {
       test_case() = std::to_string(Dimension) + "D, cells " +
-                    std::to_string(int(dense(cells))) + ", minimizer " +
+                    std::to_string(int(dense(cells))) + ", rings " +
+                    std::to_string(cells.rings()) + ", minimizer " +
                     std::to_string(int(minimizer));
       compare<Dimension>(cells, false, minimizer);
       compare<Dimension>(cells, true, minimizer);
-      if(cells == Cell_scheme::spokes())
+      if(cells.rings() > 0)
         compare<Dimension>(cells, true, minimizer, true);
       const bool is_default = cells == Cell_scheme::spokes_and_rims();
       conserve<Dimension>(cells, minimizer, 0, is_default ? 500 : 50);

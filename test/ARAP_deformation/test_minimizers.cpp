@@ -602,6 +602,7 @@ void test_all()
       for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
       {
         test_case() = shape.name + (cells == Cell_scheme::spokes() ? ", spokes" :
+                                    cells.rings() > 0 ? ", larger cells" :
                                     cells.has_vertex_cells() ? ", spokes and rims" : ", elements") +
                       (minimizer == Minimizer::local_global ? ", local/global" : ", quasi-Newton");
         check_run(shape, cells, minimizer);

@@ -147,7 +147,8 @@ void test_models()
 {
   const auto test = [](Faults& faults, Fault_statistics& statistics, Cell_scheme cells) {
     test_stories(Fault_test<Session<Surface, Faulty_traits>>(faults, statistics), "surface", cells);
-    test_stories(Fault_test<Session<Solid, Faulty_traits>>(faults, statistics), "solid", cells);
+    test_stories(Fault_test<Session<Solid, Faulty_traits>>(faults, statistics), "solid",
+                 cells.rings() > 0 ? Cell_scheme::k_ring(2) : cells);
   };
   Fault_statistics solver("solver"), weight("weights"), rotation("rotation");
   for(Cell_scheme cells : all_cell_schemes)

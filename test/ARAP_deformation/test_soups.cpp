@@ -595,7 +595,7 @@ Problem<N> random_problem(Random& random)
   }
   for(std::size_t corner : {0, 1}) // there is something to hold on to
     problem.roles[simplices[0][corner]] = {true, true, points[simplices[0][corner]]};
-  problem.options.cells = all_cell_schemes[random.index(3)];
+  problem.options.cells = all_cell_schemes[random.index(all_cell_schemes.size())];
   problem.options.minimizer = random.index(2) ? Minimizer::local_global : Minimizer::quasi_newton;
   problem.options.initial_guess = random.index(2) ? Initial_guess::previous
                                                   : Initial_guess::laplacian;

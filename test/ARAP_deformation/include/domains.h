@@ -35,8 +35,9 @@
 
 using CGAL::ARAP::Cell_scheme;
 
-inline const std::array<Cell_scheme, 3> all_cell_schemes = {
-  Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()};
+inline const std::array<Cell_scheme, 4> all_cell_schemes = {
+  Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements(),
+  Cell_scheme::k_ring(1)};
 
 inline CGAL::ARAP::Options options_for(
   const Cell_scheme& cells,

@@ -174,6 +174,8 @@ inline std::string name_of(const Options& options)
     name += ", Laplacian guess";
   if(options.cells == Cell_scheme::spokes())
     return name + ", spokes";
+  if(options.cells.rings() > 0)
+    return name + ", larger cells";
   return name + (options.cells == Cell_scheme::elements() ? ", elements" : ", spokes and rims");
 }
 
