@@ -17,9 +17,12 @@
 
 #include "domains.h"
 
+#include <CGAL/ARAP_deformation/Dynamics.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -32,6 +35,9 @@ struct Term_run
   std::string name;
   CGAL::ARAP::Options options;
   bool stiffness = false, groups = false, frames = false, soft = false, points = false;
+  bool sets = false;    // planes and lines as the soft targets
+  int steps = 0;        // of time, instead of one run
+  bool is_free = false; // nothing is fixed or pulled
 };
 
 // Each term with all cells that can have it, and all of them together.
@@ -57,7 +63,16 @@ inline std::vector<Term_run> term_runs(double diameter)
     together.options.smoothing_length = 0.05 * diameter;
     together.options.bending_length = cells.has_vertex_cells() ? 0.03 * diameter : 0;
     together.stiffness = together.groups = together.frames = together.soft = true;
-    together.points = true;
+    together.points = together.sets = true;
+    Term_run& steps = all.emplace_back(together);
+    steps.name = "steps";
+    steps.steps = 3;
+    Term_run& free_steps = add("free steps", cells);
+    free_steps.options.smoothing_length = 0.1 * diameter;
+    free_steps.steps = 5;
+    free_steps.is_free = true;
+    Term_run& sets = add("sets", cells);
+    sets.soft = sets.sets = true;
   }
   add("2-ring", Cell_scheme::k_ring(2));
   return all;
@@ -100,7 +115,69 @@ struct Numbering
   std::map<Simplex, std::size_t> simplex_number;
 };
 
-// Ten iterations with the terms of a run.
+// Time steps, each of twenty iterations, against what mechanics says of motions.
+template <typename Deformation>
+std::vector<double> advance(Deformation& deformation, const Term_run& run,
+                            const std::vector<typename Deformation::vertex_descriptor>& vertices)
+{
+  using Domain = typename Deformation::Deformation_domain;
+  CGAL::ARAP::Options options = run.options;
+  options.iterations = 20;
+  options.tolerance = 0;
+  CHECK(deformation.set_options(options));
+  CGAL::ARAP::Dynamics dynamics;
+  dynamics.time_step = 0.02;
+  dynamics.density = 2;
+  dynamics.modulus = 20;
+  dynamics.acceleration = {0.5, 0, -3};
+  for(const auto& v : vertices)
+  {
+    const CGAL::ARAP::Coordinates p = Domain::coordinates(deformation.domain().point(v));
+    deformation.set_velocity(v, Eigen::Vector3d(0.3 - p[1], p[0] + 0.4 * p[2], std::sin(p[0])));
+  }
+  std::vector<double> energies;
+  CGAL::ARAP::Coordinates momentum = {};
+  double energy = 0;
+  for(int step = 0; step < run.steps; ++step)
+  {
+    const CGAL::ARAP::Step_report report = deformation.advance(dynamics);
+    if(!CHECK(report))
+      std::cerr << "    " << report.message << std::endl;
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK(report.stages.factor == (step == 0));
+    energies.insert(energies.end(), report.energy.begin(), report.energy.end());
+    double sum = report.kinetic_energy + report.elastic_energy;
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      momentum[k] += dynamics.time_step * report.mass * dynamics.acceleration[k];
+      if(step > 0 && run.is_free)
+        CHECK_AT_MOST(std::abs(report.momentum[k] - momentum[k]),
+                      1e-9 * std::sqrt(2 * report.mass * report.kinetic_energy));
+      sum -= report.mass * dynamics.acceleration[k] * report.center_of_mass[k];
+    }
+    momentum = report.momentum;
+    if(step > 0 && run.is_free)
+      CHECK_AT_MOST(sum, energy + 1e-9 * report.kinetic_energy);
+    energy = sum;
+  }
+  return energies;
+}
+
+// onto a plane or a line
+template <typename Domain>
+auto projection(bool is_onto_plane)
+{
+  return [is_onto_plane](const typename Domain::Point& p) {
+    const CGAL::ARAP::Coordinates c = Domain::coordinates(p);
+    const Eigen::Vector3d direction = Eigen::Vector3d(1, -2, 0.5).normalized(),
+                          on_it(0.1, 0.2, 0.3), from(c[0], c[1], c[2]);
+    const Eigen::Vector3d along = direction * direction.dot(from - on_it),
+                          to = is_onto_plane ? Eigen::Vector3d(from - along) : on_it + along;
+    return Domain::make_point({to[0], to[1], to[2]});
+  };
+}
+
+// Ten iterations with the terms of a run, or its time steps.
 template <typename Deformation>
 Result deform_with(Deformation& deformation,
                    const std::vector<typename Deformation::vertex_descriptor>& vertices,
@@ -117,7 +194,10 @@ Result deform_with(Deformation& deformation,
   const auto group = [](std::size_t k) { return k % 7 < 2 ? int(k / 14) : -1; };
 
   CHECK(deformation.set_options(run.options));
-  prepare(deformation, s, vertices);
+  if(run.is_free)
+    deformation.insert_roi_vertices(vertices);
+  else
+    prepare(deformation, s, vertices);
   const bool is_at_vertices = run.options.cells.has_vertex_cells();
   if(run.stiffness && is_at_vertices)
     deformation.set_stiffness([&](Vertex v) { return stiffness(of_vertex(v)); });
@@ -132,6 +212,8 @@ Result deform_with(Deformation& deformation,
     {
       if(run.soft && k % 3 != 0)
         CHECK(deformation.set_target_weight(vertices[k], 0.5 + double(k % 3)));
+      if(run.sets && k % 3 != 0)
+        CHECK(deformation.set_target_set(vertices[k], projection<Domain>(k % 3 == 1)));
       if(run.frames && k % 4 == 0)
         CHECK(deformation.set_target_rotation(vertices[k], Eigen::Quaterniond(Eigen::AngleAxisd(
           0.3 + 0.01 * double(k), Eigen::Vector3d(1, 0.2 * double(k % 5), -0.5).normalized()))));
@@ -157,11 +239,17 @@ Result deform_with(Deformation& deformation,
     if(k % 2 == 1)
       CHECK(deformation.set_target_weight(inserted.point, 2.0));
   }
-  const CGAL::ARAP::Report report = deformation.deform(10, 0);
-  if(!CHECK(report))
-    std::cerr << "    " << report.message << std::endl;
-  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-  Result result{report.energy, {}};
+  Result result;
+  if(run.steps > 0)
+    result.energy = advance(deformation, run, vertices);
+  else
+  {
+    const CGAL::ARAP::Report report = deformation.deform(10, 0);
+    if(!CHECK(report))
+      std::cerr << "    " << report.message << std::endl;
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    result.energy = report.energy;
+  }
   for(const Vertex& v : vertices)
   {
     const CGAL::ARAP::Coordinates c = Domain::coordinates(domain.point(v));
