@@ -35,6 +35,8 @@
 #include <map>
 #include <random>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 using CGAL::ARAP::Minimizer;
@@ -1328,14 +1330,22 @@ void test_all()
 // A pulled vertex is no spike: the shape around it is the same at every resolution.
 namespace spikes {
 
-// the heights at distances from the middle of a square whose border is fixed
-std::vector<double> heights(int quads, double bending_length, double size, Report& report)
+// A square or a cube whose border is fixed, with the vertex in its middle, and others at distances
+// from it.
+struct Pulled
 {
-  std::vector<Point> points;
-  std::vector<std::array<std::size_t, 3>> triangles;
+  Model model;
+  std::size_t middle;
+  std::vector<std::size_t> places;
+};
+
+Pulled square(int quads)
+{
+  Pulled pulled;
+  auto& [name, points, triangles] = pulled.model;
   for(int i = 0; i <= quads; ++i)
     for(int j = 0; j <= quads; ++j)
-      points.emplace_back(size * i / quads, size * j / quads, 0);
+      points.emplace_back(double(i) / quads, double(j) / quads, 0);
   const auto vertex = [=](int i, int j) { return std::size_t(i * (quads + 1) + j); };
   for(int i = 0; i < quads; ++i)
     for(int j = 0; j < quads; ++j)
@@ -1349,55 +1359,168 @@ std::vector<double> heights(int quads, double bending_length, double size, Repor
         triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
         triangles.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
       }
-  CGAL::ARAP_deformation d(CGAL::ARAP::make_polygon_soup_domain(points, triangles));
+  pulled.middle = vertex(quads / 2, quads / 2);
+  for(int k : {0, 1, 2, 3, 4, 6}) // distances of 0, .05, ... .3
+    pulled.places.push_back(vertex(quads / 2 + k * quads / 20, quads / 2));
+  return pulled;
+}
+
+// each small cube is cut in six tetrahedra, alike
+Pulled cube(int edges)
+{
+  Pulled pulled;
+  auto& [name, points, tetrahedra] = pulled.model;
+  const auto vertex = [=](const std::array<int, 3>& p) {
+    return std::size_t((p[0] * (edges + 1) + p[1]) * (edges + 1) + p[2]);
+  };
+  for(int x = 0; x <= edges; ++x)
+    for(int y = 0; y <= edges; ++y)
+      for(int z = 0; z <= edges; ++z)
+      {
+        points.emplace_back(double(x) / edges, double(y) / edges, double(z) / edges);
+        std::array<int, 3> order = {0, 1, 2};
+        do
+        {
+          std::array<int, 3> p = {x, y, z};
+          Dense_reference::Simplex tetrahedron = {vertex(p)};
+          for(int axis : order)
+          {
+            ++p[std::size_t(axis)];
+            tetrahedron.push_back(vertex(p));
+          }
+          if((std::max)({x, y, z}) < edges)
+            tetrahedra.push_back(tetrahedron);
+        }
+        while(std::next_permutation(order.begin(), order.end()));
+      }
+  const int m = edges / 2;
+  pulled.middle = vertex({m, m, m});
+  for(int k : {edges / 8, edges / 4, 3 * edges / 8})
+  {
+    pulled.places.push_back(vertex({m + k, m, m}));
+    pulled.places.push_back(vertex({m, m, m + k}));
+  }
+  return pulled;
+}
+
+// how high these are lifted when the middle is lifted by a fifth of the size
+template <int Dimension>
+std::vector<double> heights(const Pulled& pulled, Cell_scheme cells, double bending_length,
+                            Report& report, double size = 1)
+{
+  std::vector<Point> points;
+  for(const Eigen::Vector3d& p : pulled.model.points)
+    points.push_back(point(size * p));
+  const std::vector<Point> rest = points;
+  CGAL::ARAP_deformation<Soup<Dimension>> d(Soup<Dimension>(points, pulled.model.simplices));
   Options options;
-  options.bending_length = bending_length * size * std::sqrt(2.0);
+  options.cells = cells;
+  options.bending_length = bending_length * size * std::sqrt(double(Dimension));
   options.tolerance = 1e-6;
   CHECK(d.set_options(options));
   d.insert_roi_vertices(numbers(points.size()));
-  for(int i = 0; i <= quads; ++i)
-    for(int j = 0; j <= quads; ++j)
-      if(i == 0 || j == 0 || i == quads || j == quads)
-        d.insert_control_vertex(vertex(i, j));
-  const std::size_t middle = vertex(quads / 2, quads / 2);
-  d.insert_control_vertex(middle, Point(size / 2, size / 2, 0.2 * size));
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    const Eigen::Vector3d p = pulled.model.points[v];
+    if((p.head<Dimension>().array() == 0).any() || (p.head<Dimension>().array() == 1).any())
+      d.insert_control_vertex(v);
+  }
+  d.insert_control_vertex(pulled.middle);
+  d.translate(pulled.middle, Eigen::Vector3d(0, 0, 0.2 * size));
   report = d.deform();
   CHECK(report);
   std::vector<double> result;
-  for(int k : {0, 1, 2, 3, 4, 6}) // distances of 0, .05, ... .3
-    result.push_back(points[vertex(quads / 2 + k * quads / 20, quads / 2)].z() / size);
+  for(std::size_t v : pulled.places)
+    result.push_back((points[v].z() - rest[v].z()) / size);
   return result;
+}
+
+// The largest change of a height from each resolution to the next one.
+template <int Dimension>
+std::vector<double> changes(const std::vector<int>& resolutions, Cell_scheme cells,
+                            double bending_length)
+{
+  std::vector<double> result, last;
+  for(int resolution : resolutions)
+  {
+    Report report;
+    const std::vector<double> now = heights<Dimension>(
+      Dimension == 2 ? square(resolution) : cube(resolution), cells, bending_length, report);
+    std::cout << test_case() << ", length " << bending_length << ", " << resolution
+              << " edges a side: energy " << report.final_energy() << ", " << report.iterations
+              << " iterations, heights";
+    for(double height : now)
+      std::cout << ' ' << height;
+    std::cout << std::endl;
+    for(std::size_t k = 0; k < last.size(); ++k)
+      if(k == 0)
+        result.push_back(std::abs(now[k] - last[k]));
+      else
+        result.back() = larger(result.back(), std::abs(now[k] - last[k]));
+    last = now;
+  }
+  return result;
+}
+
+void test_square()
+{
+  std::vector<int> resolutions = {40, 80};
+  if(is_long_run())
+    resolutions.push_back(160);
+  for(const auto& [name, cells, length] :
+      {std::tuple("spokes and rims", Cell_scheme::spokes_and_rims(), 0.1),
+       std::tuple("spokes and rims", Cell_scheme::spokes_and_rims(), 0.02), // about an edge
+       std::tuple("spokes", Cell_scheme::spokes(), 0.02),
+       std::tuple("1-ring", Cell_scheme::k_ring(1), 0.1)})
+  {
+    test_case() = std::string("a pulled vertex of a sheet, ") + name;
+    for(double change : changes<2>(resolutions, cells, length))
+      CHECK_AT_MOST(change, 2e-3);
+  }
+  test_case() = "a pulled vertex of a sheet, without bending";
+  for(double change : changes<2>(resolutions, Cell_scheme::spokes_and_rims(), 0))
+    CHECK(change > 4e-3);
+}
+
+// Around a vertex of a volume the shape has a tip, so that more edges are needed. Without bending
+// there is nothing but a spike, as thin as the edges are long.
+void test_cube()
+{
+  std::vector<int> resolutions = {8, 16};
+  if(is_long_run())
+    resolutions.push_back(24);
+  for(const auto& cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::spokes()})
+  {
+    if(cells == Cell_scheme::spokes() && !is_long_run())
+      continue;
+    test_case() = "a pulled vertex of a cube";
+    const std::vector<double> bent = changes<3>(resolutions, cells, 0.2);
+    CHECK_AT_MOST(bent[0], 8e-3);
+    if(bent.size() > 1)
+      CHECK_AT_MOST(bent[1], 2e-3);
+  }
+  test_case() = "a pulled vertex of a cube, without bending";
+  for(double change : changes<3>(resolutions, Cell_scheme::spokes_and_rims(), 0))
+    CHECK(change > 1e-2);
 }
 
 void test_all()
 {
-  test_case() = "a pulled vertex";
-  std::vector<int> resolutions = {40, 80};
-  if(is_long_run())
-    resolutions.push_back(160);
-  std::vector<double> last, last_without;
-  for(int quads : resolutions)
-  {
-    Report report, report_without;
-    const std::vector<double> now = heights(quads, 0.1, 1, report),
-                              without = heights(quads, 0, 1, report_without);
-    std::cout << quads << " quads a side: " << report.iterations << " iterations with bending, "
-              << report_without.iterations << " without; heights";
-    for(double height : now)
-      std::cout << ' ' << height;
-    std::cout << '\n';
-    if(!last.empty())
-      for(std::size_t k = 0; k < now.size(); ++k)
-      {
-        CHECK_AT_MOST(std::abs(now[k] - last[k]), 2e-3);
-        CHECK(k == 0 || now[k] > without[k] + 0.01); // no spike
-      }
-    last = now;
-  }
-  Report report, larger;
-  const std::vector<double> one = heights(20, 0.1, 1, report), ten = heights(20, 0.1, 10, larger);
+  test_square();
+  test_cube();
+  test_case() = "a pulled vertex, ten times the size";
+  const auto rims = Cell_scheme::spokes_and_rims();
+  Report report;
+  const std::vector<double> one = heights<2>(square(20), rims, 0.1, report),
+                            ten = heights<2>(square(20), rims, 0.1, report, 10);
   for(std::size_t k = 0; k < one.size(); ++k)
     CHECK_AT_MOST(std::abs(one[k] - ten[k]), 1e-6);
+  Report report_without;
+  const std::vector<double> bent = heights<2>(square(40), rims, 0.1, report),
+                            without = heights<2>(square(40), rims, 0, report_without);
+  CHECK(report.iterations < report_without.iterations);
+  for(std::size_t k = 1; k < bent.size(); ++k)
+    CHECK(bent[k] > without[k] + 0.01); // no spike
 }
 
 } // namespace spikes
