@@ -52,6 +52,7 @@ void test_cell_schemes()
   }
   test_story_of_terms(fault_test<Session<Surface>>(statistics), "surface, terms");
   test_story_of_terms(fault_test<Session<Solid>>(statistics), "solid, terms");
+  test_story_of_undo(fault_test<Session<Surface>>(statistics), "surface, undo");
 }
 
 template <typename Solver>

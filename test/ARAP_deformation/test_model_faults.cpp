@@ -235,6 +235,8 @@ void test_domain()
     test_stories(Fault_test<Session_>(domain_faults, domain), "domain", cells);
     test_stories(Fault_test<Session_>(put_faults, put, false), "writing points", cells);
   }
+  test_story_of_undo(Fault_test<Session_>(domain_faults, domain), "domain, undo");
+  test_story_of_undo(Fault_test<Session_>(put_faults, put, false), "writing points, undo");
 }
 
 // A point whose copies may throw, and what is moved does not.
@@ -296,8 +298,9 @@ struct Solid_of_faulty_points
 void test_points()
 {
   Fault_statistics statistics("copies of points");
-  test_stories(Fault_test<Session<Solid_of_faulty_points>>(point_faults, statistics), "points",
-               Cell_scheme::elements());
+  using Session_ = Session<Solid_of_faulty_points>;
+  test_stories(Fault_test<Session_>(point_faults, statistics), "points", Cell_scheme::elements());
+  test_story_of_undo(Fault_test<Session_>(point_faults, statistics), "points, undo");
 }
 
 // the points of a surface, which may fail to be read and written

@@ -98,6 +98,7 @@ struct Session
   Deformed_ deformed;
   Traits traits;
   std::optional<Deformation> deformation;
+  std::optional<typename Deformation::State> kept;
 
   explicit Session(const Traits& t = Traits(), const Deformed_& d = Deformed_())
     : deformed(d), traits(t)
@@ -253,6 +254,21 @@ struct Steps
     }};
   }
 
+  static Step_ keep_state()
+  {
+    return {"keep the state", [](Session& s) {
+      s.kept.emplace(s.deformation->state());
+      return true;
+    }};
+  }
+
+  static Step_ restore()
+  {
+    return {"restore the state", [](Session& s) {
+      return bool(s.deformation->restore(*s.kept));
+    }};
+  }
+
   static Step_ overwrite()
   {
     return {"overwrite the rest shape", [](Session& s) {
@@ -304,6 +320,20 @@ void test_story_of_terms(Fault_test<Session> test, const std::string& name)
                        CGAL::ARAP::Initial_guess::previous),
         S::set_terms(), S::deform(" with all terms"), S::set_target_set(),
         S::deform(" with a set"), S::advance()}, 3);
+}
+
+// The same for the return to a state with another region, other control vertices and rest shape.
+template <typename Session>
+void test_story_of_undo(Fault_test<Session> test, const std::string& name)
+{
+  using S = Steps<Session>;
+  test(name, [] { return std::make_unique<Session>(); },
+       {S::construct(), S::insert(),
+        S::set_options(Cell_scheme::spokes_and_rims(), CGAL::ARAP::Minimizer::local_global,
+                       CGAL::ARAP::Initial_guess::previous),
+        S::deform(), S::keep_state(), S::overwrite(), S::change_control_vertices(),
+        S::insert_control_point(), S::deform(" otherwise"), S::restore(),
+        S::deform(" after the return")}, 9);
 }
 
 // with the class that replaces CGAL's

@@ -183,12 +183,12 @@ struct Built_region
     return constraints;
   }
 
-  // The cells of a region that has just been collected get the rotations that they have elsewhere.
-  void take_over(const Cell_rotations<Domain>& from, const Domain& domain)
+  // the rotations that these cells have elsewhere; the identity where they have none
+  Array<Matrix_3x3> rotations_from(const Cell_rotations<Domain>& from, const Domain& domain) const
   {
+    Array<Matrix_3x3> rotations(core->rotations().size(), identity_matrix());
     if(!from.region)
-      return;
-    Array<Matrix_3x3> rotations = core->rotations();
+      return rotations;
     const bool are_at_vertices = core->has_vertex_cells();
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(const int old = are_at_vertices
@@ -196,7 +196,7 @@ struct Built_region
                            : from.region->find_simplex(domain, region->simplices[c]);
          old >= 0 && old < static_cast<int>(from.rotations.size()))
         rotations[c] = from.rotations[old];
-    core->set_rotations(std::move(rotations));
+    return rotations;
   }
 
   // a sentence on what the core found

@@ -191,8 +191,23 @@ public:
   // whether stiffness and lengths are those of a state
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
-  // The entries of the vertices have been restored before. Stages that are the same stay ready.
-  void restore(State state, const Vertices& vertices)
+  // Makes positions and rotations of a state those of the present region, whatever region it had.
+  // find_entry(v) is the entry that a vertex has in the state.
+  template <typename Function>
+  void renumber(State& state, const Domain& domain, const Function& find_entry) const
+  {
+    if(!has_region() || m_prepared->numbering == state.numbering)
+      return;
+    Array<Coordinates> positions = m_prepared->positions;
+    for(std::size_t k = 0; k < positions.size(); ++k)
+      if(const auto* entry = find_entry(region().vertices[k]))
+        positions[k] = Domain::coordinates(entry->present);
+    state.cells.rotations = m_prepared->rotations_from(state.cells, domain);
+    state.positions.swap(positions);
+  }
+
+  // Takes a state that was renumbered. Stages that are the same stay ready. Throws nothing.
+  void restore(State state)
   {
     const std::size_t values = m_present.values; // stiffness and options are no part of it
     const bool is_inertia_other = state.inertia != m_inertia;
@@ -206,17 +221,8 @@ public:
       m_restored = std::move(state.cells);
       return;
     }
-    if(m_prepared->numbering == state.numbering)
-    {
-      m_prepared->positions.swap(state.positions);
-      core().set_rotations(std::move(state.cells.rotations));
-      return;
-    }
-    core().reset_rotations();
-    m_prepared->take_over(state.cells, vertices.domain());
-    for(std::size_t k = 0; k < m_prepared->positions.size(); ++k)
-      if(const auto* entry = vertices.find(region().vertices[k]))
-        m_prepared->positions[k] = Domain::coordinates(entry->present);
+    m_prepared->positions.swap(state.positions);
+    core().set_rotations(std::move(state.cells.rotations));
   }
 
   // a sentence on what the core found
@@ -257,8 +263,9 @@ private:
         return made;
       const bool are_kept =
         m_prepared && (m_rules.are_targets_and_rotations_kept || has_region());
-      next->take_over(are_kept ? Cell_rotations<Domain>{m_prepared->region, core().rotations()}
-                               : m_restored, vertices.domain());
+      next->core->set_rotations(next->rotations_from(
+        are_kept ? Cell_rotations<Domain>{m_prepared->region, core().rotations()} : m_restored,
+        vertices.domain()));
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
     Region_rows rows;

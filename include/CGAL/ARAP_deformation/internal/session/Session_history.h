@@ -129,16 +129,21 @@ public:
       return outcome(Status::in_a_run);
     if(state.session != m_identity)
       return outcome(Status::foreign_state);
+    auto change = m_vertices.prepare(std::move(state.vertices));
+    m_prepared.renumber(state.prepared, domain(), [&](const auto& v) {
+      return m_vertices.find(change, v);
+    });
+    // what may throw ends with the points; this object changes only after it
     const std::vector<Entry>& before = m_vertices.entries();
-    const std::vector<Entry>& after = state.vertices.entries;
+    const std::vector<Entry>& after = change.state.entries;
     for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
       if(k >= after.size() || before[k].vertex != after[k].vertex)
         domain().set_point(before[k].vertex, m_vertices.first_point(k));
     for(const Entry& entry : after)
       domain().set_point(entry.vertex, entry.present);
     const bool are_values_same = m_prepared.has_values_of(state.prepared);
-    m_vertices.restore(std::move(state.vertices));
-    m_prepared.restore(std::move(state.prepared), m_vertices);
+    m_vertices.restore(std::move(change));
+    m_prepared.restore(std::move(state.prepared));
     if(state.cells != m_options.cells)
       region_changed();
     m_energy = are_values_same && state.cells == m_options.cells ? state.energy : not_a_number;

@@ -354,7 +354,7 @@ public:
     std::vector<Entry> entries;
     std::vector<Target> targets;
     std::vector<Point> first_points;
-    std::vector<typename Surroundings<Domain>::Vertex> surroundings;
+    Array<typename Surroundings<Domain>::Vertex> surroundings;
     std::map<Control_point, Held_point> points;
     Array<Coordinates> velocities;
   };
@@ -365,24 +365,56 @@ public:
             m_velocities};
   }
 
-  // Returns to an earlier state. Vertices that have entered since leave.
-  void restore(State state)
+  // What restore() makes of these, which needs no more memory and throws nothing.
+  struct Change
   {
-    for(auto& v : state.surroundings) // what others have is what was found since
-      m_surroundings.keep(m_domain.index(v.vertex), std::move(v));
-    const auto set_slots = [this](const auto& own, const auto& other, bool is_own) {
-      for(std::size_t k = 0; k < own.size(); ++k)
-        if(k >= other.size() || own[k].vertex != other[k].vertex)
-          m_slots.set(m_domain.index(own[k].vertex),
-                      is_own ? static_cast<int>(k) : Paged_index_map::none);
+    State state;
+    std::map<std::size_t, int> slots; // those that change
+    typename Surroundings<Domain>::Change surroundings;
+  };
+
+  // Prepares the return to an earlier state. Vertices that have entered since leave.
+  Change prepare(State state)
+  {
+    Change change{std::move(state), {}, {}};
+    const std::vector<Entry>& after = change.state.entries;
+    const auto is_same = [&](std::size_t k) {
+      return k < m_entries.size() && k < after.size() && m_entries[k].vertex == after[k].vertex;
     };
-    set_slots(m_entries, state.entries, false);
-    set_slots(state.entries, m_entries, true);
-    m_entries.swap(state.entries);
-    m_targets.swap(state.targets);
-    m_first_points.swap(state.first_points);
-    m_points.swap(state.points);
-    m_velocities.swap(state.velocities);
+    for(std::size_t k = 0; k < m_entries.size(); ++k)
+      if(!is_same(k))
+        change.slots[m_domain.index(m_entries[k].vertex)] = Paged_index_map::none;
+    for(std::size_t k = 0; k < after.size(); ++k)
+      if(!is_same(k))
+      {
+        const std::size_t index = m_domain.index(after[k].vertex);
+        change.slots[index] = static_cast<int>(k);
+        m_slots.reserve(index);
+      }
+    change.surroundings = m_surroundings.prepare(m_domain, change.state.surroundings);
+    return change;
+  }
+
+  // the entry of a vertex after restore(), nullptr if it has none
+  const Entry* find(const Change& change, vertex_descriptor v) const
+  {
+    const std::size_t index = m_domain.index(v);
+    const auto changed = change.slots.find(index);
+    const int slot = changed != change.slots.end() ? changed->second : m_slots[index];
+    return slot == Paged_index_map::none ? nullptr
+                                         : &change.state.entries[static_cast<std::size_t>(slot)];
+  }
+
+  void restore(Change change)
+  {
+    for(const auto& [index, slot] : change.slots)
+      m_slots.set(index, slot);
+    m_surroundings.restore(std::move(change.surroundings));
+    m_entries.swap(change.state.entries);
+    m_targets.swap(change.state.targets);
+    m_first_points.swap(change.state.first_points);
+    m_points.swap(change.state.points);
+    m_velocities.swap(change.state.velocities);
   }
 
   // to be called before the rest shape is overwritten

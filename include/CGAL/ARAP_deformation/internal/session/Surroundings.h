@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -56,6 +57,37 @@ public:
     m_slots.reserve(index); // so that what throws throws before anything is changed
     m_vertices.push_back(std::move(v));
     m_slots.set(index, static_cast<int>(m_vertices.size()) - 1);
+  }
+
+  // What restore() makes of these, which needs no more memory.
+  struct Change
+  {
+    Array<Vertex> vertices;
+    std::vector<std::size_t> added; // by their indices
+  };
+
+  // those of a state, and what was found since
+  Change prepare(const Domain& domain, const Array<Vertex>& state)
+  {
+    Change change{m_vertices, {}};
+    for(const Vertex& v : state)
+      if(const std::size_t index = domain.index(v.vertex); m_slots[index] != Paged_index_map::none)
+        change.vertices[m_slots[index]] = v;
+      else
+      {
+        m_slots.reserve(index);
+        change.vertices.push_back(v);
+        change.added.push_back(index);
+      }
+    return change;
+  }
+
+  void restore(Change change)
+  {
+    auto slot = static_cast<int>(m_vertices.size());
+    for(std::size_t index : change.added)
+      m_slots.set(index, slot++);
+    m_vertices.swap(change.vertices);
   }
 
   // takes the points that the mesh has now for all of them, or for none if one throws
