@@ -58,7 +58,7 @@ public:
   explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
 
   // Whether there is a region for the present region of interest, cells and rest shape.
-  bool has_region() const { return m_prepared && m_ready.region == m_present.region; }
+  bool has_region() const { return has_region_of(m_present); }
 
   // These need has_region().
   const Domain_region<Domain>& region() const { return *m_prepared->region; }
@@ -191,12 +191,12 @@ public:
   // whether stiffness and lengths are those of a state
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
-  // Makes positions and rotations of a state those of the present region, whatever region it had.
-  // find_entry(v) is the entry that a vertex has in the state.
+  // Makes positions and rotations of a state those of the region that there is, if it serves for the
+  // state. find_entry(v) is the entry that a vertex has in the state.
   template <typename Function>
   void renumber(State& state, const Domain& domain, const Function& find_entry) const
   {
-    if(!has_region() || m_prepared->numbering == state.numbering)
+    if(!has_region_of(state.present) || m_prepared->numbering == state.numbering)
       return;
     Array<Coordinates> positions = m_prepared->positions;
     for(std::size_t k = 0; k < positions.size(); ++k)
@@ -233,6 +233,11 @@ public:
 
 private:
   static constexpr std::size_t none = 0; // no version
+
+  bool has_region_of(const Versions& present) const
+  {
+    return m_prepared && m_ready.region == present.region;
+  }
 
   Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
                  const Options& options, Stages& stages)
