@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 
 #include <Eigen/SparseCore>
@@ -26,8 +27,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -36,14 +39,65 @@ namespace ARAP {
 
 namespace internal {
 
-template <typename SparseSolver>
+// Any model, which is copied and moved by its own copies and moves: so that the check is no
+// template, which would be compiled for each model.
+class Any_solver
+{
+public:
+  template <typename SparseSolver, typename = std::enable_if_t<
+                                     !std::is_same_v<SparseSolver, Any_solver>>>
+  explicit Any_solver(const SparseSolver& solver) : m_model(new Model_of<SparseSolver>(solver)) {}
+
+  Any_solver(const Any_solver& other) : m_model(other.m_model->copy()) {}
+  Any_solver(Any_solver&& other) : m_model(other.m_model->moved()) {}
+  Any_solver& operator=(Any_solver&& other)
+  {
+    m_model->take(*other.m_model);
+    return *this;
+  }
+
+  Linear_solver* operator->() { return &m_model->solver(); }
+
+private:
+  struct Model
+  {
+    virtual ~Model() = default;
+    virtual std::unique_ptr<Model> copy() const = 0;
+    virtual std::unique_ptr<Model> moved() = 0;
+    virtual void take(Model& other) = 0;
+    virtual Linear_solver& solver() = 0;
+  };
+
+  template <typename SparseSolver>
+  struct Model_of final : Model
+  {
+    explicit Model_of(SparseSolver solver) : own(std::move(solver)) {}
+
+    std::unique_ptr<Model> copy() const override
+    {
+      return std::make_unique<Model_of>(own.solver());
+    }
+    std::unique_ptr<Model> moved() override
+    {
+      return std::make_unique<Model_of>(std::move(own.solver()));
+    }
+    void take(Model& other) override
+    {
+      own.solver() = std::move(static_cast<Model_of&>(other).own.solver());
+    }
+    Linear_solver& solver() override { return own; }
+
+    Linear_solver_of<SparseSolver> own;
+  };
+
+  std::unique_ptr<Model> m_model;
+};
+
 class Sparse_solver_check
 {
-  static_assert(Sparse_solver_requirements<SparseSolver>::are_met);
-
 public:
-  Sparse_solver_check(const SparseSolver& solver, double tolerance)
-    : m_prototype(solver), m_tolerance(tolerance)
+  Sparse_solver_check(Any_solver solver, double tolerance)
+    : m_prototype(std::move(solver)), m_tolerance(tolerance)
   {}
 
   std::vector<std::string> operator()()
@@ -56,7 +110,7 @@ public:
                    [this] { return grid(12, 11, 0.1, 0.3); });
       check_family("an ill-conditioned grid", [this] { return grid(14, 14, 1e-5); });
       check_copies_and_moves();
-      if constexpr(can_have_border<SparseSolver>)
+      if(m_prototype->can_have_border())
         check_borders();
       check_refusals();
     });
@@ -162,14 +216,14 @@ private:
   }
 
   // Solves in an array with a margin on both sides, which must not be touched.
-  void check_solution(SparseSolver& solver, const Sparse_matrix& a, const Rows& b,
+  void check_solution(Any_solver& solver, const Sparse_matrix& a, const Rows& b,
                       const std::string& name)
   {
     const std::size_t n = b.size(), margin = 4;
     const Coordinates untouched = {12345, -6789, 0.125};
     Rows array(n + 2 * margin, untouched);
     std::copy(b.begin(), b.end(), array.begin() + margin);
-    if(!solver.solve(n, array.data() + margin))
+    if(!solver->solve(n, array.data() + margin))
       return m_violations.check(false, "solve() returns false for ", name);
     for(std::size_t k = 0; k < margin; ++k)
       m_violations.check(array[k] == untouched && array[margin + n + k] == untouched,
@@ -181,7 +235,7 @@ private:
   }
 
   // with full right-hand sides, twice, then with one nonzero column at a time, then with zeros
-  void check_solutions(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  void check_solutions(Any_solver& solver, const Sparse_matrix& a, const std::string& name)
   {
     check_solution(solver, a, random_rows(a), name);
     check_solution(solver, a, random_rows(a), name + ", when it is called again");
@@ -198,17 +252,17 @@ private:
                    name + " and a right-hand side of zeros");
   }
 
-  bool prepare(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  bool prepare(Any_solver& solver, const Sparse_matrix& a, const std::string& name)
   {
     // copies, since a solver must not refer to the matrix after the call
-    const bool is_analyzed = solver.analyze(Sparse_matrix(a));
+    const bool is_analyzed = solver->analyze(Sparse_matrix(a));
     m_violations.check(is_analyzed, "analyze() returns false for ", name);
     return is_analyzed && factorize(solver, a, name);
   }
 
-  bool factorize(SparseSolver& solver, const Sparse_matrix& a, const std::string& name)
+  bool factorize(Any_solver& solver, const Sparse_matrix& a, const std::string& name)
   {
-    const bool is_factorized = solver.factorize(Sparse_matrix(a));
+    const bool is_factorized = solver->factorize(Sparse_matrix(a));
     m_violations.check(is_factorized, "factorize() returns false for ", name,
                        ", which is positive definite");
     return is_factorized;
@@ -217,7 +271,7 @@ private:
   template <typename Make>
   void check_family(const std::string& name, const Make& make)
   {
-    SparseSolver solver(m_prototype);
+    Any_solver solver(m_prototype);
     const Sparse_matrix a = make(), same_pattern = make();
     if(!prepare(solver, a, name))
       return;
@@ -235,18 +289,18 @@ private:
   {
     // of one size, so that a solver that takes the wrong one does not leave its arrays
     const Sparse_matrix a = grid(6, 5, 0.2), b = path(30);
-    SparseSolver first(m_prototype), second(m_prototype);
+    Any_solver first(m_prototype), second(m_prototype);
     if(!prepare(first, a, "a grid") || !prepare(second, b, "a path"))
       return;
     check_solution(first, a, random_rows(a), "a grid after a copy has factorized a path");
     check_solution(second, b, random_rows(b), "a path after a copy has factorized a grid");
 
-    SparseSolver copy(first);
+    Any_solver copy(first);
     if(prepare(copy, b, "a path, in a copy of a solver with a factor"))
       check_solution(copy, b, random_rows(b), "a path, in a copy of a solver with a factor");
     check_solution(first, a, random_rows(a), "a grid after a copy has analyzed another matrix");
 
-    SparseSolver moved(std::move(first));
+    Any_solver moved(std::move(first));
     check_solution(moved, a, random_rows(a), "a grid after the solver was moved with its factor");
     second = std::move(moved);
     check_solution(second, a, random_rows(a),
@@ -259,11 +313,11 @@ private:
     const Sparse_matrix a = grid(9, 8, 0.3);
     const int n = static_cast<int>(a.rows()), size = 7, number_of_multipliers = 3;
     const Sparse_matrix none(n, 0);
-    SparseSolver solver(m_prototype);
+    Any_solver solver(m_prototype);
     if(!prepare(solver, a, "a grid that will get a border"))
       return;
     const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
-      const bool is_set = solver.set_border(b, d);
+      const bool is_set = solver->set_border(b, d);
       m_violations.check(is_set, "set_border() returns false for ", b.cols(), " columns");
       return is_set;
     };
@@ -287,13 +341,13 @@ private:
         return;
       const Sparse_matrix whole = bordered(a, b, d);
       check_solution(solver, whole, random_rows(whole), "a matrix with a border");
-      SparseSolver moved(std::move(solver));
+      Any_solver moved(std::move(solver));
       check_solution(moved, whole, random_rows(whole), "a matrix with a border after a move");
       solver = std::move(moved);
 
       d(size - 1, size - 1) = 1e-3; // not a multiplier, and too small for a minimum
-      m_violations.check(!solver.set_border(b, d), "set_border() returns true for a matrix that is "
-                         "not positive definite");
+      m_violations.check(!solver->set_border(b, d), "set_border() returns true for a matrix that "
+                         "is not positive definite");
       check_solution(solver, a, random_rows(a), "a matrix after a border was refused");
       d(size - 1, size - 1) = 20;
       if(set_border(b, d) && set_border(none, Eigen::MatrixXd()))
@@ -339,12 +393,12 @@ private:
       return a;
     };
     const auto check = [&](const Sparse_matrix& a, const std::string& name) {
-      SparseSolver solver(m_prototype);
-      if(!solver.analyze(a))
+      Any_solver solver(m_prototype);
+      if(!solver->analyze(a))
         return;
       const Rows b = random_rows(a);
       Rows x = b;
-      if(solver.factorize(a) && solver.solve(x.size(), x.data()))
+      if(solver->factorize(a) && solver->solve(x.size(), x.data()))
         for(double error : residuals(a, x, b))
           m_violations.check(error <= m_tolerance, "nothing is refused, but the solution is wrong "
                              "for ", name, ": its relative residual is ", error);
@@ -360,7 +414,7 @@ private:
     check(matrix(2, 0, 1), "an indefinite matrix with zeros on the diagonal");
   }
 
-  SparseSolver m_prototype;
+  Any_solver m_prototype;
   double m_tolerance;
   std::mt19937 m_random;
   Violations m_violations;
@@ -383,7 +437,8 @@ private:
 template <typename SparseSolver>
 std::vector<std::string> check_sparse_solver(const SparseSolver& solver, double tolerance = 1e-9)
 {
-  return internal::Sparse_solver_check<SparseSolver>(solver, tolerance)();
+  static_assert(internal::Sparse_solver_requirements<SparseSolver>::are_met);
+  return internal::Sparse_solver_check(internal::Any_solver(solver), tolerance)();
 }
 
 } // namespace ARAP
