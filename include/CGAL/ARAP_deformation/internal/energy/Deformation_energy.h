@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
+#include <CGAL/ARAP_deformation/internal/energy/Rotation_derivative.h>
 #include <CGAL/ARAP_deformation/internal/energy/Rotation_steps.h>
 #include <CGAL/ARAP_deformation/internal/energy/Sequential_fit.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
@@ -325,6 +326,42 @@ public:
     return evaluate(rotations, force);
   }
 
+  // Prepares change_of_force() at positions x that the rotations are fitted to. Not where these are
+  // state: they depend on each other.
+  void prepare_second_derivative(const std::vector<Coordinates>& x,
+                                 const std::vector<Matrix_3x3>& rotations)
+  {
+    assign_padded(m_x, x);
+    compute_covariances(m_x);
+    m_derivatives.assign(m_covariances.size(), Rotation_derivative());
+    for_each_fitted_cell(m_covariances, [&](int c, const Matrix_3x3& covariance) {
+      m_derivatives[c] = Rotation_derivative(covariance, rotations[static_cast<std::size_t>(c)]);
+    });
+  }
+
+  // How the force changes with the positions, to first order; for free vertices. `step` is zero at
+  // all others. The force is linear in positions and rotations together.
+  void change_of_force(const std::vector<Coordinates>& step,
+                       const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& change)
+  {
+    assign_padded(m_x, step);
+    compute_covariances(m_x);
+    m_changes.resize(rotations.size()); // zero where rotations do not change
+    for_each_fitted_cell(m_covariances, [&](int c, const Matrix_3x3& covariance) {
+      const auto k = static_cast<std::size_t>(c);
+      set_rotation_of_group(c, m_derivatives[c](covariance, rotations[k]), m_changes);
+    });
+    evaluate(m_changes, change);
+  }
+
+  void clear_second_derivative()
+  {
+    m_derivatives = Array<Rotation_derivative>();
+    m_changes = std::vector<Matrix_3x3>();
+    if(!m_rotation_steps)
+      m_covariances = Array<Matrix_3x3>();
+  }
+
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
@@ -360,6 +397,33 @@ private:
         covariances_of_cells(cells, x, begin, end, m_covariances.data() + begin);
       });
     }, m_cells);
+  }
+
+  // Calls f(c, S) for each cell that counts whose rotation is not given, with its covariance, or
+  // for the first one of a group with the sum of theirs.
+  template <typename Function>
+  void for_each_fitted_cell(const Array<Matrix_3x3>& covariances, const Function& f) const
+  {
+    Array<char> is_given(m_given.empty() ? 0 : covariances.size(), false);
+    for(const auto& cell : m_given)
+    {
+      const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
+      is_given[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = true;
+    }
+    m_batches.for_each([&](int begin, int end) {
+      for(int c = begin; c < end; ++c)
+        if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
+          f(c, covariances[c]);
+    });
+    for_each_group([&](const int* begin, const int* end) {
+      if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
+        return;
+      Matrix_3x3 sum{};
+      for(const int* c = begin; c != end; ++c)
+        for(std::size_t entry = 0; entry < 9; ++entry)
+          sum[entry] += covariances[*c][entry];
+      f(*begin, sum);
+    });
   }
 
   // the same for some cells, when cells and bending are prepared for these positions
@@ -421,7 +485,9 @@ private:
   double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;
   std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
-  Array<Matrix_3x3> m_covariances;                // for these
+  Array<Matrix_3x3> m_covariances;                // for these and the second derivative
+  Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
+  std::vector<Matrix_3x3> m_changes;              // of the rotations
   int m_number_of_rotation_steps = 0;             // of each fit
 };
 

@@ -136,10 +136,62 @@ public:
   // minus half the gradient where the energy was last evaluated
   const std::vector<Coordinates>& force() const { return m_force; }
 
-  // Computes the local/global step, the solution of L step = force.
-  bool solve(std::vector<Coordinates>& step)
+  // Whether the second derivative is known. Smooth rotations depend on each other. A time step has
+  // no need of it: it is short, and inertia makes its energy convex.
+  bool has_second_derivative() const
   {
-    step = m_force;
+    return !m_energy.are_rotations_state() && m_inertia == 0;
+  }
+
+  // to be called before change_of_force(), when x was evaluated last
+  void prepare_second_derivative()
+  {
+    Scoped_seconds local(report.seconds.local_steps);
+    m_energy.prepare_second_derivative(x, m_rotations);
+  }
+
+  // How the force changes if x changes by a step, to first order. The step is as long as x, and
+  // zero but at free vertices. Sets that targets are projected onto are differentiated numerically.
+  void change_of_force(const std::vector<Coordinates>& step, std::vector<Coordinates>& change)
+  {
+    Scoped_seconds local(report.seconds.local_steps);
+    m_energy.change_of_force(step, m_rotations, change);
+    std::vector<Coordinates> targets(m_targets.soft.size(), Coordinates{0, 0, 0});
+    for(const Targets::Set& set : m_targets.sets)
+    {
+      Coordinates moved = m_rows.value(set.row, x.data());
+      const Coordinates value = m_rows.value(set.row, step.data());
+      const double length = std::sqrt(dot(value, value));
+      if(!(length > 0))
+        continue;
+      const auto r = static_cast<std::size_t>(set.row);
+      const double h = 1e-6 * diameter / length;
+      add(moved, h, value);
+      targets[r] = scaled(difference(set.projection(moved), m_targets.soft[r]), 1 / h);
+    }
+    m_rows.pull(targets, step, change);
+    leave_free(change);
+  }
+
+  void clear_second_derivative() { m_energy.clear_second_derivative(); }
+
+  // leaves forces only where a step can follow them
+  void leave_free(std::vector<Coordinates>& force) const
+  {
+    for(std::size_t v : m_fixed_vertices)
+      force[v] = {0, 0, 0};
+    m_system.hard_rows().leave_out_multipliers(force);
+  }
+
+  double value() const { return m_value; } // that was evaluated last
+
+  // Computes the local/global step, the solution of L step = force.
+  bool solve(std::vector<Coordinates>& step) { return solve_for(m_force, step); }
+
+  // the same for other forces
+  bool solve_for(const std::vector<Coordinates>& force, std::vector<Coordinates>& step)
+  {
+    step = force;
     return m_system.solve(step);
   }
 
@@ -208,6 +260,34 @@ public:
     return std::nullopt;
   }
 
+  // an iterate at the same place
+  std::optional<Status> look_on()
+  {
+    if(report.iterations == options.iterations)
+      return Status::converged;
+    ++report.iterations;
+    report.energy.push_back(m_value);
+    const Visitor_action action = [this] {
+      Scoped_seconds visitor(report.seconds.visitor);
+      return m_observe(report.iterations, m_value);
+    }();
+    if(action != Visitor_action::proceed)
+      return action == Visitor_action::stop ? Status::stopped : Status::cancelled;
+    return std::nullopt;
+  }
+
+  void restart_gap() { m_gap = Gap_estimate(); }
+
+  bool is_at_zero() const
+  {
+    return is_nothing_free() || std::abs(m_value) <= negligible_energy(report);
+  }
+
+  double tolerated_decrease() const
+  {
+    return options.tolerance * (std::max)(std::abs(m_value), negligible_energy(report));
+  }
+
 private:
   // Adds the pull of the rows to the rigidity, and leaves forces at free vertices only. The squared
   // distance from a set has the gradient of that from the projection, which is the target.
@@ -215,9 +295,7 @@ private:
   {
     m_targets.project(m_rows, x);
     m_value = rigidity + m_rows.pull(m_targets.soft, x, m_force);
-    for(std::size_t v : m_fixed_vertices)
-      m_force[v] = {0, 0, 0};
-    m_system.hard_rows().leave_out_multipliers(m_force);
+    leave_free(m_force);
     return m_value;
   }
 

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/leave_saddle.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -51,9 +52,16 @@ inline Status minimize_quasi_newton(Minimization& run)
   std::vector<Coordinates> d, next_d, before(run.number_of_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
+  int number_of_looks = 0;
   run.evaluate();
   for(auto status = run.next_iterate();;)
   {
+    if(status == Status::converged)
+    {
+      status = leave_saddle(run, number_of_looks++);
+      memory.forget();
+      t = 0;
+    }
     if(status)
       return *status;
     bool is_safe; // whether this is the step of local/global
