@@ -89,6 +89,12 @@ struct Options
   /// the tolerance.
   double tolerance = 1e-3;
 
+  /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
+  /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
+  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations. Local/global runs, time steps
+  /// and runs with `smoothing_length` do not look.
+  bool verify_minimum = true;
+
   /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro
   /// `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is only one.
   /// Results are the same to the last bit for any number.

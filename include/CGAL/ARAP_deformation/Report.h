@@ -38,6 +38,34 @@ struct Phase_seconds
 };
 
 /// \ingroup PkgARAPDeformationRun
+/// what the second derivative of the energy tells of where a run ended, see
+/// \ref ARAPDeformation_Ends.
+enum class End
+{
+  unknown, ///< nothing: the run did not converge, or did not look
+  minimum, ///< a local minimum: no direction of negative curvature was found, and the gap is within
+           ///< the tolerance by the second derivative, too; or the energy is next to zero
+  flat,    ///< there is a direction of negative curvature, but following the last ones gained less
+           ///< than a hundredth of what the tolerance allows
+  undecided ///< the gap is within the tolerance by the second derivative, but the look was too short
+            ///< to exclude a negative curvature
+};
+
+/// \ingroup PkgARAPDeformationRun
+/// returns the name of the enumerator `end`.
+inline const char* to_string(End end)
+{
+  switch(end)
+  {
+  case End::unknown: return "unknown";
+  case End::minimum: return "minimum";
+  case End::flat: return "flat";
+  case End::undecided: return "undecided";
+  }
+  return "unknown";
+}
+
+/// \ingroup PkgARAPDeformationRun
 /// \brief tells which stages a call had to do again; all others served as they were.
 ///
 /// Time: `region`, `weights` and `order` are linear in the region, up to the ordering; `factor` is
@@ -59,7 +87,7 @@ struct Stages
 /// If `succeeded(status)` is `false`, the mesh and the object are as they were before the call.
 struct Report : Outcome
 {
-  unsigned int iterations = 0; ///< the number of iterations, each with one global step
+  unsigned int iterations = 0; ///< the number of iterations, each with one solve
 
   /// returns the last of the energies below; not a number if the call failed before the first one.
   double final_energy() const
@@ -91,6 +119,16 @@ struct Report : Outcome
   /// \f$10^{-6} E_0\f$ where that is less. It errs on the large side, but is not a bound: see
   /// \ref ARAPDeformation_Gap for its accuracy.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
+
+  End end = End::unknown; ///< what kind of place the run ended at.
+
+  /// the numbers of saddle points and of plateaus that the run would have ended at, and has left:
+  /// the former had a direction of negative curvature, at the latter the gap was larger than
+  /// estimated.
+  unsigned int saddles_left = 0, plateaus_left = 0;
+
+  /// the number of iterations that looked at the second derivative, and moved nothing.
+  unsigned int looking_iterations = 0;
 
   std::size_t free_vertices = 0; ///< the number of vertices that were solved for
   std::size_t simplices = 0;     ///< the number of simplices in and around the region of interest

@@ -332,9 +332,9 @@ public:
                                  const std::vector<Matrix_3x3>& rotations)
   {
     assign_padded(m_x, x);
-    compute_covariances(m_x);
-    m_derivatives.assign(m_covariances.size(), Rotation_derivative());
-    for_each_fitted_cell(m_covariances, [&](int c, const Matrix_3x3& covariance) {
+    m_derivatives.assign(rotations.size(), Rotation_derivative());
+    m_changes.assign(rotations.size(), Matrix_3x3{}); // where rotations do not change it stays zero
+    for_each_fitted_cell([&](int c, const Matrix_3x3& covariance) {
       m_derivatives[c] = Rotation_derivative(covariance, rotations[static_cast<std::size_t>(c)]);
     });
   }
@@ -345,9 +345,7 @@ public:
                        const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& change)
   {
     assign_padded(m_x, step);
-    compute_covariances(m_x);
-    m_changes.resize(rotations.size()); // zero where rotations do not change
-    for_each_fitted_cell(m_covariances, [&](int c, const Matrix_3x3& covariance) {
+    for_each_fitted_cell([&](int c, const Matrix_3x3& covariance) {
       const auto k = static_cast<std::size_t>(c);
       set_rotation_of_group(c, m_derivatives[c](covariance, rotations[k]), m_changes);
     });
@@ -358,8 +356,6 @@ public:
   {
     m_derivatives = Array<Rotation_derivative>();
     m_changes = std::vector<Matrix_3x3>();
-    if(!m_rotation_steps)
-      m_covariances = Array<Matrix_3x3>();
   }
 
 private:
@@ -399,31 +395,40 @@ private:
     }, m_cells);
   }
 
-  // Calls f(c, S) for each cell that counts whose rotation is not given, with its covariance, or
-  // for the first one of a group with the sum of theirs.
+  // Calls f(c, S) for each cell that counts whose rotation is fitted to its own covariance S alone,
+  // at the positions m_x, and for the first one of each group with the sum of theirs.
   template <typename Function>
-  void for_each_fitted_cell(const Array<Matrix_3x3>& covariances, const Function& f) const
+  void for_each_fitted_cell(const Function& f)
   {
-    Array<char> is_given(m_given.empty() ? 0 : covariances.size(), false);
+    Array<char> is_given(m_given.empty() ? 0 : number_of_cells(), false);
     for(const auto& cell : m_given)
     {
       const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
       is_given[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = true;
     }
-    m_batches.for_each([&](int begin, int end) {
-      for(int c = begin; c < end; ++c)
-        if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
-          f(c, covariances[c]);
-    });
-    for_each_group([&](const int* begin, const int* end) {
-      if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
-        return;
-      Matrix_3x3 sum{};
-      for(const int* c = begin; c != end; ++c)
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sum[entry] += covariances[*c][entry];
-      f(*begin, sum);
-    });
+    m_bending.prepare(m_x.data());
+    std::visit([&](auto& cells) {
+      cells.prepare_covariances(m_rest.data(), m_x.data());
+      m_batches.for_each([&](int begin, int end) {
+        std::array<Matrix_3x3, batch_size> covariances;
+        covariances_of_cells(cells, m_x, begin, end, covariances.data());
+        for(int c = begin; c < end; ++c)
+          if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
+            f(c, covariances[static_cast<std::size_t>(c - begin)]);
+      });
+      for_each_group([&](const int* begin, const int* end) {
+        if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
+          return;
+        Matrix_3x3 sum{}, covariance;
+        for(const int* c = begin; c != end; ++c)
+        {
+          covariances_of_cells(cells, m_x, *c, *c + 1, &covariance);
+          for(std::size_t entry = 0; entry < 9; ++entry)
+            sum[entry] += covariance[entry];
+        }
+        f(*begin, sum);
+      });
+    }, m_cells);
   }
 
   // the same for some cells, when cells and bending are prepared for these positions
@@ -485,7 +490,7 @@ private:
   double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;
   std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
-  Array<Matrix_3x3> m_covariances;                // for these and the second derivative
+  Array<Matrix_3x3> m_covariances;                // for these
   Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
   std::vector<Matrix_3x3> m_changes;              // of the rotations
   int m_number_of_rotation_steps = 0;             // of each fit

@@ -247,12 +247,8 @@ public:
     if(is_within_tolerance())
       report.estimated_relative_gap += gap_of_rotations();
 
-    const Visitor_action action = [this] {
-      Scoped_seconds visitor(report.seconds.visitor);
-      return m_observe(report.iterations, m_value);
-    }();
-    if(action != Visitor_action::proceed)
-      return action == Visitor_action::stop ? Status::stopped : Status::cancelled;
+    if(const auto status = observe())
+      return status;
     if(is_within_tolerance())
       return Status::converged;
     if(report.iterations == options.iterations)
@@ -260,35 +256,45 @@ public:
     return std::nullopt;
   }
 
-  // an iterate at the same place
-  std::optional<Status> look_on()
+  // Makes x the next iterate once more, after an iteration that moved nothing.
+  std::optional<Status> same_iterate()
   {
-    if(report.iterations == options.iterations)
-      return Status::converged;
     ++report.iterations;
     report.energy.push_back(m_value);
-    const Visitor_action action = [this] {
-      Scoped_seconds visitor(report.seconds.visitor);
-      return m_observe(report.iterations, m_value);
-    }();
-    if(action != Visitor_action::proceed)
-      return action == Visitor_action::stop ? Status::stopped : Status::cancelled;
-    return std::nullopt;
+    return observe();
   }
 
-  void restart_gap() { m_gap = Gap_estimate(); }
+  // Where the estimate of the gap was wrong, it is made anew from the decreases to come, and
+  // believed when it is this much less.
+  void distrust_gap()
+  {
+    m_gap = Gap_estimate();
+    m_trust *= 0.25;
+  }
 
   bool is_at_zero() const
   {
     return is_nothing_free() || std::abs(m_value) <= negligible_energy(report);
   }
 
+  // what may be left to be gained where a run ends
   double tolerated_decrease() const
   {
     return options.tolerance * (std::max)(std::abs(m_value), negligible_energy(report));
   }
 
 private:
+  std::optional<Status> observe()
+  {
+    const Visitor_action action = [this] {
+      Scoped_seconds visitor(report.seconds.visitor);
+      return m_observe(report.iterations, m_value);
+    }();
+    if(action == Visitor_action::proceed)
+      return std::nullopt;
+    return action == Visitor_action::stop ? Status::stopped : Status::cancelled;
+  }
+
   // Adds the pull of the rows to the rigidity, and leaves forces at free vertices only. The squared
   // distance from a set has the gradient of that from the projection, which is the target.
   double complete(double rigidity)
@@ -327,7 +333,8 @@ private:
   bool is_within_tolerance() const
   {
     return is_nothing_free() ||
-           (options.tolerance > 0 && report.estimated_relative_gap <= options.tolerance);
+           (options.tolerance > 0 &&
+            report.estimated_relative_gap <= m_trust * options.tolerance);
   }
 
   Deformation_energy& m_energy;
@@ -343,6 +350,7 @@ private:
   std::vector<Coordinates> m_force;
   double m_value = 0;
   Gap_estimate m_gap;
+  double m_trust = 1; // in this estimate
 };
 
 } // namespace internal

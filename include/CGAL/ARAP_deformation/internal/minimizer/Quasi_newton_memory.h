@@ -47,7 +47,6 @@ public:
   explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
 
   bool is_empty() const { return m_number_of_pairs == 0; }
-  void forget() { m_number_of_pairs = 0; }
 
   // Adds to x the step p to the minimum of the model of the energy, after `before` has become a
   // copy of x; both as far as d reaches. Returns the dot product f p: the model decreases by that

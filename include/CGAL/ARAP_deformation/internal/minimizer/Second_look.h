@@ -30,6 +30,17 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// of as many points as the shorter one has
+inline double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
+{
+  return sum_over_blocks((std::min)(a.size(), b.size()), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for(std::size_t v = begin; v < end; ++v)
+      sum += dot(a[v], b[v]);
+    return sum;
+  });
+}
+
 // A look at the second derivative 2 A of the energy where a run would end, by conjugate gradients for
 // A s = f + e, with the Laplacian L for the preconditioner, f the force and e a small pseudorandom
 // one, without which what the symmetry of shape and targets hides would not be seen. As long as all
@@ -42,13 +53,15 @@ class Second_look
 public:
   enum class Finding { nothing_yet, negative_curvature, positive_curvature, failure };
 
-  explicit Second_look(Minimization& run) : m_run(run) {}
+  explicit Second_look(Minimization& run) : m_run(run) { m_run.prepare_second_derivative(); }
+  ~Second_look() { m_run.clear_second_derivative(); }
+  Second_look(const Second_look&) = delete;
+  Second_look& operator=(const Second_look&) = delete;
 
   // `disturbance` is by how much L would let e decrease the energy.
   Finding begin(double disturbance)
   {
     const std::size_t n = m_run.number_of_vertices;
-    m_run.prepare_second_derivative();
     m_r.resize(n);
     std::uint32_t state = 1;
     for(Coordinates& e : m_r)
@@ -79,9 +92,8 @@ public:
     const std::size_t n = m_run.number_of_vertices;
     m_run.change_of_force(m_p, m_z); // - A p
     const double pap = -dot_product(m_p, m_z);
-    m_curvature = pap / m_p_square;
-    if(!(m_curvature > 1e-9))
-      return std::isfinite(m_curvature) ? Finding::negative_curvature : Finding::failure;
+    if(!(pap > 1e-9 * m_p_square))
+      return std::isfinite(pap) ? Finding::negative_curvature : Finding::failure;
     const double alpha = m_r_square / pap;
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
@@ -90,18 +102,15 @@ public:
         add(m_r[v], alpha, m_z[v]);
       }
     });
-    m_decrease += alpha * m_r_square;
     return next_direction();
   }
 
-  const std::vector<Coordinates>& direction() const { return m_p; } // the last one
-  const std::vector<Coordinates>& solution() const { return m_s; }
-  // by how much the model decreases along the solution, up to the disturbance
-  double decrease() const { return m_decrease; }
-  double force_along_solution() const { return dot_product(m_run.force(), m_s); }
-  double force_along_direction() const { return dot_product(m_run.force(), m_p); }
-  double curvature() const { return m_curvature; } // along the direction, in the metric of L
-  double residual() const { return std::sqrt(m_r_square / m_first_r_square); }
+  // the last direction, for all vertices of the region
+  const std::vector<Coordinates>& direction() const { return m_p; }
+  const std::vector<Coordinates>& solution() const { return m_s; } // for the movable ones
+
+  // by how much the energy decreases along the solution, by its model and up to what e changes
+  double gap() const { return dot_product(m_run.force(), m_s); }
 
 private:
   bool solve()
@@ -129,26 +138,16 @@ private:
     });
     if(!(square > 0))
       return square == 0 ? Finding::positive_curvature : Finding::failure;
-    return residual() <= 1e-2 ? Finding::positive_curvature : Finding::nothing_yet;
+    return square <= small_residual * small_residual * m_first_r_square
+             ? Finding::positive_curvature : Finding::nothing_yet;
   }
 
-  // of as many points as the shorter one has
-  static double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
-  {
-    return sum_over_blocks((std::min)(a.size(), b.size()),
-                           [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for(std::size_t v = begin; v < end; ++v)
-        sum += dot(a[v], b[v]);
-      return sum;
-    });
-  }
+  static constexpr double small_residual = 0.1;
 
   Minimization& m_run;
   std::vector<Coordinates> m_r, m_z, m_s; // residual, what L makes of it, solution
-  std::vector<Coordinates> m_p;           // direction, for all vertices
+  std::vector<Coordinates> m_p;
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric of L
-  double m_decrease = 0, m_curvature = 1;
 };
 
 } // namespace internal

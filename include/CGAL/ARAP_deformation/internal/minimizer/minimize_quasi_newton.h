@@ -17,7 +17,7 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/leave_saddle.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/End_examiner.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -45,21 +45,24 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 // Kavan 2017). An iteration costs what one of local/global does, one local step and one solution,
 // unless its step has to be shortened, which costs a local step each time and is rare. Where
 // shortening does not help, or the model is of no use, the local/global step is taken, and the
-// memory starts afresh. That step lowers the energy, or the solver has failed.
+// memory starts afresh. That step lowers the energy, or the solver has failed. It also starts afresh
+// where the end of the run was none.
 inline Status minimize_quasi_newton(Minimization& run)
 {
   Quasi_newton_memory memory(run.number_of_vertices);
   std::vector<Coordinates> d, next_d, before(run.number_of_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
-  int number_of_looks = 0;
+  End_examiner examine_end(run);
   run.evaluate();
   for(auto status = run.next_iterate();;)
   {
     if(status == Status::converged)
     {
-      status = leave_saddle(run, number_of_looks++);
-      memory.forget();
+      memory = Quasi_newton_memory(run.number_of_vertices); // the look needs as much
+      d = next_d = before = {};
+      status = examine_end();
+      before.resize(run.number_of_vertices);
       t = 0;
     }
     if(status)

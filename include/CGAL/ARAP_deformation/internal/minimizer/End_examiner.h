@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_END_EXAMINER_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_END_EXAMINER_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// Looks at the second derivative where a run would end with `Status::converged`, and moves on from
+// there if it is a saddle point, or if there is further to go than was estimated. What it looks at
+// counts as iterations: they are limited, and can be stopped and cancelled, as all others.
+class End_examiner
+{
+public:
+  explicit End_examiner(Minimization& run) : m_run(run) {}
+
+  // Returns the status if the run is over.
+  std::optional<Status> operator()()
+  {
+    Report& report = m_run.report;
+    const unsigned int limit = m_run.options.iterations;
+    if(m_run.is_at_zero())
+      report.end = End::minimum;
+    if(report.end == End::minimum || !m_run.options.verify_minimum ||
+       !m_run.has_second_derivative())
+      return Status::converged;
+
+    const double tolerated = m_run.tolerated_decrease(), start = m_run.value();
+    Second_look look(m_run);
+    auto finding = look.begin(1e-3 * tolerated);
+    for(unsigned int k = 0; k < most_steps && finding == Second_look::Finding::nothing_yet; ++k)
+    {
+      if(report.iterations + 1 >= limit) // the last one may be needed to move on
+        break;
+      finding = look.step();
+      ++report.looking_iterations;
+      if(const auto status = m_run.same_iterate())
+        return status;
+    }
+    if(finding == Second_look::Finding::failure) // a lost chance, and no more
+      return Status::converged;
+    const bool is_saddle = finding == Second_look::Finding::negative_curvature;
+    const double gap = look.gap();
+    if(gap <= tolerated)
+    {
+      report.end = is_saddle ? End::flat
+                 : finding == Second_look::Finding::nothing_yet ? End::undecided : End::minimum;
+      report.estimated_relative_gap =
+        (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
+      if(!is_saddle || (m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated))
+        return Status::converged;
+    }
+    if(m_number_of_moves == most_moves || report.iterations == limit)
+      return gap <= tolerated ? Status::converged : Status::iteration_limit;
+
+    bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1);
+    if(is_saddle)
+    {
+      const std::vector<Coordinates>& direction = look.direction();
+      const double first = 0.01 * m_run.diameter / largest_entry(direction);
+      const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
+      is_lower |= descend_along(direction, sign * first, 100 * first) ||
+                  descend_along(direction, -sign * first, 100 * first);
+    }
+    if(!is_lower) // rounding errors are all that is left
+      return Status::converged;
+    ++m_number_of_moves;
+    ++(is_saddle ? report.saddles_left : report.plateaus_left);
+    report.end = End::unknown;
+    m_last_energy = start;
+    m_run.distrust_gap();
+    return m_run.next_iterate(start - m_run.value());
+  }
+
+private:
+  static constexpr unsigned int most_steps = 200; // of a look
+  static constexpr unsigned int most_moves = 10;
+
+  static double largest_entry(const std::vector<Coordinates>& points)
+  {
+    double largest = 0;
+    for(const Coordinates& p : points)
+      for(double entry : p)
+        largest = (std::max)(largest, std::abs(entry));
+    return largest;
+  }
+
+  // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
+  // far as it goes on falling when the step is doubled, or until that is `longest`.
+  bool descend_along(const std::vector<Coordinates>& direction, double first, double longest)
+  {
+    if(!std::isfinite(first))
+      return false;
+    const std::vector<Coordinates> before = m_run.x;
+    const auto energy_at = [&](double t) {
+      for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
+        for(std::size_t v = begin; v < end; ++v)
+        {
+          m_run.x[v] = before[v];
+          add(m_run.x[v], t, direction[v]);
+        }
+      });
+      return m_run.evaluate();
+    };
+    double lowest = m_run.value() - 4 * energy_resolution(m_run.value(), m_run.report);
+    double best = 0;
+    for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)
+    {
+      const double energy = energy_at(t);
+      if(energy < lowest)
+      {
+        lowest = energy;
+        best = t;
+      }
+      if(best != 0 && (best != t || 2 * std::abs(t) > longest))
+        break;
+    }
+    energy_at(best);
+    return best != 0;
+  }
+
+  Minimization& m_run;
+  unsigned int m_number_of_moves = 0;
+  double m_last_energy = 0; // where it last moved on from
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_END_EXAMINER_H
