@@ -165,7 +165,7 @@ public:
       if(!(length > 0))
         continue;
       const auto r = static_cast<std::size_t>(set.row);
-      const double h = 1e-6 * diameter / length;
+      const double h = 1e-7 * diameter / length;
       add(moved, h, value);
       targets[r] = scaled(difference(set.projection(moved), m_targets.soft[r]), 1 / h);
     }

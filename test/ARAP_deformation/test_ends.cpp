@@ -1,0 +1,491 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// Where quasi-Newton runs end: the second derivative of the energy, what a look at it finds, and
+// that saddle points are left and minima are not.
+
+#include "include/check.h"
+#include "include/domains.h"
+#include "include/shapes.h"
+
+#include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
+#include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
+#include <CGAL/ARAP_deformation/internal/session/core_models.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace derivative {
+
+using namespace CGAL::ARAP::internal;
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Matrix_3x3;
+using CGAL::ARAP::Options;
+using CGAL::ARAP::Report;
+
+struct Random
+{
+  std::mt19937 engine{11};
+  std::uniform_real_distribution<double> number{-1, 1};
+
+  Coordinates operator()() { return {number(engine), number(engine), number(engine)}; }
+};
+
+// what all of a mesh is, as the numeric core knows it
+template <typename Simplices>
+Region region_of(const std::vector<Eigen::Vector3d>& points, const Simplices& simplices)
+{
+  Region region;
+  region.dimension = static_cast<int>(simplices[0].size()) - 1;
+  for(const auto& p : points)
+  {
+    region.indices.push_back(region.rest.size());
+    region.rest.push_back({p.x(), p.y(), p.z()});
+  }
+  for(const auto& simplex : simplices)
+  {
+    for(std::size_t v : simplex)
+      region.corners.push_back(static_cast<int>(v));
+    region.first_corner.push_back(static_cast<int>(region.corners.size()));
+  }
+  region.number_of_movable_vertices = region.number_of_centres = region.number_of_vertex_cells =
+    static_cast<int>(points.size());
+  region.number_of_movable_simplices = static_cast<int>(simplices.size());
+  return region;
+}
+
+// An energy with its constraints at deformed positions, and all that a minimizer has.
+struct Problem
+{
+  Core_models models = core_models(CGAL::ARAP_deformation_traits<>());
+  Region region;
+  Deformation_energy energy;
+  Constrained_system system{models.solver->copy()};
+  Constraints constraints;
+  Targets targets;
+  Options options;
+  Observer observe = [](unsigned int, double) { return CGAL::ARAP::Visitor_action::proceed; };
+  std::vector<Coordinates> x;
+  std::vector<Matrix_3x3> rotations;
+  Report report;
+
+  Problem(const Region& region_, const Energy_model& model, double noise)
+    : region(region_),
+      energy(make_deformation_energy(*models.weight, weighted_simplices(*models.weight, region),
+                                     model, region)),
+      x(region.rest), rotations(static_cast<std::size_t>(energy.number_of_cells()),
+                                identity_matrix())
+  {
+    Random random;
+    Bounding_box box;
+    for(const Coordinates& p : x)
+      box.include(p);
+    for(Coordinates& p : x)
+    {
+      p = {p[0] + 0.3 * std::sin(p[1]), p[1] - 0.2 * p[0], 1.1 * p[2] + 0.2 * p[0] * p[1]};
+      add(p, noise * std::sqrt(box.squared_length()), random());
+    }
+    constraints.is_fixed = Array<char>(x.size(), false);
+    constraints.is_fixed[0] = constraints.is_fixed[x.size() / 2] = true;
+  }
+
+  // to be called when the constraints are complete
+  Minimization minimization()
+  {
+    energy.set_fixed(constraints.is_fixed, false, rotations);
+    system.set_laplacian(laplacian_of(energy));
+    Constrained_system::Work work;
+    CHECK(system.prepare(constraints, work));
+    CHECK(system.meet(targets.hard, x));
+    return Minimization(energy, models.closest_rotations, system, constraints, options, observe,
+                        targets, x, rotations, report);
+  }
+};
+
+double largest(const std::vector<Coordinates>& points)
+{
+  double result = 0;
+  for(const Coordinates& p : points)
+    result = larger(result, std::sqrt(dot(p, p)));
+  return result;
+}
+
+// The change of the force is that of the forces at two positions that are near.
+void check_derivative(Problem& problem)
+{
+  Minimization run = problem.minimization();
+  CHECK(run.has_second_derivative());
+  Random random;
+  std::vector<Coordinates> step(run.x.size());
+  for(Coordinates& p : step)
+    p = random();
+  run.leave_free(step);
+  const std::vector<Coordinates> start = run.x;
+  const double h = 1e-5 * run.diameter;
+  std::vector<Coordinates> difference(run.x.size(), Coordinates{0, 0, 0}), change;
+  for(const double sign : {1.0, -1.0})
+  {
+    for(std::size_t v = 0; v < start.size(); ++v)
+    {
+      run.x[v] = start[v];
+      add(run.x[v], sign * h, step[v]);
+    }
+    run.evaluate();
+    for(std::size_t v = 0; v < start.size(); ++v)
+      add(difference[v], sign / (2 * h), run.force()[v]);
+  }
+  run.x = start;
+  run.evaluate();
+  run.prepare_second_derivative();
+  run.change_of_force(step, change);
+  run.clear_second_derivative();
+  const double size = largest(difference);
+  CHECK(size > 0);
+  for(std::size_t v = 0; v < start.size(); ++v)
+    add(difference[v], -1, change[v]);
+  CHECK_AT_MOST(largest(difference), 1e-6 * size);
+}
+
+// every cell scheme, with each term by itself and all of them
+template <typename Simplices>
+void test_derivative(const std::string& name, const std::vector<Eigen::Vector3d>& points,
+                     const Simplices& simplices)
+{
+  const Region region = region_of(points, simplices);
+  const auto n = static_cast<int>(points.size());
+  const int terms = 7;
+  for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::k_ring(1),
+                                  Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+    for(int chosen = 0; chosen <= terms; ++chosen)
+    {
+      test_case() = "derivative, " + name + ", " + std::to_string(chosen);
+      const auto has = [chosen](int term) { return chosen == term || chosen == terms; };
+      Energy_model model;
+      model.cells = cells;
+      const int number_of_cells =
+        cells.has_vertex_cells() ? n : static_cast<int>(simplices.size());
+      if(has(1) && cells.has_vertex_cells())
+        model.bending_length = 0.3;
+      if(has(2))
+        for(int c = 0; c < number_of_cells; ++c)
+          model.stiffness.push_back(0.2 + c % 3);
+      if(has(3))
+        for(int c = 0; c < number_of_cells; ++c)
+          model.group.push_back(c % 4 == 0 ? c / 20 : -1);
+      Problem problem(region, model, 0.01);
+      if(has(4))
+        problem.energy.set_given_rotations({{3, rotation_of_vector({0.1, 0.2, -0.3})},
+                                            {4, rotation_of_vector({0.4, 0, 0.1})}});
+      if(has(5))
+        for(int k = 1; k < 4; ++k)
+        {
+          problem.constraints.rows.append(k, 0.7);
+          problem.targets.soft.push_back({0.5, 0.1 * k, 1});
+        }
+      if(has(6))
+      {
+        Targets& targets = problem.targets;
+        for(int k = 0; k < 2; ++k)
+        {
+          problem.constraints.rows.append({2 + k, 4 + k}, {0.25, 0.75}, 1.5);
+          targets.soft.push_back({0, 0, 0});
+        }
+        const int size = problem.constraints.rows.size();
+        targets.sets.push_back({size - 2, [](const Coordinates& p) { // onto a plane
+          return Coordinates{p[0], p[1], 0.3};
+        }});
+        targets.sets.push_back({size - 1, [](const Coordinates& p) { // onto a sphere
+          return scaled(p, 2 / std::sqrt(dot(p, p)));
+        }});
+        problem.constraints.hard_rows.append({1, n - 2}, {0.5, 0.5}, 1);
+        targets.hard.push_back({0.2, 0.3, 0.4});
+      }
+      check_derivative(problem);
+    }
+}
+
+// Where all rotations are given the energy is quadratic, the metric is its second derivative, and
+// one step finds the gap. Next to a minimum a look finds it too, and no negative curvature.
+void test_gap(const Region& region)
+{
+  for(const bool is_quadratic : {true, false})
+  {
+    test_case() = is_quadratic ? "gap of a quadratic energy" : "gap";
+    Problem problem(region, Energy_model(), is_quadratic ? 0.05 : 0);
+    if(is_quadratic)
+    {
+      std::vector<std::pair<int, Matrix_3x3>> given;
+      for(int c = 0; c < problem.energy.number_of_cells(); ++c)
+        given.emplace_back(c, rotation_of_vector({0.1, 0.02 * c, 0.3}));
+      problem.energy.set_given_rotations(given);
+    }
+    Minimization run = problem.minimization();
+    std::vector<Coordinates> step;
+    double minimum = 0;
+    const auto descend = [&](int iterations) {
+      for(int k = 0; k < iterations; ++k)
+      {
+        run.evaluate();
+        CHECK(run.solve(step));
+        for(std::size_t v = 0; v < step.size(); ++v)
+          add(run.x[v], 1, step[v]);
+      }
+      return run.evaluate();
+    };
+    if(!is_quadratic)
+    {
+      minimum = descend(3000);
+      Random random;
+      for(std::size_t v = 0; v < step.size(); ++v)
+        if(!problem.constraints.is_fixed[v])
+          add(run.x[v], 1e-4 * run.diameter, random());
+      descend(2); // what is smooth remains
+    }
+    const std::vector<Coordinates> start = run.x;
+    const double energy = run.evaluate();
+    if(is_quadratic)
+    {
+      minimum = descend(1);
+      run.x = start;
+      run.evaluate();
+    }
+    CHECK(energy > minimum);
+    Second_look look(run);
+    Second_look::Finding finding = look.begin(1e-6 * (energy - minimum));
+    int steps = 0;
+    for(; finding == Second_look::Finding::nothing_yet && steps < 500; ++steps)
+      finding = look.step();
+    CHECK(finding == Second_look::Finding::positive_curvature);
+    CHECK(!is_quadratic || steps == 1);
+    CHECK_AT_MOST(std::abs(look.gap() / (energy - minimum) - 1), is_quadratic ? 5e-3 : 0.1);
+  }
+}
+
+void test_all()
+{
+  const Shape sheet = grid("sheet", 7, 5, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0.4 * u * v + 0.2 * u * u);
+  });
+  const Block bar = block(4, 2, 2);
+  test_derivative("sheet", sheet.points, sheet.triangles);
+  test_derivative("bar", bar.points, bar.tetrahedra);
+  test_gap(region_of(sheet.points, sheet.triangles));
+}
+
+} // namespace derivative
+
+namespace ends {
+
+using CGAL::ARAP::End;
+using CGAL::ARAP::Initial_guess;
+using CGAL::ARAP::Minimizer;
+using CGAL::ARAP::Options;
+using CGAL::ARAP::Report;
+using CGAL::ARAP::Status;
+using CGAL::ARAP::Visitor_action;
+
+using Deformation = CGAL::ARAP_deformation<Mesh>;
+
+// one end of it is fixed, the other one is pushed towards it
+Scenario push(const Shape& shape, double share)
+{
+  Scenario s{std::vector<int>(shape.points.size(), 1), shape.points};
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(const double x = shape.points[v].x(); x < 0.25)
+      s.selection[v] = 0;
+    else if(x > 3.75)
+    {
+      s.selection[v] = 2;
+      s.targets[v].x() -= share * 4;
+    }
+  return s;
+}
+
+Shape strip()
+{
+  return grid("strip", 24, 6, [](double u, double v) { return Eigen::Vector3d(4 * u, v, 0); });
+}
+
+struct Run
+{
+  Mesh mesh;
+  Report report;
+
+  template <typename Visitor = CGAL::ARAP::Default_visitor>
+  Run(const Shape& shape, const Scenario& s, const Options& options, Visitor visitor = Visitor())
+    : mesh(make_mesh<Mesh>(shape))
+  {
+    Deformation d(mesh);
+    CHECK(d.set_options(options));
+    prepare(d, s, all_vertices(mesh));
+    report = d.deform(visitor);
+    CHECK(report.energy.size() == report.iterations + 1);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    CHECK_AT_MOST(report.looking_iterations, report.iterations);
+  }
+};
+
+// A flat strip that is pushed together stays flat, until it is looked at: then it buckles.
+void test_buckling()
+{
+  const Shape shape = strip();
+  const Scenario s = push(shape, 0.2);
+  for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+  {
+    test_case() = "buckling";
+    Options options = options_for(cells);
+    const Run buckled(shape, s, options);
+    CHECK(buckled.report.status == Status::converged);
+    CHECK(buckled.report.end == End::minimum);
+    CHECK(buckled.report.saddles_left > 0 && buckled.report.looking_iterations > 0);
+    options.verify_minimum = false;
+    const Run flat(shape, s, options);
+    CHECK(flat.report.status == Status::converged && flat.report.end == End::unknown);
+    CHECK(flat.report.looking_iterations == 0);
+    CHECK_AT_MOST(buckled.report.final_energy(), 0.1 * flat.report.final_energy());
+
+    // it is where other ways lead, too: the strip is bent a little before it is pushed
+    Scenario bent = s;
+    options.verify_minimum = true;
+    options.tolerance = 1e-5;
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Deformation d(mesh);
+    CHECK(d.set_options(options));
+    prepare(d, s, all_vertices(mesh));
+    for(auto v : mesh.vertices())
+      if(s.selection[v.idx()] == 1)
+        mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(),
+                              0.3 * std::sin((mesh.point(v).x() - 0.25) * 0.9));
+    const Report other = d.deform();
+    CHECK(other.status == Status::converged && other.end == End::minimum);
+    CHECK_AT_MOST(buckled.report.final_energy(), (1 + 2e-3) * other.final_energy());
+  }
+}
+
+// A minimum is looked at and stays where it is, to the last bit.
+void test_minimum()
+{
+  int number_of_minima = 0;
+  for(const Shape& shape : shapes())
+    for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+    {
+      test_case() = "minimum, " + shape.name;
+      const Scenario s = scenario(shape);
+      Options options = options_for(cells);
+      const Run looked(shape, s, options);
+      options.verify_minimum = false;
+      const Run not_looked(shape, s, options);
+      CHECK(looked.report.status == Status::converged);
+      CHECK(looked.report.estimated_relative_gap <= options.tolerance);
+      CHECK_AT_MOST(looked.report.final_energy(), not_looked.report.final_energy());
+      if(looked.report.end != End::minimum || looked.report.saddles_left > 0 ||
+         looked.report.plateaus_left > 0)
+        continue;
+      ++number_of_minima;
+      CHECK(same_points(looked.mesh, not_looked.mesh));
+      CHECK(looked.report.iterations ==
+            not_looked.report.iterations + looked.report.looking_iterations);
+    }
+  CHECK(number_of_minima > 10);
+}
+
+// A look is limited, and can be stopped and cancelled, as all iterations.
+void test_visitor()
+{
+  test_case() = "visitor";
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  Options options = options_for(Cell_scheme::spokes_and_rims());
+  const Run whole(shape, s, options);
+  const Report& report = whole.report;
+  CHECK(report.looking_iterations > 3 && report.saddles_left == 0 && report.end == End::minimum);
+  const unsigned int last = report.iterations - 2; // it looks there
+  for(const Visitor_action action : {Visitor_action::stop, Visitor_action::cancel})
+  {
+    const Run run(shape, s, options, [&](const auto& iterate) {
+      return iterate.iteration() == last ? action : Visitor_action::proceed;
+    });
+    CHECK(run.report.iterations == last && run.report.end == End::unknown);
+    CHECK(run.report.status ==
+          (action == Visitor_action::stop ? Status::stopped : Status::cancelled));
+    CHECK(same_points(run.mesh, action == Visitor_action::stop ? whole.mesh
+                                                               : make_mesh<Mesh>(shape)));
+  }
+  options.iterations = last;
+  const Run limited(shape, s, options);
+  CHECK(limited.report.status == Status::converged && limited.report.end == End::undecided);
+  CHECK_AT_MOST(limited.report.iterations, last);
+  CHECK(same_points(limited.mesh, whole.mesh));
+  options.iterations = 10; // too few to move on from the saddle point
+  const Shape flat = strip();
+  CHECK_AT_MOST(Run(flat, push(flat, 0.2), options).report.iterations, 10);
+}
+
+// what does not look, and what has nothing to look at
+void test_unknown()
+{
+  test_case() = "unknown";
+  const Shape shape = strip();
+  const Scenario s = push(shape, 0.2);
+  Options options = options_for(Cell_scheme::spokes(), Minimizer::local_global);
+  CHECK(Run(shape, s, options).report.end == End::unknown);
+  options.minimizer = Minimizer::automatic;
+  options.smoothing_length = 0.5;
+  CHECK(Run(shape, s, options).report.end == End::unknown);
+  options.smoothing_length = 0;
+  const Run rest(shape, push(shape, 0), options); // nothing is pushed
+  CHECK(rest.report.end == End::minimum && rest.report.looking_iterations == 0);
+}
+
+// the same to the last bit for any number of threads
+void test_threads()
+{
+  test_case() = "threads";
+  const Shape shape = strip();
+  Options options = options_for(Cell_scheme::spokes_and_rims());
+  options.threads = 1;
+  const Run one(shape, push(shape, 0.2), options);
+  options.threads = 4;
+  const Run four(shape, push(shape, 0.2), options);
+  CHECK(one.report.saddles_left > 0);
+  CHECK(one.report.energy == four.report.energy);
+  CHECK(same_points(one.mesh, four.mesh));
+}
+
+void test_all()
+{
+  test_buckling();
+  test_minimum();
+  test_visitor();
+  test_unknown();
+  test_threads();
+}
+
+} // namespace ends
+
+int main()
+{
+  derivative::test_all();
+  ends::test_all();
+  return checks_result();
+}
