@@ -180,6 +180,8 @@ inline boost::program_options::options_description described_options()
     ("tolerance", value<std::string>()->value_name("T")
        ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
      "stop when the estimated relative gap to the minimum is at most T; 0: run all N")
+    ("verify_minimum", value<std::string>()->default_value("true")->value_name("true|false"),
+     "look at the second derivative before the end, and go on if that is not at a minimum")
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
      "use at most N threads; 0: one per processor");
@@ -233,7 +235,8 @@ inline void print_help(std::ostream& out)
          "  arap_deform cactus.off -o hanging.off --fix z:..5% --gravity 1,0,0 \\\n"
          "    --modulus 20 --frames 60 --animation hanging.gif\n\n"
          "The report tells status, message, iterations, energy (initial, and after each),\n"
-         "estimated_relative_gap to the minimum, edge_length_error (relative root mean\n"
+         "estimated_relative_gap to the minimum, the kind of end (minimum, flat, undecided,\n"
+         "unknown), saddles_left, plateaus_left, edge_length_error (relative root mean\n"
          "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
          "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
          "first vertex; nothing holds them, and they stay), seconds, and more.\n\n"
@@ -539,7 +542,8 @@ inline Command_line parse_command_line(int argc, char** argv)
       {{"newton", Rotation_choice::newton}, {"svd", Rotation_choice::svd}});
     const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
     for(const char* name :
-        {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance"})
+        {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
+          "verify_minimum"})
       if(const Outcome set = set_option(line.options, name, text(name)); !set)
         throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
     line.options.bending_length = number<double>("bending", text("bending"));

@@ -152,6 +152,10 @@ void write_report(Output_file& file, const Result& result)
   json["estimated_relative_gap"] = nullptr;
   if(std::isfinite(report.estimated_relative_gap))
     json["estimated_relative_gap"] = report.estimated_relative_gap;
+  json["end"] = to_string(report.end);
+  json["saddles_left"] = report.saddles_left;
+  json["plateaus_left"] = report.plateaus_left;
+  json["looking_iterations"] = report.looking_iterations;
   json["edge_length_error"] = result.quality.edge_length_error;
   json["area_change"] = result.quality.area_change;
   json["volume_change"] = nullptr;

@@ -141,6 +141,7 @@ void test_success()
   CHECK(json["iterations"] == 30);
   CHECK(json["energy"].get<std::vector<double>>() == report.energy);
   CHECK(json["estimated_relative_gap"] == report.estimated_relative_gap);
+  CHECK(json["end"] == "unknown" && json["saddles_left"] == 0 && json["plateaus_left"] == 0);
   CHECK_AT_MOST(std::abs(json["edge_length_error"].get<double>() -
                          CGAL::ARAP::relative_edge_length_error(mesh, rest.points(),
                                                                 mesh.points())), 1e-14);

@@ -99,13 +99,16 @@ inline Outcome read_option(Options& options, const std::string& name, const std:
     return read_count(name, value, options.threads);
   if(name == "tolerance")
     return read_number(name, value, options.tolerance);
+  if(name == "verify_minimum")
+    return choose(name, value, options.verify_minimum, {{"true", true}, {"false", false}});
   if(name == "bending_length")
     return read_number(name, value, options.bending_length);
   if(name == "smoothing_length")
     return read_number(name, value, options.smoothing_length);
   return Outcome(Status::invalid_option,
                  "the option '" + name + "' is not known; use one of cells, minimizer, "
-                 "initial_guess, iterations, threads, tolerance, bending_length, smoothing_length");
+                 "initial_guess, iterations, threads, tolerance, verify_minimum, bending_length, "
+                 "smoothing_length");
 }
 
 } // namespace internal

@@ -45,19 +45,20 @@ public:
   std::optional<Status> operator()()
   {
     Report& report = m_run.report;
-    const unsigned int limit = m_run.options.iterations;
     if(m_run.is_at_zero())
       report.end = End::minimum;
     if(report.end == End::minimum || !m_run.options.verify_minimum ||
        !m_run.has_second_derivative())
       return Status::converged;
 
+    if(has_no_iterations_left())
+      return without_look();
     const double tolerated = m_run.tolerated_decrease(), start = m_run.value();
     Second_look look(m_run);
     auto finding = look.begin(1e-3 * tolerated);
     for(unsigned int k = 0; k < most_steps && finding == Second_look::Finding::nothing_yet; ++k)
     {
-      if(report.iterations + 1 >= limit) // the last one may be needed to move on
+      if(has_no_iterations_left())
         break;
       finding = look.step();
       ++report.looking_iterations;
@@ -74,11 +75,12 @@ public:
                  : finding == Second_look::Finding::nothing_yet ? End::undecided : End::minimum;
       report.estimated_relative_gap =
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
-      if(!is_saddle || (m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated))
+      if(report.end == End::undecided && has_no_iterations_left())
+        return without_look();
+      if(!is_saddle || m_number_of_moves == most_moves ||
+         (m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated))
         return Status::converged;
     }
-    if(m_number_of_moves == most_moves || report.iterations == limit)
-      return gap <= tolerated ? Status::converged : Status::iteration_limit;
 
     bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1);
     if(is_saddle)
@@ -101,7 +103,20 @@ public:
 
 private:
   static constexpr unsigned int most_steps = 200; // of a look
-  static constexpr unsigned int most_moves = 10;
+  static constexpr unsigned int most_moves = 10; // from saddle points, if the gap is small
+
+  // the last one may be needed to move on
+  bool has_no_iterations_left() const
+  {
+    return m_run.report.iterations + 1 >= m_run.options.iterations;
+  }
+
+  // An estimate of the gap that was wrong before is not believed.
+  Status without_look()
+  {
+    m_run.report.end = End::undecided;
+    return m_number_of_moves > 0 ? Status::iteration_limit : Status::converged;
+  }
 
   static double largest_entry(const std::vector<Coordinates>& points)
   {

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
@@ -33,6 +34,9 @@ std::string simplex_name(const Region& region, int simplex);
 
 // the end of a message if there are unconstrained components, given by their smallest vertices
 std::string about_unconstrained_components(const std::vector<std::size_t>& parts);
+
+// what of a message tells what a run left behind, and of an end that may be no minimum
+std::string about_end(const Report& report);
 
 std::string about_nothing_free(bool is_region_empty);
 

@@ -55,6 +55,22 @@ std::string about_unconstrained_components(const std::vector<std::size_t>& parts
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+std::string about_end(const Report& report)
+{
+  const auto number_of = [](unsigned int n, const std::string& what) {
+    return n == 0 ? std::string()
+                  : "; left on the way: " + std::to_string(n) + ' ' + what + (n > 1 ? "s" : "");
+  };
+  std::string text = number_of(report.saddles_left, "saddle point") +
+                     number_of(report.plateaus_left, "plateau");
+  if(report.end == End::flat)
+    text += "; it can still fall, but hardly did when the run followed such directions";
+  if(report.end == End::undecided)
+    text += "; it was not decided whether this is a minimum or a saddle point";
+  return text;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 std::string about_nothing_free(bool is_region_empty)
 {
   return std::string("nothing is free to move: ") +
