@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
@@ -36,6 +37,17 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// of as many points as the shorter one has
+inline double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
+{
+  return sum_over_blocks((std::min)(a.size(), b.size()), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for(std::size_t v = begin; v < end; ++v)
+      sum += dot(a[v], b[v]);
+    return sum;
+  });
+}
 
 // What all minimizers have in common: the energy that is minimized, the rigidity and the pull of
 // the constraints; the local step, the solution for the global step, and what is observed, reported

@@ -20,7 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,24 +29,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// of as many points as the shorter one has
-inline double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
-{
-  return sum_over_blocks((std::min)(a.size(), b.size()), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for(std::size_t v = begin; v < end; ++v)
-      sum += dot(a[v], b[v]);
-    return sum;
-  });
-}
-
-// A look at the second derivative 2 A of the energy where a run would end, by conjugate gradients for
-// A s = f + e, with the Laplacian L for the preconditioner, f the force and e a small pseudorandom
-// one, without which what the symmetry of shape and targets hides would not be seen. As long as all
-// directions have positive curvature, the model of the energy decreases, and what it tends to is the
-// gap that is left. A direction p with p A p < 0 is found if there is one in the space that the steps
-// span (Steihaug 1983); the residual cannot become small as long as it has a part along such a
-// direction. A step costs about what one of the minimizer does.
+// A look at the second derivative 2 A of the energy where a run would end, by conjugate gradients
+// for A s = f + e, with the Laplacian L for the preconditioner, f the force and e a small
+// pseudorandom one, without which what the symmetry of shape and targets hides would not be seen.
+// As long as all directions have positive curvature, the model of the energy decreases, and what it
+// tends to is the gap that is left. A direction p with p A p < 0 is found if there is one in the
+// space that the steps span (Steihaug 1983); the residual cannot become small as long as it has a
+// part along such a direction. A step costs about what one of the minimizer does.
 class Second_look
 {
 public:
@@ -138,11 +126,12 @@ private:
     });
     if(!(square > 0))
       return square == 0 ? Finding::positive_curvature : Finding::failure;
+    // Over some hundred looks, what was found when the residual was smaller than this gained next
+    // to nothing.
+    constexpr double small_residual = 0.1;
     return square <= small_residual * small_residual * m_first_r_square
              ? Finding::positive_curvature : Finding::nothing_yet;
   }
-
-  static constexpr double small_residual = 0.1;
 
   Minimization& m_run;
   std::vector<Coordinates> m_r, m_z, m_s; // residual, what L makes of it, solution

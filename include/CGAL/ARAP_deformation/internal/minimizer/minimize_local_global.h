@@ -36,14 +36,7 @@ namespace internal {
 inline Status minimize_local_global(Minimization& run)
 {
   std::vector<Coordinates> step;
-  const auto force_along_step = [&] {
-    return sum_over_blocks(step.size(), [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for(std::size_t v = begin; v < end; ++v)
-        sum += dot(run.force()[v], step[v]);
-      return sum;
-    });
-  };
+  const auto force_along_step = [&] { return dot_product(run.force(), step); };
   const auto add_step = [&](double factor) {
     for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)

@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/End_examiner.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -45,8 +45,8 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
 // Kavan 2017). An iteration costs what one of local/global does, one local step and one solution,
 // unless its step has to be shortened, which costs a local step each time and is rare. Where
 // shortening does not help, or the model is of no use, the local/global step is taken, and the
-// memory starts afresh. That step lowers the energy, or the solver has failed. It also starts afresh
-// where the end of the run was none.
+// memory starts afresh. That step lowers the energy, or the solver has failed. It also starts
+// afresh where what seemed to be the end of the run was none.
 inline Status minimize_quasi_newton(Minimization& run)
 {
   Quasi_newton_memory memory(run.number_of_vertices);
