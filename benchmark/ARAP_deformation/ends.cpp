@@ -228,6 +228,9 @@ void measure(const Shape<N>& shape, Table& table)
   for(const auto& [name, cells] : schemes)
     for(int pose = 0; pose < Problem<N>::number_of_poses; ++pose)
     {
+      // surfaces of elements bend for nothing, and are a world of their own: few of them
+      if(N == 3 && cells == ARAP::Cell_scheme::elements() && shape.points.size() > 1000)
+        continue;
       ARAP::Options options;
       options.cells = cells;
       Problem<N> problem(shape, pose, options);
@@ -280,9 +283,9 @@ Json run(const Settings& settings)
     measure(block("plate of tetrahedra", 16, 16, 2), table);
     measure(block("cube", 8, 8, 8), table);
     for(const char* name : {"blade.off", "hand.off", "femur.off", "knot1.off", "bones.off",
-                            "pig.off", "mushroom.off", "triceratops.off", "camel.off",
+                            "pig.off", "mushroom.off", "triceratops.off", "cylinder.off",
                             "sphere.off", "pipe.off", "head.off", "cow.off", "rotor.off",
-                            "homer.off", "fandisk.off"})
+                            "fandisk.off"})
       measure_mesh(name);
   }
   Json section = make_section(

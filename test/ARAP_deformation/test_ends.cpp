@@ -24,6 +24,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
 #include <CGAL/ARAP_deformation/internal/session/core_models.h>
+#include <CGAL/ARAP_deformation/set_option.h>
 
 #include <Eigen/Dense>
 
@@ -448,6 +449,9 @@ void test_unknown()
   const Shape shape = strip();
   const Scenario s = push(shape, 0.2);
   Options options = options_for(Cell_scheme::spokes(), Minimizer::local_global);
+  CHECK(CGAL::ARAP::set_option(options, "verify_minimum", "false") && !options.verify_minimum);
+  CHECK(CGAL::ARAP::set_option(options, "verify_minimum", "true") && options.verify_minimum);
+  CHECK(!CGAL::ARAP::set_option(options, "verify_minimum", "1"));
   CHECK(Run(shape, s, options).report.end == End::unknown);
   options.minimizer = Minimizer::automatic;
   options.smoothing_length = 0.5;

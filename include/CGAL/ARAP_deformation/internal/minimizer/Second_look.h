@@ -128,7 +128,7 @@ private:
       return square == 0 ? Finding::positive_curvature : Finding::failure;
     // Over some hundred looks, what was found when the residual was smaller than this gained next
     // to nothing.
-    constexpr double small_residual = 0.1;
+    constexpr double small_residual = 0.03;
     return square <= small_residual * small_residual * m_first_r_square
              ? Finding::positive_curvature : Finding::nothing_yet;
   }
