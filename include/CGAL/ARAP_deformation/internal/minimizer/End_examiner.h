@@ -68,6 +68,14 @@ public:
     if(finding == Second_look::Finding::failure) // a lost chance, and no more
       return Status::converged;
     const bool is_saddle = finding == Second_look::Finding::negative_curvature;
+    for(unsigned int k = 0; is_saddle && k < 30 && !has_no_iterations_left(); ++k)
+    {
+      if(!look.sharpen())
+        break;
+      ++report.looking_iterations;
+      if(const auto status = m_run.same_iterate())
+        return status;
+    }
     const double gap = look.gap();
     if(gap <= tolerated)
     {

@@ -20,6 +20,10 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -71,6 +75,7 @@ public:
       }
     });
     m_p.assign(m_run.x.size(), Coordinates{0, 0, 0});
+    m_lp.assign(n, Coordinates{0, 0, 0});
     m_s.assign(n, Coordinates{0, 0, 0});
     return next_direction();
   }
@@ -93,6 +98,54 @@ public:
     return next_direction();
   }
 
+  // Where the direction has negative curvature, it is a mix of many. Turns it towards the one of the
+  // most negative curvature, by a step of the locally optimal preconditioned conjugate gradients of
+  // Knyazev (2001): to the best combination of the direction p, of w = L^-1 (A p - c L p) with its
+  // curvature c, and of the change q in the last step. False if there is little left to turn, or if
+  // it fails.
+  bool sharpen()
+  {
+    const std::size_t n = m_run.number_of_vertices;
+    if(m_q.empty())
+    {
+      m_ap.swap(m_z); // step() has left it there, with another sign
+      combine(m_ap, -1, m_ap, 0, m_ap);
+      m_w.assign(m_p.size(), Coordinates{0, 0, 0});
+      m_q = m_aq = m_lq = std::vector<Coordinates>(n, Coordinates{0, 0, 0});
+    }
+    const double c = dot_product(m_p, m_ap) / dot_product(m_p, m_lp);
+    combine(m_r, 1, m_ap, -c, m_lp);
+    if(!solve())
+      return false;
+    const double square = dot_product(m_r, m_z); // of w, in the metric of L
+    if(!(square > 0.01 * c * c * dot_product(m_p, m_lp)))
+      return false;
+    std::copy(m_z.begin(), m_z.end(), m_w.begin());
+    m_run.change_of_force(m_w, m_z);
+    combine(m_z, -1, m_z, 0, m_z);
+
+    const std::vector<Coordinates>* const vectors[] = {&m_p, &m_w, &m_q};
+    const std::vector<Coordinates>* const a_vectors[] = {&m_ap, &m_z, &m_aq};
+    const std::vector<Coordinates>* const l_vectors[] = {&m_lp, &m_r, &m_lq};
+    Eigen::Matrix3d a, l;
+    for(int i = 0; i < 3; ++i)
+      for(int j = 0; j <= i; ++j)
+      {
+        a(i, j) = a(j, i) = dot_product(*vectors[i], *a_vectors[j]);
+        l(i, j) = l(j, i) = dot_product(*vectors[i], *l_vectors[j]);
+      }
+    const Eigen::Vector3d best = lowest_combination(a, l);
+    if(!best.allFinite() || best[0] == 0)
+      return false;
+    combine(m_q, best[1], m_w, best[2], m_q);
+    combine(m_aq, best[1], m_z, best[2], m_aq);
+    combine(m_lq, best[1], m_r, best[2], m_lq);
+    combine(m_p, best[0], m_p, 1, m_q);
+    combine(m_ap, best[0], m_ap, 1, m_aq);
+    combine(m_lp, best[0], m_lp, 1, m_lq);
+    return true;
+  }
+
   // the last direction, for all vertices of the region
   const std::vector<Coordinates>& direction() const { return m_p; }
   const std::vector<Coordinates>& solution() const { return m_s; } // for the movable ones
@@ -101,6 +154,40 @@ public:
   double gap() const { return dot_product(m_run.force(), m_s); }
 
 private:
+  // result := a x + b y, for the movable vertices; it may be one of them
+  void combine(std::vector<Coordinates>& result, double a, const std::vector<Coordinates>& x,
+               double b, const std::vector<Coordinates>& y) const
+  {
+    for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+      {
+        const Coordinates other = y[v];
+        result[v] = scaled(x[v], a);
+        add(result[v], b, other);
+      }
+    });
+  }
+
+  // The coefficients that minimize a quadratic form a where another one, l, is 1. Vectors that
+  // others determine are left out.
+  static Eigen::Vector3d lowest_combination(const Eigen::Matrix3d& a, const Eigen::Matrix3d& l)
+  {
+    Eigen::Vector3d scale;
+    for(int k = 0; k < 3; ++k)
+      scale[k] = l(k, k) > 0 ? 1 / std::sqrt(l(k, k)) : 0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> metric(scale.asDiagonal() * l *
+                                                                scale.asDiagonal());
+    Eigen::Matrix3d basis = Eigen::Matrix3d::Zero();
+    int size = 0;
+    for(int k = 0; k < 3; ++k)
+      if(metric.eigenvalues()[k] > 1e-8)
+        basis.col(size++) = scale.asDiagonal() * metric.eigenvectors().col(k) /
+                            std::sqrt(metric.eigenvalues()[k]);
+    const Eigen::MatrixXd used = basis.leftCols(size);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> form(used.transpose() * a * used);
+    return used * form.eigenvectors().col(0);
+  }
+
   bool solve()
   {
     Scoped_seconds global(m_run.report.seconds.global_steps);
@@ -122,6 +209,8 @@ private:
       {
         m_p[v] = scaled(m_p[v], beta);
         add(m_p[v], 1, m_z[v]);
+        m_lp[v] = scaled(m_lp[v], beta);
+        add(m_lp[v], 1, m_r[v]);
       }
     });
     if(!(square > 0))
@@ -135,7 +224,8 @@ private:
 
   Minimization& m_run;
   std::vector<Coordinates> m_r, m_z, m_s; // residual, what L makes of it, solution
-  std::vector<Coordinates> m_p;
+  std::vector<Coordinates> m_p, m_lp;     // direction and L p
+  std::vector<Coordinates> m_ap, m_w, m_q, m_aq, m_lq; // of sharpen(): A p and so on
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric of L
 };
 
