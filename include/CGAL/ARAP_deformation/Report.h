@@ -47,8 +47,8 @@ enum class End
            ///< the tolerance by the second derivative, too; or the energy is next to zero
   flat,    ///< there is a direction of negative curvature, but following the last ones gained less
            ///< than a hundredth of what the tolerance allows
-  undecided ///< the gap is within the tolerance by the second derivative, but the look was too short
-            ///< to exclude a negative curvature
+  undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
+            ///< exclude a negative curvature
 };
 
 /// \ingroup PkgARAPDeformationRun

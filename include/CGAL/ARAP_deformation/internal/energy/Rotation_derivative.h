@@ -26,10 +26,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// How the closest rotation R follows a covariance S. Of the rotation exp(w) R the product with S is,
-// to second order,  tr(R^T S) + a w - w K w / 2  with the axis a of the skew part of S R^T, which is
-// zero for the closest one, and K = tr(Y) I - Y, Y the symmetric part. So a change dS, by which the
-// axis becomes a(dS R^T), turns R by w = K^-1 a.
+// How the closest rotation R follows a covariance S. Of the rotation exp(w) R the product with S
+// is, to second order,  tr(R^T S) + a w - w K w / 2  with the axis a of the skew part of S R^T,
+// which is zero for the closest one, and K = tr(Y) I - Y, Y the symmetric part. So a change dS, by
+// which the axis becomes a(dS R^T), turns R by w = K^-1 a.
 class Rotation_derivative
 {
 public:

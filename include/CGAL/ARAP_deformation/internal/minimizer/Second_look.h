@@ -98,11 +98,10 @@ public:
     return next_direction();
   }
 
-  // Where the direction has negative curvature, it is a mix of many. Turns it towards the one of the
-  // most negative curvature, by a step of the locally optimal preconditioned conjugate gradients of
-  // Knyazev (2001): to the best combination of the direction p, of w = L^-1 (A p - c L p) with its
-  // curvature c, and of the change q in the last step. False if there is little left to turn, or if
-  // it fails.
+  // A direction of negative curvature is a mix of many. Turns it towards the most negative one, by a
+  // step of the locally optimal preconditioned conjugate gradients of Knyazev (2001): to the best
+  // combination of the direction p, of w = L^-1 (A p - c L p) with its curvature c, and of the
+  // change q in the last step. False if there is little left to turn, or if it fails.
   bool sharpen()
   {
     const std::size_t n = m_run.number_of_vertices;
