@@ -91,7 +91,7 @@ struct Options
 
   /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
   /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
-  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations. Local/global runs, time steps
+  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 200. Local/global runs, time steps
   /// and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
