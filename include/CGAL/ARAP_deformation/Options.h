@@ -91,8 +91,8 @@ struct Options
 
   /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
   /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
-  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 200. Local/global runs, time steps
-  /// and runs with `smoothing_length` do not look.
+  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 200. Local/global runs,
+  /// time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
   /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro
