@@ -191,8 +191,8 @@ public:
   // whether stiffness and lengths are those of a state
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
-  // Makes positions and rotations of a state those of the region that there is, if it serves for the
-  // state. find_entry(v) is the entry that a vertex has in the state.
+  // Makes positions and rotations of a state those of the region that there is, if it serves for
+  // the state. find_entry(v) is the entry that a vertex has in the state.
   template <typename Function>
   void renumber(State& state, const Domain& domain, const Function& find_entry) const
   {
