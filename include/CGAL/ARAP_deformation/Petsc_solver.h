@@ -121,7 +121,7 @@ public:
   ///        in the norm of the matrix, as the preconditioner estimates it. The energy falls by
   ///        \f$(1 - \f$`tolerance`\f$^2)\f$ of what the exact step of local/global gains.
   explicit Petsc_solver(const Petsc_environment& environment,
-                        Petsc_method method = Petsc_method::cholesky, double tolerance = 1e-3)
+                        Petsc_method method = Petsc_method::cholesky, double tolerance = 1e-2)
     : m_ranks(environment.m_ranks), m_tolerance(method == Petsc_method::cholesky ? 0 : tolerance)
   {
     CGAL_precondition(m_ranks->rank() == 0);

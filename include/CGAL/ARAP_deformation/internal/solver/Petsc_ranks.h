@@ -18,6 +18,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -53,8 +54,12 @@ public:
     }
     if(!is_petsc_there)
     {
-      PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
-      PetscOptionsSetValue(nullptr, "-skip_petscrc", nullptr);
+      for(const auto& [option, value] : {std::pair("-no_signal_handler", "1"),
+                                         std::pair("-skip_petscrc", "1"),
+                                         // a quarter less memory and time than without, on surfaces
+                                         std::pair("-arap_pc_hypre_boomeramg_agg_nl", "1"),
+                                         std::pair("-arap_pc_hypre_boomeramg_P_max", "4")})
+        PetscOptionsSetValue(nullptr, option, value);
       m_has_started_petsc =
         is_petsc_success(PetscInitialize(nullptr, nullptr, nullptr, nullptr));
     }

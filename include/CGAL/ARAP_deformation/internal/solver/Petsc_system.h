@@ -183,7 +183,7 @@ private:
     if(!is_single)
       clear_rows();
     return is_made && is_petsc_success(MatSetOption(m_matrix, MAT_SPD, PETSC_TRUE)) &&
-           is_petsc_success(MatSetOptionsPrefix(m_matrix, "arap_"));
+           is_petsc_success(MatSetOptionsPrefixFactor(m_matrix, "arap_"));
   }
 
   bool set_up_factor()
