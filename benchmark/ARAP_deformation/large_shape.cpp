@@ -9,9 +9,11 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// One deformation of a large sheet, with a solver of one's choice: seconds and memory of each phase.
-// With PETSc also under mpirun, where each rank tells its memory.
-// usage: large_shape default|single_precision|eigen_cg|petsc|petsc_cg VERTICES [ITERATIONS [TOLERANCE]]
+// One deformation of a large sheet, with a solver of one's choice: seconds and memory of each
+// phase. With PETSc also under mpirun, where each rank tells its memory. Memory: on Linux only.
+// usage: large_shape SOLVER VERTICES [ITERATIONS [TOLERANCE]]
+//   SOLVER      default, single_precision, eigen_cg (with an incomplete Cholesky factorization),
+//               petsc or petsc_cg
 //   TOLERANCE   of conjugate gradients
 
 #include <CGAL/ARAP_deformation.h>

@@ -160,7 +160,8 @@ void test_the_command(const std::string& mpiexec)
       CHECK_AT_MOST(largest, bound * side);
     }
   };
-  const std::string few = "--iterations 10 --tolerance 0", all = "--iterations 500 --tolerance 1e-9";
+  const std::string few = "--iterations 10 --tolerance 0",
+                    all = "--iterations 500 --tolerance 1e-9";
   compare_with(deformed("", few), few + " --solver petsc", 1e-8);
   compare_with(deformed("", all), all + " --solver petsc_cg", 1e-3);
   test_case() = "an error of rank 0 ends all";

@@ -46,8 +46,8 @@ namespace ARAP {
 /// A program that is started alone has rank 0 only.
 ///
 /// Starts MPI and PETSc, unless the program has, and ends what it started with the last copy of the
-/// environment and the last solver made with it. PETSc reads the options in the environment variable
-/// `PETSC_OPTIONS`, for solvers those with the prefix `arap_`, as in
+/// environment and the last solver made with it. PETSc reads the options in the environment
+/// variable `PETSC_OPTIONS`, for solvers those with the prefix `arap_`, as in
 /// `-arap_pc_hypre_boomeramg_strong_threshold 0.5`. It prints no errors and takes no signals.
 class Petsc_environment
 {
@@ -63,7 +63,8 @@ public:
     if(m_ranks->rank() == 0)
       return false;
     std::map<int, internal::Petsc_system> systems;
-    for(auto command = m_ranks->receive(); command.task != Ranks::end; command = m_ranks->receive())
+    Ranks::Command command;
+    while((command = m_ranks->receive()).task != Ranks::end)
       switch(command.task)
       {
       case Ranks::create:
@@ -90,8 +91,9 @@ enum class Petsc_method
 {
   /// By a Cholesky factorization, of MUMPS.
   cholesky,
-  /// By conjugate gradients, whose preconditioner is algebraic multigrid: BoomerAMG of hypre, or GAMG
-  /// of PETSc if that was built without hypre. Needs memory in proportion to the number of rows.
+  /// By conjugate gradients, whose preconditioner is algebraic multigrid: BoomerAMG of hypre, or
+  /// GAMG of PETSc if that was built without hypre. Needs memory in proportion to the number of
+  /// rows.
   conjugate_gradients
 };
 
@@ -117,9 +119,11 @@ public:
   ///
   /// \param environment the processes
   /// \param method how it solves
-  /// \param tolerance of conjugate gradients: the error of a solution relative to the solution, both
-  ///        in the norm of the matrix, as the preconditioner estimates it. The energy falls by
-  ///        \f$(1 - \f$`tolerance`\f$^2)\f$ of what the exact step of local/global gains.
+  /// \param tolerance of conjugate gradients: the error of a solution relative to the solution,
+  ///        both in the norm of the matrix, as the preconditioner estimates it. A step of
+  ///        local/global then misses the share `tolerance`\f$^2\f$ of what the exact step gains
+  ///        with these rotations. The default, which misses a ten-thousandth, is what the
+  ///        minimizers need: smaller ones take longer, and no fewer iterations.
   explicit Petsc_solver(const Petsc_environment& environment,
                         Petsc_method method = Petsc_method::cholesky, double tolerance = 1e-2)
     : m_ranks(environment.m_ranks), m_tolerance(method == Petsc_method::cholesky ? 0 : tolerance)

@@ -330,7 +330,8 @@ private:
     for(int rank = 1; rank < size; ++rank)
     {
       const auto entries = static_cast<PetscInt>(1.0 * begin[n] * rank / size);
-      m_first_rows[rank] = static_cast<PetscInt>(std::lower_bound(begin, begin + n, entries) - begin);
+      m_first_rows[rank] =
+        static_cast<PetscInt>(std::lower_bound(begin, begin + n, entries) - begin);
     }
     m_first_rows[size] = n;
   }
