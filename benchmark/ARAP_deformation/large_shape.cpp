@@ -26,16 +26,18 @@
 #include <CGAL/ARAP_deformation_traits.h>
 #include <CGAL/Real_timer.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -55,7 +57,8 @@ double megabytes(const std::string& name)
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Prints a line for each phase: its seconds, its peak of memory, and what is left of it at its end.
+// Prints a line for each phase: its seconds, those of all its processors, the peak of memory, and
+// what is left of it at its end.
 class Phases
 {
 public:
@@ -65,6 +68,7 @@ public:
   {
     m_timer.reset();
     m_timer.start();
+    m_clock = std::clock();
     std::ofstream("/proc/self/clear_refs") << 5; // sets the peak back
   }
 
@@ -72,8 +76,9 @@ public:
   {
     m_timer.stop();
     m_peak = (std::max)(m_peak, megabytes("VmHWM"));
-    std::printf("%-28s %9.2f s %9.0f MB at its peak %9.0f MB after it\n", name.c_str(),
-                m_timer.time(), megabytes("VmHWM"), megabytes("VmRSS"));
+    std::printf("%-28s %8.2f s, %8.2f s of processors, %7.0f MB at its peak, %7.0f MB after it\n",
+                name.c_str(), m_timer.time(), double(std::clock() - m_clock) / CLOCKS_PER_SEC,
+                megabytes("VmHWM"), megabytes("VmRSS"));
     std::fflush(stdout);
     begin();
   }
@@ -82,6 +87,7 @@ public:
 
 private:
   CGAL::Real_timer m_timer;
+  std::clock_t m_clock = 0;
   double m_peak = 0;
 };
 
@@ -115,11 +121,14 @@ public:
 
   bool solve(std::size_t n, Coordinates* x)
   {
+    if(m_number_of_solutions++ == 0)
+      m_phases->end("the first local step");
     return std::visit([&](auto& solver) { return solver.solve(n, x); }, m_solver);
   }
 
 private:
   Any m_solver;
+  int m_number_of_solutions = 0;
   Phases* m_phases;
 };
 

@@ -101,8 +101,9 @@ enum class Petsc_method
 /// \brief solvers of PETSc, whose matrices and factors are distributed over the memory of several
 /// processes.
 ///
-/// Needs PETSc, a build of it for real numbers with indices of 32 bits, and for
-/// `Petsc_method::cholesky` MUMPS. The processes are those of a `Petsc_environment`.
+/// Needs PETSc, a build of it with MUMPS for real numbers with indices of 32 bits; programs that
+/// use it are linked with the CMake target `CGAL::Petsc_support`. The processes are those of a
+/// `Petsc_environment`.
 ///
 /// No two calls of the solvers of a program may overlap: PETSc is not for several threads.
 ///

@@ -90,7 +90,8 @@ public:
 
 private:
   // Rank 0 has the lower triangle by columns, which is the upper one by rows, as MUMPS reads it.
-  // Conjugate gradients need all entries of a row.
+  // Conjugate gradients need all entries of a row. No rank has more than its rows twice, but for
+  // the matrix that rank 0 is given.
   bool distribute(const Sparse_matrix* a)
   {
     const bool is_full = m_tolerance > 0;
@@ -188,7 +189,6 @@ private:
 
   bool set_up_factor()
   {
-    const PetscInt m = number_of_rows(), n = m_first_rows.back();
     MatFactorInfo info;
     MatFactorInfoInitialize(&info);
     if(m_factor == nullptr)
@@ -206,10 +206,7 @@ private:
     const bool is_factorized =
       is_petsc_success(MatCholeskyFactorNumeric(m_factor, m_matrix, &info)) && has_factor() &&
       is_petsc_success(MatMumpsGetInfog(m_factor, 12, &negative_pivots)) && negative_pivots == 0;
-    return m_ranks.is_everywhere(is_factorized) && attempt([&] {
-      m_columns_of_x.resize(6 * std::size_t(m)); // the right-hand side, and the solution
-      return true;
-    }) && n > 0;
+    return m_ranks.is_everywhere(is_factorized) && allocate_columns();
   }
 
   bool has_factor() const
@@ -264,10 +261,7 @@ private:
       is_petsc_success(PCSetType(preconditioner, PCGAMG)) &&
 #endif
       is_petsc_success(KSPSetFromOptions(m_iteration)) &&
-      is_petsc_success(KSPSetUp(m_iteration))) && attempt([&] {
-        m_columns_of_x.resize(6 * std::size_t(number_of_rows()));
-        return true;
-      });
+      is_petsc_success(KSPSetUp(m_iteration))) && allocate_columns();
   }
 
   bool iterate()
@@ -293,13 +287,22 @@ private:
     return is_solved;
   }
 
+  bool allocate_columns()
+  {
+    return attempt([&] {
+      const auto m = static_cast<std::size_t>(number_of_rows());
+      m_columns_of_x.resize(6 * m);
+      m_rows_of_x.resize(m_ranks.rank() == 0 ? 0 : m);
+      return true;
+    });
+  }
+
   // rank 0 sends each rank its rows of x, of which that makes columns
   void scatter(Coordinates* x)
   {
     const PetscInt m = number_of_rows();
     for(int rank = 1; x != nullptr && rank < m_ranks.size(); ++rank)
       send(x + m_first_rows[rank], 3 * number_of_rows(rank), MPI_DOUBLE, rank);
-    m_rows_of_x.resize(x == nullptr ? m : 0);
     if(x == nullptr)
       receive(m_rows_of_x.data(), 3 * m, MPI_DOUBLE);
     const Coordinates* const rows = x == nullptr ? m_rows_of_x.data() : x;
@@ -423,8 +426,8 @@ private:
   Array<double> m_values;
   Mat m_matrix = nullptr, m_factor = nullptr;
   KSP m_iteration = nullptr;
-  Array<double> m_columns_of_x;
-  Array<Coordinates> m_rows_of_x;
+  Array<double> m_columns_of_x; // the right-hand side, and the solution
+  Array<Coordinates> m_rows_of_x; // rank 0 has them already
 };
 
 } // namespace internal
