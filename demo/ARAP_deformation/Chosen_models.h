@@ -81,7 +81,7 @@ public:
       m_solver = Petsc_solver(processes.petsc(), Petsc_method::conjugate_gradients);
       break;
 #endif
-    default: break;
+    default: break; // automatic: what it is constructed as
     }
   }
 
