@@ -106,8 +106,12 @@ void test_deformations(const Petsc_environment& petsc)
     return deform_with(deformation, all_vertices(mesh), s, run);
   };
   const Petsc_solver cholesky(petsc), loose(petsc, Petsc_method::conjugate_gradients);
-  for(Term_run run : term_runs(shape.diameter()))
+  const std::vector<Term_run> runs = term_runs(shape.diameter());
+  // with several processes that wait for each other only some
+  const std::size_t step = petsc.number_of_ranks() == 1 ? 1 : 7;
+  for(std::size_t k = 0; k < runs.size(); k += step)
   {
+    Term_run run = runs[k];
     test_case() = run.name;
     compare(deformed(CGAL::ARAP_deformation_traits<>(), run), deformed(Traits(cholesky), run),
             shape.diameter(), 1e-9);

@@ -43,7 +43,8 @@ namespace ARAP {
 ///   ... // what the program does, once
 /// }
 /// \endcode
-/// A program that is started alone has rank 0 only.
+/// A program that is started alone has rank 0 only. OpenMPI binds processes to processors; with its
+/// option `--bind-to none` the threads of rank 0 have more than one.
 ///
 /// Starts MPI and PETSc, unless the program has, and ends what it started with the last copy of the
 /// environment and the last solver made with it. PETSc reads the options in the environment
