@@ -25,22 +25,49 @@
 #ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #endif
+#ifdef CGAL_LINKED_WITH_PETSC
+#include <CGAL/ARAP_deformation/Petsc_solver.h>
+#endif
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
 namespace CGAL::ARAP::demo {
 
+// the processes of which the solver computes with several: one, unless it is PETSc's
+class Chosen_processes
+{
+public:
+#ifdef CGAL_LINKED_WITH_PETSC
+  explicit Chosen_processes(Solver_choice choice)
+  {
+    if(choice == Solver_choice::petsc || choice == Solver_choice::petsc_cg)
+      m_petsc.emplace();
+  }
+
+  // as Petsc_environment::serve()
+  bool serve() const { return m_petsc && m_petsc->serve(); }
+
+  const Petsc_environment& petsc() const { return *m_petsc; }
+
+private:
+  std::optional<Petsc_environment> m_petsc;
+#else
+  explicit Chosen_processes(Solver_choice) {}
+  bool serve() const { return false; }
+#endif
+};
+
 class Chosen_solver
 {
 public:
-  explicit Chosen_solver(Solver_choice choice)
+  Chosen_solver(Solver_choice choice, [[maybe_unused]] const Chosen_processes& processes)
   {
     switch(choice)
     {
-    case Solver_choice::automatic: break;
     case Solver_choice::single_precision:
       m_solver = Multifrontal_cholesky_solver(Factor_precision::single_precision);
       break;
@@ -48,6 +75,13 @@ public:
 #ifdef CGAL_LINKED_WITH_CHOLMOD
     case Solver_choice::cholmod: m_solver = Cholmod_solver(); break;
 #endif
+#ifdef CGAL_LINKED_WITH_PETSC
+    case Solver_choice::petsc: m_solver = Petsc_solver(processes.petsc()); break;
+    case Solver_choice::petsc_cg:
+      m_solver = Petsc_solver(processes.petsc(), Petsc_method::conjugate_gradients);
+      break;
+#endif
+    default: break; // automatic: what it is constructed as
     }
   }
 
@@ -77,6 +111,9 @@ private:
   std::variant<Multifrontal_cholesky_solver, Eigen_LDLT_solver
 #ifdef CGAL_LINKED_WITH_CHOLMOD
                , Cholmod_solver
+#endif
+#ifdef CGAL_LINKED_WITH_PETSC
+               , Petsc_solver
 #endif
                > m_solver;
 };

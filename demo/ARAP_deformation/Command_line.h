@@ -39,15 +39,7 @@
 namespace CGAL::ARAP::demo {
 
 
-enum class Solver_choice
-{
-  automatic,
-  single_precision,
-  eigen,
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-  cholmod
-#endif
-};
+enum class Solver_choice { automatic, single_precision, eigen, cholmod, petsc, petsc_cg };
 
 enum class Rotation_choice { newton, svd };
 
@@ -167,8 +159,9 @@ inline boost::program_options::options_description described_options()
      "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
      "quasi_newton unless the tolerance is 0")
     ("solver", value<std::string>()->default_value("default")->value_name("NAME"),
-     "of linear systems: default, single_precision (its factor takes half the memory), eigen, or "
-     "cholmod where the command is linked with it")
+     "of linear systems: default, single_precision (its factor takes half the memory), eigen, and "
+     "where the command is linked with them cholmod, petsc (its factor is distributed over the "
+     "processes that mpirun starts) or petsc_cg (without a factor, for the largest shapes)")
     ("rotation", value<std::string>()->default_value("newton")->value_name("NAME"),
      "how rotations are fitted: newton, or svd")
     ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
@@ -529,12 +522,20 @@ inline Command_line parse_command_line(int argc, char** argv)
     if(!line.color.empty())
       vertex_measure(line.color);
     line.weights = chosen_weight(values["weights"].as<std::string>());
+#ifndef CGAL_LINKED_WITH_PETSC
+    if(const std::string name = values["solver"].as<std::string>(); name.rfind("petsc", 0) == 0)
+      throw Usage_error("--solver " + name + ": this arap_deform was built without PETSc");
+#endif
     line.solver = chosen<Solver_choice>(
       "solver", values["solver"].as<std::string>(),
       {{"default", Solver_choice::automatic},
        {"single_precision", Solver_choice::single_precision},
 #ifdef CGAL_LINKED_WITH_CHOLMOD
        {"cholmod", Solver_choice::cholmod},
+#endif
+#ifdef CGAL_LINKED_WITH_PETSC
+       {"petsc", Solver_choice::petsc},
+       {"petsc_cg", Solver_choice::petsc_cg},
 #endif
        {"eigen", Solver_choice::eigen}});
     line.rotation = chosen<Rotation_choice>(

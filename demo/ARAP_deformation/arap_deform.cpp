@@ -321,14 +321,14 @@ void set_cell_values(Deformation& deformation, const Command_line& line,
 
 // Deforms the shape of a domain, each frame from the one before; after_frame(report) follows each.
 template <typename Domain>
-void deform(const Command_line& line, const Domain& domain, const Task& task,
+void deform(const Command_line& line, const Chosen_solver& solver, const Domain& domain,
+            const Task& task,
             const std::vector<Held_point<Domain>>& held,
             const std::vector<Kernel::Point_3>& rest_points, Progress& progress,
             const std::function<void(const CGAL::ARAP::Step_report&)>& after_frame)
 {
   using Deformation = CGAL::ARAP_deformation<Domain, Traits>;
-  Deformation deformation(domain, Traits(Chosen_solver(line.solver), line.weights,
-                                         chosen_rotation(line.rotation)));
+  Deformation deformation(domain, Traits(solver, line.weights, chosen_rotation(line.rotation)));
   CGAL::ARAP::Options options = line.options;
   options.bending_length *= task.diagonal;
   options.smoothing_length *= task.diagonal;
@@ -547,7 +547,7 @@ void write_task(const Outputs& outputs, const Task& task)
 
 // Shape is the class of the contents of the mesh file.
 template <typename Shape>
-void run(const Command_line& line, const std::string& format)
+void run(const Command_line& line, const Chosen_solver& solver, const std::string& format)
 {
   Progress progress(line);
   progress.show("loading " + line.mesh + " ...");
@@ -585,7 +585,7 @@ void run(const Command_line& line, const std::string& format)
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
   std::vector<double> color; // of each vertex
-  deform(line, domain, task, held, rest_points, progress, [&](const auto& report) {
+  deform(line, solver, domain, task, held, rest_points, progress, [&](const auto& report) {
     result.frames.push_back(report);
     if(!line.color.empty())
     {
@@ -628,7 +628,7 @@ void run(const Command_line& line, const std::string& format)
   outputs.commit(); // when nothing else can fail
 }
 
-void run(const Command_line& line)
+void run(const Command_line& line, const Chosen_solver& solver)
 {
   const std::string format = output_format(line.output, line.mesh);
   check_mesh_files(line, format);
@@ -643,11 +643,11 @@ void run(const Command_line& line)
   }
   check_interrupted();
   if(is_tetrahedra_format(format))
-    run<Tetrahedra_file>(line, format);
+    run<Tetrahedra_file>(line, solver, format);
   else if(is_gltf_format(lower_case_extension(line.mesh)))
-    run<Gltf_file>(line, format);
+    run<Gltf_file>(line, solver, format);
   else
-    run<Surface_file>(line, format);
+    run<Surface_file>(line, solver, format);
 }
 
 } // namespace
@@ -665,8 +665,8 @@ int main(int argc, char** argv)
       print_help(std::cout);
       flush_output();
     }
-    else
-      run(line);
+    else if(const Chosen_processes processes(line.solver); !processes.serve())
+      run(line, Chosen_solver(line.solver, processes));
     return EXIT_SUCCESS;
   }
   catch(const Usage_error& error)

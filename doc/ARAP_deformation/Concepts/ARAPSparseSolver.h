@@ -25,6 +25,7 @@ A call may throw, for example `std::bad_alloc`; the deformation is then as it wa
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Multifrontal_cholesky_solver}
 \cgalHasModels{CGAL::ARAP::Cholmod_solver}
+\cgalHasModels{CGAL::ARAP::Petsc_solver}
 \cgalHasModels{CGAL::ARAP::Eigen_sparse_solver<EigenSolver>}
 \cgalHasModels{CGAL::ARAP::Sparse_linear_algebra_adaptor<SparseLinearAlgebra>}
 \cgalHasModelsEnd

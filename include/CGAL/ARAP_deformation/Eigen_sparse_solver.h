@@ -17,11 +17,11 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/may_be_positive_definite.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -131,7 +131,7 @@ public:
   /// factorizes `a`, or prepares an iteration. Returns `false` if `a` is refused.
   bool factorize(const Sparse_matrix& a)
   {
-    if(!may_be_positive_definite(a))
+    if(!internal::may_be_positive_definite(a))
       return false;
     m_state->solver.factorize(keep(a));
     return m_state->solver.info() == Eigen::Success && has_positive_pivots(m_state->solver);
@@ -169,20 +169,6 @@ private:
       return m_state->matrix = a;
     else
       return a;
-  }
-
-  static bool may_be_positive_definite(const Sparse_matrix& a)
-  {
-    for(int column = 0; column < a.outerSize(); ++column)
-    {
-      const Sparse_matrix::InnerIterator diagonal(a, column);
-      if(!diagonal || diagonal.row() != column || !(diagonal.value() > 0))
-        return false;
-      for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
-        if(!std::isfinite(entry.value()))
-          return false;
-    }
-    return true;
   }
 
   static bool has_positive_pivots(const EigenSolver& solver)
