@@ -229,6 +229,7 @@ public:
     with_cell_map(groups, [&](const auto& map) { return m_deformation.set_groups(map); });
   }
 
+  void preprocess() override { require(m_deformation.preprocess()); }
   Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) override
   {
     return checked(m_deformation.deform(iterations, tolerance, visitor_of(visitor)));

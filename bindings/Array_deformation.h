@@ -113,6 +113,7 @@ public:
   virtual void set_stiffness(Numbers values) = 0;
   virtual void set_groups(Indices groups) = 0;
 
+  virtual void preprocess() = 0; // what the next call of deform() needs, before it is made
   virtual Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) = 0;
   virtual Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) = 0;
 

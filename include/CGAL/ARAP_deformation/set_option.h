@@ -18,98 +18,133 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Status.h>
 
-#include <boost/lexical_cast/try_lexical_convert.hpp>
+#include <boost/lexical_cast.hpp>
 
 #include <initializer_list>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Finds the value with a name; else tells which names there are.
 template <typename Value>
-Outcome choose(const std::string& option, const std::string& name, Value& value,
-               std::initializer_list<std::pair<const char*, Value>> choices)
-{
-  std::string names;
-  for(const auto& choice : choices)
-  {
-    if(choice.first == name)
-    {
-      value = choice.second;
-      return Outcome(Status::success, std::string());
-    }
-    names += (names.empty() ? "" : ", ") + std::string(choice.first);
-  }
-  return Outcome(Status::invalid_option,
-                 option + " '" + name + "' is not known; use one of " + names);
-}
+using Choices = std::initializer_list<std::pair<const char*, Value>>;
 
-inline Outcome read_count(const std::string& option, const std::string& text, unsigned int& value)
-{
-  int number = -1;
-  if(!boost::conversion::try_lexical_convert(text, number) || number < 0)
-    return Outcome(Status::invalid_option,
-                   option + " '" + text + "' is not a whole number from 0 to 2147483647");
-  value = static_cast<unsigned int>(number);
-  return Outcome(Status::success, std::string());
-}
-
-inline Outcome read_number(const std::string& option, const std::string& text, double& value)
-{
-  if(!boost::conversion::try_lexical_convert(text, value))
-    return Outcome(Status::invalid_option, option + " '" + text + "' is not a number");
-  return Outcome(Status::success, std::string());
-}
-
-// Sets the option; Options::check() sees whether its value is in its range.
-inline Outcome read_option(Options& options, const std::string& name, const std::string& value)
+// Calls f with an option, and with what its values are called if they have names.
+template <typename Options_, typename Function>
+Outcome with_option(Options_& options, const std::string& name, const Function& f)
 {
   if(name == "cells")
-  {
-    const std::string ring = "k_ring:";
-    if(value.compare(0, ring.size(), ring) != 0)
-      return choose<Cell_scheme>(name, value, options.cells,
-                                 {{"spokes", Cell_scheme::spokes()},
-                                  {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
-                                  {"elements", Cell_scheme::elements()},
-                                  {"k_ring:K", Cell_scheme::spokes()}});
-    unsigned int k = 0;
-    const Outcome outcome = read_count("cells k_ring", value.substr(ring.size()), k);
-    if(outcome)
-      options.cells = Cell_scheme::k_ring(k);
-    return outcome;
-  }
+    return f(options.cells, Choices<Cell_scheme>{{"spokes", Cell_scheme::spokes()},
+                                                 {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+                                                 {"elements", Cell_scheme::elements()},
+                                                 {"k_ring:K", Cell_scheme::spokes()}});
   if(name == "minimizer")
-    return choose<Minimizer>(name, value, options.minimizer,
-                             {{"automatic", Minimizer::automatic},
-                              {"local_global", Minimizer::local_global},
-                              {"quasi_newton", Minimizer::quasi_newton}});
+    return f(options.minimizer, Choices<Minimizer>{{"automatic", Minimizer::automatic},
+                                                   {"local_global", Minimizer::local_global},
+                                                   {"quasi_newton", Minimizer::quasi_newton}});
   if(name == "initial_guess")
-    return choose<Initial_guess>(name, value, options.initial_guess,
-                                 {{"automatic", Initial_guess::automatic},
-                                  {"previous", Initial_guess::previous},
-                                  {"rotations", Initial_guess::rotations},
-                                  {"laplacian", Initial_guess::laplacian}});
+    return f(options.initial_guess,
+             Choices<Initial_guess>{{"automatic", Initial_guess::automatic},
+                                    {"previous", Initial_guess::previous},
+                                    {"rotations", Initial_guess::rotations},
+                                    {"laplacian", Initial_guess::laplacian}});
   if(name == "iterations")
-    return read_count(name, value, options.iterations);
+    return f(options.iterations);
   if(name == "threads")
-    return read_count(name, value, options.threads);
+    return f(options.threads);
   if(name == "tolerance")
-    return read_number(name, value, options.tolerance);
+    return f(options.tolerance);
   if(name == "verify_minimum")
-    return choose(name, value, options.verify_minimum, {{"true", true}, {"false", false}});
+    return f(options.verify_minimum, Choices<bool>{{"true", true}, {"false", false}});
   if(name == "bending_length")
-    return read_number(name, value, options.bending_length);
+    return f(options.bending_length);
   if(name == "smoothing_length")
-    return read_number(name, value, options.smoothing_length);
+    return f(options.smoothing_length);
   return Outcome(Status::invalid_option,
                  "the option '" + name + "' is not known; use one of cells, minimizer, "
                  "initial_guess, iterations, threads, tolerance, verify_minimum, bending_length, "
                  "smoothing_length");
 }
+
+// Reads a value, or tells which there are; Options::check() sees whether it is in its range.
+struct Read_option
+{
+  const std::string& name;
+  const std::string& text;
+
+  template <typename Value>
+  Outcome operator()(Value& value, Choices<Value> choices) const
+  {
+    const std::string ring = "k_ring:";
+    if constexpr(std::is_same_v<Value, Cell_scheme>)
+      if(text.compare(0, ring.size(), ring) == 0)
+      {
+        unsigned int k = 0;
+        const std::string number = text.substr(ring.size());
+        const Outcome outcome = Read_option{"cells k_ring", number}(k);
+        if(outcome)
+          value = Cell_scheme::k_ring(k);
+        return outcome;
+      }
+    std::string names;
+    for(const auto& choice : choices)
+    {
+      if(choice.first == text)
+      {
+        value = choice.second;
+        return Outcome(Status::success, std::string());
+      }
+      names += (names.empty() ? "" : ", ") + std::string(choice.first);
+    }
+    return Outcome(Status::invalid_option,
+                   name + " '" + text + "' is not known; use one of " + names);
+  }
+
+  Outcome operator()(unsigned int& value) const
+  {
+    int number = -1;
+    if(!boost::conversion::try_lexical_convert(text, number) || number < 0)
+      return Outcome(Status::invalid_option,
+                     name + " '" + text + "' is not a whole number from 0 to 2147483647");
+    value = static_cast<unsigned int>(number);
+    return Outcome(Status::success, std::string());
+  }
+
+  Outcome operator()(double& value) const
+  {
+    if(!boost::conversion::try_lexical_convert(text, value))
+      return Outcome(Status::invalid_option, name + " '" + text + "' is not a number");
+    return Outcome(Status::success, std::string());
+  }
+};
+
+// Writes a value as Read_option reads it.
+struct Write_option
+{
+  std::string& text;
+
+  template <typename Value>
+  Outcome operator()(const Value& value, Choices<Value> choices) const
+  {
+    for(const auto& choice : choices)
+      if(choice.second == value && text.empty())
+        text = choice.first;
+    if constexpr(std::is_same_v<Value, Cell_scheme>)
+      if(value.rings() > 0)
+        text = "k_ring:" + std::to_string(value.rings());
+    return Outcome(Status::success, std::string());
+  }
+
+  template <typename Number>
+  Outcome operator()(const Number& value) const
+  {
+    text = boost::lexical_cast<std::string>(value); // all digits
+    return Outcome(Status::success, std::string());
+  }
+};
 
 } // namespace internal
 
@@ -124,12 +159,22 @@ inline Outcome read_option(Options& options, const std::string& name, const std:
 inline Outcome set_option(Options& options, const std::string& name, const std::string& value)
 {
   Options changed = options;
-  Outcome outcome = internal::read_option(changed, name, value);
+  Outcome outcome = internal::with_option(changed, name, internal::Read_option{name, value});
   if(outcome)
     outcome = changed.check();
   if(outcome)
     options = changed;
   return outcome;
+}
+
+/// \ingroup PkgARAPDeformationOptions
+/// \brief returns the value of an option as text that `set_option()` reads, numbers with all their
+/// digits; an empty text if there is no option of that name.
+inline std::string option_value(const Options& options, const std::string& name)
+{
+  std::string text;
+  internal::with_option(options, name, internal::Write_option{text});
+  return text;
 }
 
 } // namespace ARAP
