@@ -1,0 +1,341 @@
+"""As-rigid-as-possible deformation of surfaces and tetrahedral volumes.
+
+``deform()`` is one call; ``Deformation`` is a session, for dragging, undo and time steps. n vertices
+have coordinates of any unit of length, as an array of shape (n, 3); m faces or tetrahedra have k
+corners, as an array of indices of shape (m, k). Arguments may be any arrays of numbers, or lists; they
+are copied. Energies are those of the manual: with cotangent weights their unit is an area for
+surfaces and a volume for tetrahedra.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["deform", "Deformation", "DeformationError", "Place", "Quality", "Report", "State",
+           "StepReport"]
+
+Floats = NDArray[np.float64]
+Visitor = Callable[[int, float], Optional[str]]
+Targets = Union[Mapping[int, ArrayLike], Tuple[ArrayLike, ArrayLike]]
+
+
+class DeformationError(RuntimeError):
+    """A call that failed by its data, and has changed nothing. ``status`` is the name of the
+    outcome, such as ``"no_fixed_vertex"``, which the manual lists under ``CGAL::ARAP::Status``."""
+
+    def __init__(self, message: str, status: str = "") -> None:
+        super().__init__(message)
+        self.status = status
+
+
+from ._core import Session as _Session, State  # noqa: E402  (which raises DeformationError)
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a call did. ``energy[k]`` is the energy after k iterations, ``seconds`` the time of each
+    phase, ``stages`` what had to be prepared again; true if it was not cancelled."""
+
+    status: str
+    message: str
+    iterations: int
+    energy: Floats = field(repr=False)
+    energy_scale: float
+    rounding_level: float
+    estimated_relative_gap: float
+    free_vertices: int
+    simplices: int
+    inverted_simplices: int
+    unconstrained_components: List[int]
+    stages: Dict[str, bool]
+    seconds: Dict[str, float]
+
+    def __bool__(self) -> bool:
+        return self.status != "cancelled"
+
+
+@dataclass(frozen=True)
+class StepReport(Report):
+    """A time step: also the mass, momenta and energies of the free vertices."""
+
+    mass: float
+    center_of_mass: List[float]
+    momentum: List[float]
+    angular_momentum: List[float]
+    kinetic_energy: float
+    elastic_energy: float
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What was done to the whole shape: relative changes, and an angle in degrees. The volume is
+    not a number for a surface that is not closed."""
+
+    edge_length_error: float
+    area_change: float
+    volume_change: float
+    largest_angle_change: float
+    largest_spike: float
+    inverted_simplices: int
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in a simplex: its number, barycentric coordinates, and the distance to it."""
+
+    simplex: int
+    coordinates: Floats
+    distance: float
+
+
+def _array(name: str, value: ArrayLike, kinds: str, shape: Sequence[Optional[int]]) -> NDArray[Any]:
+    """A copy with the shape; None is any number. An empty list is an array of any dimension."""
+    what = "numbers" if "f" in kinds else "integers"
+    try:
+        array = np.array(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} must be an array of {what}: {error}") from None
+    if array.size == 0 and array.ndim == 1 and array.dtype.kind in "fiu":
+        array = array.astype(np.int64).reshape([0] + [k or 3 for k in shape[1:]])
+    if array.dtype.kind not in kinds:
+        hint = "; np.flatnonzero() makes indices of it" if array.dtype.kind == "b" else ""
+        raise ValueError(f"{name} must be {what}, not {array.dtype}{hint}")
+    if array.ndim != len(shape) or any(k not in (None, s) for k, s in zip(shape, array.shape)):
+        wanted = ", ".join("any" if k is None else str(k) for k in shape)
+        raise ValueError(f"{name} must have the shape ({wanted}), not {array.shape}")
+    return array
+
+
+def _floats(name: str, value: ArrayLike, *shape: Optional[int]) -> Floats:
+    return np.ascontiguousarray(_array(name, value, "fiu", shape), dtype=np.float64)
+
+
+def _float(name: str, value: float) -> float:
+    return float(_array(name, value, "fiu", ()))
+
+
+def _integers(name: str, value: ArrayLike, *shape: Optional[int], least: int = 0) -> NDArray[Any]:
+    array = _array(name, value, "iu", shape)
+    if array.size and (array.min() < least or array.max() >= 2**31):
+        wrong = array.min() if array.min() < least else array.max()
+        raise IndexError(f"{name} has the number {wrong}, which is not from {least} to 2147483647")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def _indices(name: str, value: ArrayLike) -> NDArray[Any]:
+    """Indices of vertices or handles, of which there may also be one alone."""
+    return _integers(name, [value] if np.ndim(value) == 0 else value, None)
+
+
+def _targets(targets: Targets) -> Tuple[NDArray[Any], Floats]:
+    if isinstance(targets, Mapping):
+        targets = (list(targets.keys()), list(targets.values()))
+    elif not isinstance(targets, (tuple, list)) or len(targets) != 2:
+        raise ValueError("targets must be a dict of points by vertices, or a pair of indices and points")
+    return _indices("handles of targets", targets[0]), _floats("targets", targets[1], None, 3)
+
+
+def _option(name: str, doc: str) -> Any:
+    def get(self: Deformation) -> Union[str, int, float]:
+        text = self._session.option(name)
+        kind = {"iterations": int, "threads": int, "cells": str, "minimizer": str,
+                "initial_guess": str}.get(name, float)
+        return kind(text)
+
+    return property(get, lambda self, value: self._session.set_option(name, str(value)), doc=doc)
+
+
+class Deformation:
+    """A session: a shape, of which handles go to targets, and the rest follows as rigidly as
+    possible. A handle is a number: that of a vertex, or from n on that of a point in a simplex.
+
+    An object works for one call at a time, without Python's global lock; in the meantime calls from
+    other threads, and from its visitor, raise ``DeformationError`` with the status ``in_a_run``.
+    """
+
+    cells = _option("cells", "'spokes', 'spokes_and_rims' (the default), 'elements', 'k_ring:K'")
+    minimizer = _option("minimizer", "'automatic', 'local_global' or 'quasi_newton'")
+    initial_guess = _option("initial_guess", "'automatic', 'previous', 'rotations' or 'laplacian'")
+    iterations = _option("iterations", "the maximum number of iterations of a run")
+    tolerance = _option("tolerance", "the estimated relative gap to the minimum at which a run ends")
+    threads = _option("threads", "the maximum number of threads; 0 for all")
+    bending_length = _option("bending_length", "the length over which a bend is spread; 0 for none")
+    smoothing_length = _option("smoothing_length", "over which rotations are smooth; 0 for none")
+
+    def __init__(self, vertices: ArrayLike, simplices: ArrayLike, *, tetrahedra: bool = False,
+                 weights: str = "safe_cotangent", **options: Any) -> None:
+        """vertices: (n, 3), the rest shape; simplices: (m, k) faces of k corners, or (m, 4)
+        tetrahedra; weights: 'safe_cotangent', 'cotangent', 'clamped_cotangent' or 'uniform';
+        options: the properties of those names."""
+        self._session = _Session(_floats("vertices", vertices, None, 3),
+                                 _integers("simplices", simplices, None, 4 if tetrahedra else None),
+                                 bool(tetrahedra), str(weights))
+        for name, value in options.items():
+            self._session.set_option(name, str(value))
+
+    @property
+    def vertices(self) -> Floats:
+        """(n, 3): where the vertices are, a view that follows later calls. Copy what shall stay."""
+        return self._session.points()
+
+    @property
+    def rest_vertices(self) -> Floats:
+        """(n, 3): a copy of the rest shape."""
+        return self._session.rest_points().reshape(-1, 3)
+
+    @property
+    def region(self) -> NDArray[np.int32]:
+        """The vertices that may move: the region of interest. At first it has all."""
+        return self._session.region()
+
+    @region.setter
+    def region(self, vertices: ArrayLike) -> None:
+        self._session.set_region(_indices("region", vertices))
+
+    @property
+    def handles(self) -> NDArray[np.int32]:
+        """The control vertices, then the control points."""
+        return self._session.handles()
+
+    def insert_handles(self, vertices: ArrayLike) -> None:
+        """Makes control vertices, which stay where they are until they get other targets."""
+        self._session.insert_handles(_indices("handles", vertices))
+
+    def erase_handles(self, handles: ArrayLike) -> None:
+        self._session.erase_handles(_indices("handles", handles))
+
+    def clear_handles(self) -> None:
+        self._session.clear_handles()
+
+    def locate(self, point: ArrayLike) -> Optional[Place]:
+        """The place in a simplex that is nearest to a point (3,), if there is a simplex."""
+        found = self._session.locate(_floats("point", point, 3))
+        return None if found is None else Place(*found)
+
+    def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
+        """The handle of a new control point with barycentric coordinates (k,) in a simplex."""
+        number = _integers("simplex", simplex)
+        return self._session.insert_point(int(number), _floats("coordinates", coordinates, None))
+
+    def point_position(self, handle: int) -> Floats:
+        """(3,): where a control point is."""
+        return self._session.point_position(int(_integers("handle", handle)))
+
+    def target(self, handle: int) -> Floats:
+        """(3,): the target of a handle."""
+        return self._session.target(int(_integers("handle", handle)))
+
+    def set_targets(self, handles: Union[ArrayLike, Targets],
+                    points: Optional[ArrayLike] = None) -> None:
+        """Sets the targets (k, 3) of k handles, or all of a dict of points by handles."""
+        self._session.set_targets(*_targets(handles if points is None else (handles, points)))
+
+    def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
+        """Applies a (4, 4) or (3, 4) matrix to the targets of handles, or to their rest shape."""
+        self._session.transform(_indices("handles", handles), _floats("matrix", matrix, None, 4),
+                                bool(from_rest))
+
+    def set_weight(self, handles: ArrayLike, weight: float = math.inf) -> None:
+        """Makes targets soft, with a weight in the unit of the edge weights; infinite: hard."""
+        self._session.set_weight(_indices("handles", handles), _float("weight", weight))
+
+    def set_rotation(self, vertices: ArrayLike, rotation: Optional[ArrayLike] = None) -> None:
+        """Makes control vertices frames, with a rotation (3, 3) from the rest shape, or that of the
+        rigid motion of their targets."""
+        if rotation is None:
+            self._session.set_rotations_of_motion(_indices("vertices", vertices))
+        else:
+            self._session.set_rotation(_indices("vertices", vertices),
+                                       _floats("rotation", rotation, 3, 3))
+
+    def erase_rotations(self, vertices: ArrayLike) -> None:
+        self._session.erase_rotations(_indices("vertices", vertices))
+
+    def set_stiffness(self, values: ArrayLike) -> None:
+        """Sets how stiff each cell is, not negative: (n,), or (m,) if cells are elements; none: 1."""
+        self._session.set_stiffness(_floats("stiffness", values, None))
+
+    def set_groups(self, groups: ArrayLike) -> None:
+        """Lets cells of the same number from 0 on share a rotation; -1: its own. None: all their own."""
+        self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
+
+    def preprocess(self) -> None:
+        """Prepares what the next call of deform() needs, which it else does itself."""
+        self._session.preprocess()
+
+    def deform(self, iterations: Optional[int] = None, tolerance: Optional[float] = None,
+               visitor: Optional[Visitor] = None) -> Report:
+        """Moves the handles to their targets, and the rest with them. The visitor is called with the
+        number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'. If it
+        raises an exception, nothing has changed."""
+        options = {"iterations": iterations, "tolerance": tolerance}
+        given = {name: str(value) for name, value in options.items() if value is not None}
+        return Report(**self._session.deform(given, visitor))
+
+    def advance(self, time_step: float = 1 / 60, *, density: float = 1, modulus: float = 1,
+                damping: float = 0, acceleration: ArrayLike = (0, 0, 0),
+                forces: Optional[ArrayLike] = None, visitor: Optional[Visitor] = None) -> StepReport:
+        """Advances by a time step of implicit Euler, in any consistent units: mass per area or
+        volume, modulus, rate of decay of velocities, acceleration (3,), forces (n, 3)."""
+        numbers = [_float(*pair) for pair in (("time_step", time_step), ("density", density),
+                                              ("modulus", modulus), ("damping", damping))]
+        return StepReport(**self._session.advance(
+            *numbers, _floats("acceleration", acceleration, 3),
+            _floats("forces", [] if forces is None else forces, None, 3), visitor))
+
+    def reset(self) -> None:
+        """Moves all vertices and targets back to the rest shape."""
+        self._session.reset()
+
+    def make_rest_shape(self) -> None:
+        """Makes the current shape the rest shape."""
+        self._session.make_rest_shape()
+
+    def state(self) -> State:
+        """Positions, targets, region and rest shape as a value, for undo; not the options."""
+        return self._session.state()
+
+    def restore(self, state: State) -> None:
+        """Returns to a state of this object."""
+        if not isinstance(state, State):
+            raise TypeError(f"restore() needs what state() has returned, not {type(state).__name__}")
+        self._session.restore(state)
+
+    @property
+    def energy(self) -> float:
+        """The energy after the last run; not a number where there is none."""
+        return self._session.energy()
+
+    def rotations(self) -> Floats:
+        """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells."""
+        return self._session.rotations().reshape(-1, 3, 3)
+
+    def quality(self) -> Quality:
+        """What was done to the rest shape."""
+        return Quality(**self._session.quality())
+
+    def quality_at_vertices(self, name: str) -> Floats:
+        """(n,): 'edge_length_error', 'size_change', 'angle_change' in degrees, or 'spike'."""
+        names = ("edge_length_error", "size_change", "angle_change", "spike")
+        if name not in names:
+            raise ValueError(f"quality '{name}' is not known; use one of {', '.join(names)}")
+        return self._session.quality_at_vertices(names.index(name))
+
+
+def deform(vertices: ArrayLike, simplices: ArrayLike, fixed: ArrayLike, targets: Targets, *,
+           tetrahedra: bool = False, weights: str = "safe_cotangent", **options: Any) -> Floats:
+    """The deformed vertices (n, 3). ``fixed`` are indices of vertices that stay; ``targets`` is a
+    dict of points by vertices, or a pair of k indices and points (k, 3), and prevails over
+    ``fixed``. The other arguments are those of ``Deformation``."""
+    session = Deformation(vertices, simplices, tetrahedra=tetrahedra, weights=weights, **options)
+    handles, points = _targets(targets)
+    session.insert_handles(_indices("fixed", fixed))
+    session.insert_handles(handles)
+    session.set_targets(handles, points)
+    session.deform()
+    return session.vertices.copy()

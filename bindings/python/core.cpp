@@ -1,0 +1,342 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The flat interface for Python: the module arap_deformation._core. Only arap_deformation/__init__.py
+// calls it, which has made all arrays contiguous, of these types, and its own.
+
+#include "../Array_deformation.h"
+
+#include <CGAL/ARAP_deformation/set_option.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <any>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace CGAL::ARAP;
+using bindings::Array_deformation;
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style>;
+using Integers = py::array_t<std::int32_t, py::array::c_style>;
+
+struct State
+{
+  std::any value;
+};
+
+// Arguments and results of the flat interface, for Python. The types of arguments are what Python
+// passes; results are made with the GIL held.
+template <typename T> struct Argument { using Type = T; };
+template <> struct Argument<bindings::Indices> { using Type = Integers; };
+template <> struct Argument<bindings::Numbers> { using Type = Doubles; };
+template <> struct Argument<const double*> { using Type = Doubles; };
+template <> struct Argument<const std::any&> { using Type = const State&; };
+template <> struct Argument<const std::string&> { using Type = std::string; };
+
+template <typename T>
+bindings::Rows<T> rows(const py::array_t<T, py::array::c_style>& array)
+{
+  return {array.data(), std::size_t(array.shape(0)),
+          array.ndim() == 1 ? 1 : std::size_t(array.shape(1))};
+}
+
+template <typename To, typename From>
+decltype(auto) argument(const From& value)
+{
+  if constexpr(std::is_same_v<To, const double*>)
+    return value.data();
+  else if constexpr(std::is_same_v<To, const std::any&>)
+    return (value.value);
+  else if constexpr(std::is_base_of_v<py::array, From>)
+    return rows(value);
+  else
+    return (value);
+}
+
+template <typename T>
+const T& result(const T& value) { return value; }
+State result(std::any value) { return {std::move(value)}; }
+template <typename T>
+py::array_t<T> result(const std::vector<T>& values)
+{
+  return py::array_t<T>(py::ssize_t(values.size()), values.data());
+}
+template <typename T, std::size_t N>
+py::list result(const std::array<T, N>& values) { return py::cast(values); }
+
+py::dict result(const Quality& q)
+{
+  return py::dict("edge_length_error"_a = q.edge_length_error, "area_change"_a = q.area_change,
+                  "volume_change"_a = q.volume_change,
+                  "largest_angle_change"_a = q.largest_angle_change,
+                  "largest_spike"_a = q.largest_spike,
+                  "inverted_simplices"_a = q.inverted_simplices);
+}
+
+py::object result(const std::optional<bindings::Place>& place)
+{
+  if(!place)
+    return py::none();
+  return py::make_tuple(place->simplex, result(place->coordinates), place->distance);
+}
+
+py::dict result(const Report& r)
+{
+  const Phase_seconds& s = r.seconds;
+  return py::dict(
+    "status"_a = to_string(r.status), "message"_a = r.message, "iterations"_a = r.iterations,
+    "energy"_a = result(r.energy), "energy_scale"_a = r.energy_scale,
+    "rounding_level"_a = r.rounding_level, "estimated_relative_gap"_a = r.estimated_relative_gap,
+    "free_vertices"_a = r.free_vertices, "simplices"_a = r.simplices,
+    "inverted_simplices"_a = r.inverted_simplices,
+    "unconstrained_components"_a = r.unconstrained_components,
+    "stages"_a = py::dict("region"_a = r.stages.region, "weights"_a = r.stages.weights,
+                          "order"_a = r.stages.order, "factor"_a = r.stages.factor,
+                          "border"_a = r.stages.border),
+    "seconds"_a = py::dict("preprocess"_a = s.preprocess, "transfer"_a = s.transfer,
+                           "initial_guess"_a = s.initial_guess, "local_steps"_a = s.local_steps,
+                           "global_steps"_a = s.global_steps, "visitor"_a = s.visitor,
+                           "total"_a = s.total));
+}
+
+py::dict result(const Step_report& r)
+{
+  py::dict d = result(static_cast<const Report&>(r));
+  d["mass"] = r.mass;
+  d["center_of_mass"] = r.center_of_mass;
+  d["momentum"] = r.momentum;
+  d["angular_momentum"] = r.angular_momentum;
+  d["kinetic_energy"] = r.kinetic_energy;
+  d["elastic_energy"] = r.elastic_energy;
+  return d;
+}
+
+// Calls a function of Python, and lets Python handle signals now and then: its exceptions end the
+// run, as a visitor's do.
+class Python_visitor
+{
+public:
+  explicit Python_visitor(const py::object& function) : m_function(&function) {}
+
+  Visitor_action operator()(unsigned int iteration, double energy)
+  {
+    const auto now = std::chrono::steady_clock::now();
+    if(m_function->is_none() && now - m_last < std::chrono::milliseconds(50))
+      return Visitor_action::proceed;
+    m_last = now;
+    const py::gil_scoped_acquire acquire;
+    if(PyErr_CheckSignals() != 0)
+      throw py::error_already_set();
+    const py::object answer = m_function->is_none() ? py::none() : (*m_function)(iteration, energy);
+    const std::string name = py::str(answer);
+    if(answer.is_none() || name == "proceed")
+      return Visitor_action::proceed;
+    if(name == "stop" || name == "cancel")
+      return name == "stop" ? Visitor_action::stop : Visitor_action::cancel;
+    throw std::invalid_argument("a visitor returns None, 'proceed', 'stop' or 'cancel', not " +
+                                std::string(py::repr(answer)));
+  }
+
+private:
+  const py::object* m_function;
+  std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
+};
+
+// A deformation that works without the GIL, for one call at a time.
+class Session
+{
+public:
+  Session(const Doubles& points, const Integers& simplices, bool is_volume,
+          const std::string& weights)
+  {
+    const auto p = rows(points);
+    const auto s = rows(simplices);
+    const py::gil_scoped_release release;
+    m_deformation = bindings::make_array_deformation(p, s, is_volume, weights);
+  }
+
+  template <typename Function>
+  auto at_work(const Function& f)
+  {
+    if(m_is_at_work.exchange(true))
+      throw bindings::Deformation_error(Outcome(
+        Status::in_a_run,
+        "the deformation is at work, in another thread or for this visitor; wait until it is done"));
+    struct Guard
+    {
+      std::atomic<bool>& is_at_work;
+      ~Guard() { is_at_work = false; }
+    } guard{m_is_at_work};
+    const py::gil_scoped_release release;
+    return f(*m_deformation);
+  }
+
+  // A view of the positions, which keeps the object alive. They change when a call has succeeded.
+  static py::array points(const py::object& self)
+  {
+    const Array_deformation& d = *self.cast<Session&>().m_deformation;
+    py::array view(py::dtype::of<double>(), {d.number_of_vertices(), std::size_t(3)}, d.points(),
+                   self);
+    view.attr("setflags")("write"_a = false);
+    return view;
+  }
+  const Array_deformation& constants() const { return *m_deformation; } // what never changes
+
+private:
+  std::unique_ptr<Array_deformation> m_deformation;
+  std::atomic<bool> m_is_at_work{false};
+};
+
+// a function of the flat interface as one of the session
+template <typename Member, typename Result, typename... Arguments>
+auto bound(Member f)
+{
+  return [f](Session& session, const typename Argument<Arguments>::Type&... arguments) {
+    const auto call = [&](Array_deformation& d) {
+      return (d.*f)(argument<Arguments>(arguments)...);
+    };
+    if constexpr(std::is_void_v<Result>)
+      session.at_work(call);
+    else
+      return result(session.at_work(call));
+  };
+}
+template <typename Result, typename... Arguments>
+auto bound(Result (Array_deformation::*f)(Arguments...))
+{
+  return bound<decltype(f), Result, Arguments...>(f);
+}
+template <typename Result, typename... Arguments>
+auto bound(Result (Array_deformation::*f)(Arguments...) const)
+{
+  return bound<decltype(f), Result, Arguments...>(f);
+}
+
+// a point that is written to the last argument
+auto bound_point(void (Array_deformation::*f)(std::int32_t, double*) const)
+{
+  return [f](Session& session, std::int32_t handle) {
+    std::vector<double> point(3);
+    session.at_work([&](const Array_deformation& d) { (d.*f)(handle, point.data()); });
+    return result(point);
+  };
+}
+
+// with options for this call only
+py::dict deform(Session& session, const std::map<std::string, std::string>& options,
+                const py::object& visitor)
+{
+  return result(session.at_work([&](Array_deformation& d) {
+    Options changed = d.options();
+    for(const auto& [name, value] : options)
+      if(const Outcome outcome = set_option(changed, name, value); !outcome)
+        throw bindings::Deformation_error(outcome);
+    return d.deform(changed.iterations, changed.tolerance, Python_visitor(visitor));
+  }));
+}
+
+py::dict advance(Session& session, double time_step, double density, double modulus, double damping,
+                 const Doubles& acceleration, const Doubles& forces, const py::object& visitor)
+{
+  Dynamics dynamics;
+  dynamics.time_step = time_step;
+  dynamics.density = density;
+  dynamics.modulus = modulus;
+  dynamics.damping = damping;
+  dynamics.acceleration = {acceleration.at(0), acceleration.at(1), acceleration.at(2)};
+  const auto f = rows(forces);
+  return result(session.at_work([&](Array_deformation& d) {
+    return d.advance(dynamics, f, Python_visitor(visitor));
+  }));
+}
+
+} // namespace
+
+PYBIND11_MODULE(_core, module)
+{
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try
+    {
+      std::rethrow_exception(thrown);
+    }
+    catch(const bindings::Deformation_error& error)
+    {
+      const py::object type = py::module_::import("arap_deformation").attr("DeformationError");
+      PyErr_SetObject(type.ptr(), type(error.what(), to_string(error.status)).ptr());
+    }
+  });
+
+  py::class_<State>(module, "State", "What state() returns, for restore().");
+  using D = Array_deformation;
+  py::class_<Session>(module, "Session")
+    .def(py::init<const Doubles&, const Integers&, bool, const std::string&>())
+    .def("number_of_vertices", [](const Session& s) { return s.constants().number_of_vertices(); })
+    .def("number_of_simplices", [](const Session& s) { return s.constants().number_of_simplices(); })
+    .def("is_volume", [](const Session& s) { return s.constants().is_volume(); })
+    .def("points", &Session::points)
+    .def("rest_points", [](Session& s) {
+      return result(s.at_work([](const D& d) {
+        return std::vector<double>(d.rest_points(), d.rest_points() + 3 * d.number_of_vertices());
+      }));
+    })
+    .def("option", [](Session& s, const std::string& name) {
+      return s.at_work([&](D& d) { return option_value(d.options(), name); });
+    })
+    .def("set_option", bound(&D::set_option))
+    .def("region", bound(&D::region))
+    .def("set_region", bound(&D::set_region))
+    .def("handles", bound(&D::handles))
+    .def("insert_handles", bound(&D::insert_handles))
+    .def("erase_handles", bound(&D::erase_handles))
+    .def("clear_handles", bound(&D::clear_handles))
+    .def("locate", bound(&D::locate))
+    .def("insert_point", bound(&D::insert_point))
+    .def("point_position", bound_point(&D::point_position))
+    .def("set_targets", bound(&D::set_targets))
+    .def("target", bound_point(&D::target))
+    .def("transform", bound(&D::transform))
+    .def("set_weight", bound(&D::set_weight))
+    .def("set_rotation", bound(&D::set_rotation))
+    .def("set_rotations_of_motion", bound(&D::set_rotations_of_motion))
+    .def("erase_rotations", bound(&D::erase_rotations))
+    .def("set_stiffness", bound(&D::set_stiffness))
+    .def("set_groups", bound(&D::set_groups))
+    .def("preprocess", bound(&D::preprocess))
+    .def("deform", &deform)
+    .def("advance", &advance)
+    .def("reset", bound(&D::reset))
+    .def("make_rest_shape", bound(&D::make_rest_shape))
+    .def("state", bound(&D::state))
+    .def("restore", bound(&D::restore))
+    .def("energy", bound(&D::energy))
+    .def("rotations", bound(&D::rotations))
+    .def("quality", bound(&D::quality))
+    .def("quality_at_vertices", [](Session& s, int measure) {
+      return result(s.at_work([&](const D& d) {
+        return d.quality_at_vertices(static_cast<Vertex_measure>(measure));
+      }));
+    });
+}

@@ -1,0 +1,439 @@
+"""The Python module: identities, the command's energies, and bad input."""
+
+import gc
+import json
+import os
+import re
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import arap_deformation as arap
+from shapes import BAR, CACTUS, motion, moved, quads, tetrahedra, triangles
+
+ROOT = Path(__file__).resolve().parents[3]
+TURN = motion((1, 2, 3), 50, (1, 0, 2), (3, -1, 2))
+SHAPES = {"bar": triangles(BAR), "cactus": triangles(CACTUS), "quads": quads(CACTUS),
+          "solid": tetrahedra(BAR)}
+
+
+def ends(vertices):
+    axis = np.argmax(np.ptp(vertices, axis=0))
+    x = vertices[:, axis]
+    return np.flatnonzero(x == x.min()), np.flatnonzero(x == x.max())
+
+
+def bent(name="bar", matrix=motion((1, 1, 0), 70), **options):
+    """A session whose ends are handles, one of which is moved."""
+    vertices, simplices = SHAPES[name]
+    d = arap.Deformation(vertices, simplices, tetrahedra=name == "solid", **options)
+    fixed, moving = ends(vertices)
+    d.insert_handles(fixed)
+    d.insert_handles(moving)
+    d.transform(moving, matrix)
+    return d
+
+
+@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("cells", ["spokes", "k_ring:1", "spokes_and_rims", "elements"])
+def test_rigid_motions_cost_nothing(name, cells):
+    vertices, simplices = SHAPES[name]
+    held = np.concatenate(ends(vertices))
+    targets = moved(TURN, vertices[held])
+    options = {"cells": cells, "tetrahedra": name == "solid"}
+    expected = moved(TURN, vertices)
+    for result in (arap.deform(vertices, simplices, [], (held, targets), **options),
+                   arap.deform(vertices, simplices, [], dict(zip(held, targets)), **options)):
+        assert np.abs(result - expected).max() < 1e-6
+    d = arap.Deformation(vertices, simplices, **options)
+    d.insert_handles(held)
+    d.transform(held, TURN, from_rest=True)
+    assert np.array_equal(d.target(held[3]), moved(TURN, vertices[held[3]]))
+    assert d.deform()
+    assert d.energy < 1e-9
+    free = ~np.isin(np.arange(len(vertices)), held)  # else a cell need not be in the region
+    if cells == "elements":
+        free = free[simplices].any(axis=1)
+    assert np.abs(d.rotations() - TURN[:3, :3])[free].max() < 1e-6
+    assert d.quality().edge_length_error < 1e-6
+    assert d.quality_at_vertices("angle_change").max() < 1e-4
+
+
+def test_a_bend_and_its_report():
+    d = bent()
+    report = d.deform()
+    assert report.status == "converged" and report.stages["factor"] and report.message
+    assert len(report.energy) == report.iterations + 1 and report.seconds["total"] > 0
+    assert (np.diff(report.energy) <= 0).all() and report.energy[-1] == d.energy > 0
+    fixed, moving = ends(d.rest_vertices)
+    vertices = arap.deform(*SHAPES["bar"], fixed, (moving, d.vertices[moving]))
+    assert np.array_equal(vertices, d.vertices) and vertices.flags.writeable
+    assert np.array_equal(d.vertices[fixed], d.rest_vertices[fixed])
+    assert d.quality().largest_angle_change == d.quality_at_vertices("angle_change").max() > 1
+
+
+def test_the_energy_is_that_of_its_formula():
+    d = bent("cactus")
+    d.deform(7, 0)
+    energy, rotations = 0, d.rotations()
+    for t in SHAPES["cactus"][1]:
+        for a in range(3):
+            i, j, k = np.roll(t, a)
+            u, v = d.rest_vertices[i] - d.rest_vertices[k], d.rest_vertices[j] - d.rest_vertices[k]
+            weight = u @ v / np.linalg.norm(np.cross(u, v)) / 2
+            for c in t:
+                energy += weight * np.sum((d.vertices[i] - d.vertices[j] - rotations[c] @ (u - v))**2)
+    assert energy == pytest.approx(d.energy, rel=1e-11)
+
+
+@pytest.mark.skipif("ARAP_DEFORM" not in os.environ, reason="ARAP_DEFORM does not name the command")
+@pytest.mark.parametrize("cells", ["spokes", "spokes_and_rims", "elements"])
+@pytest.mark.parametrize("minimizer", ["local_global", "quasi_newton"])
+@pytest.mark.parametrize("name", ["bar", "cactus"])
+def test_energies_are_those_of_the_command(name, cells, minimizer, tmp_path):
+    vertices, faces = SHAPES[name]
+    fixed, moving = ends(vertices)
+    kinds = np.ones(len(vertices), dtype=int)
+    kinds[fixed], kinds[moving] = 0, 2
+    matrix = motion((1, 1, 0), 70)
+    np.savetxt(tmp_path / "s.sel", kinds, "%d")
+    np.savetxt(tmp_path / "t.def", matrix, "%.17g")
+    with open(tmp_path / "m.off", "w") as file:
+        file.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
+        np.savetxt(file, vertices, "%.17g")
+        np.savetxt(file, np.c_[np.full(len(faces), 3), faces], "%d")
+    subprocess.run([os.environ["ARAP_DEFORM"], "m.off", "--selection", "s.sel", "--transform",
+                    "t.def", "-o", "out.off", "--report", "r.json", "--cells", cells, "--minimizer",
+                    minimizer, "--iterations", "20", "--tolerance", "0", "--quiet"],
+                   cwd=tmp_path, check=True)
+    expected = json.loads((tmp_path / "r.json").read_text())
+    d = bent(name, matrix, cells=cells, minimizer=minimizer)
+    report = d.deform(20, 0)
+    assert report.status == expected["status"]
+    assert report.energy == pytest.approx(expected["energy"], rel=1e-9)
+    assert d.quality().edge_length_error == pytest.approx(expected["edge_length_error"], rel=1e-9)
+
+
+def test_the_same_bits():
+    results = []
+    for threads in (0, 1, 2, 2):
+        d = bent("solid", threads=threads)
+        d.deform(30, 0)
+        results.append(d.vertices.tobytes())
+    assert len(set(results)) == 1
+
+
+@pytest.mark.parametrize("change", [
+    np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2], lambda a: a[::-1].copy()[::-1],
+    lambda a: np.c_[a, a][:, :a.shape[1]], lambda a: a.tolist(),
+    lambda a: a.astype(np.float32 if a.dtype.kind == "f" else np.uint16),
+    lambda a: a.astype(">f8" if a.dtype.kind == "f" else ">i8")])
+def test_arrays_of_any_order_and_type(change):
+    vertices, faces = SHAPES["bar"]
+    fixed, moving = ends(vertices)
+    targets = vertices[moving] + [0, 2, 0]
+    expected = arap.deform(vertices, faces, fixed, (moving, targets))
+    result = arap.deform(change(vertices), change(faces), list(fixed), (moving, change(targets)))
+    assert np.array_equal(result, expected)
+
+
+def test_input_is_copied():
+    vertices, faces = (a.copy() for a in SHAPES["bar"])
+    d, expected = arap.Deformation(vertices, faces), bent()
+    fixed, moving = ends(vertices)
+    matrix, forces, same = motion((1, 1, 0), 70), np.ones_like(vertices), np.ones_like(vertices)
+    d.insert_handles(fixed)
+    d.insert_handles(moving)
+    d.transform(moving, matrix)
+
+    def overwrite(*_):
+        for array in (vertices, faces, matrix, forces, moving):
+            array[:] = 99
+
+    for session, push, visitor in ((d, forces, overwrite), (expected, same, None)):
+        session.advance(forces=push, visitor=visitor)
+        session.deform(5, 0, visitor=visitor)
+    assert np.array_equal(d.vertices, expected.vertices)
+
+
+def test_views():
+    d = bent()
+    view, before = d.vertices, d.vertices.copy()
+    assert not view.flags.writeable and not view.flags.owndata
+    with pytest.raises(ValueError):
+        view[0] = 1
+    with pytest.raises(ValueError):
+        view.setflags(write=True)
+    d.deform()
+    assert np.array_equal(view, d.vertices) and not np.array_equal(view, before)
+    after = view.copy()
+    del d
+    gc.collect()
+    others = [np.full(len(after) * 3, 7.0) for _ in range(100)]  # would take its memory
+    assert np.array_equal(view, after) and len(others) == 100
+
+
+def test_options():
+    d = arap.Deformation(*SHAPES["bar"], cells="k_ring:2", iterations=7, tolerance=np.float32(0.5))
+    assert (d.cells, d.iterations, d.tolerance) == ("k_ring:2", 7, 0.5)
+    assert (d.minimizer, d.initial_guess, d.threads) == ("automatic", "automatic", 0)
+    d.tolerance = 1 / 3
+    d.bending_length = d.smoothing_length = 2
+    assert d.tolerance == 1 / 3 and d.bending_length == d.smoothing_length == 2
+    with pytest.raises(arap.DeformationError, match="bending_length needs cells at vertices"):
+        d.cells = "elements"
+    assert d.cells == "k_ring:2"
+
+
+def test_states():
+    d = bent()
+    d.deform()
+    state, vertices = d.state(), d.vertices.copy()
+    d.make_rest_shape()
+    assert np.array_equal(d.rest_vertices, vertices)
+    d.reset()
+    d.clear_handles()
+    assert d.handles.size == 0
+    d.restore(state)
+    assert np.array_equal(d.vertices, vertices) and len(d.handles) == 32
+    assert np.array_equal(d.rest_vertices, SHAPES["bar"][0])
+    d.reset()
+    assert np.array_equal(d.vertices, d.rest_vertices)
+    other = bent()
+    with pytest.raises(arap.DeformationError) as error:
+        other.restore(state)
+    assert error.value.status == "foreign_state" and str(error.value)
+    with pytest.raises(TypeError, match="what state"):
+        d.restore("state")
+
+
+def test_region_weights_points_and_frames():
+    d = bent()
+    d.region = np.flatnonzero(d.rest_vertices[:, 0] >= 6)
+    assert (d.region >= 0).all() and len(d.region) < len(d.vertices)
+    d.deform()
+    outside = d.rest_vertices[:, 0] < 6
+    assert np.array_equal(d.vertices[outside], d.rest_vertices[outside])
+
+    d = bent()
+    d.erase_handles(ends(d.rest_vertices)[1])
+    place = d.locate([6.2, 3.5, 1.3])
+    assert place.distance == pytest.approx(0.5) and place.coordinates.sum() == pytest.approx(1)
+    handle = d.insert_point(place.simplex, place.coordinates)
+    assert handle == len(d.vertices) == d.handles[-1]
+    d.set_targets({handle: [6, 5, 1]})
+    d.deform()
+    assert d.point_position(handle) == pytest.approx([6, 5, 1])
+    errors = []
+    for weight in (1e-3, 1, 1e3):
+        d.set_weight(handle, weight)
+        d.deform(tolerance=1e-6)
+        errors.append(np.linalg.norm(d.point_position(handle) - [6, 5, 1]))
+    assert errors[0] > errors[1] > errors[2] > 0
+
+    d = arap.Deformation(*SHAPES["bar"])
+    d.insert_handles(0)
+    d.set_targets(0, moved(TURN, d.vertices[:1]))
+    d.set_rotation(0, TURN[:3, :3])
+    d.deform()
+    assert np.abs(d.vertices - moved(TURN, d.rest_vertices)).max() < 1e-6
+
+
+def test_stiffness_and_groups():
+    d, twice, rigid = bent(), bent(), bent()
+    d.deform(5, 0)
+    twice.set_stiffness(np.full(len(d.vertices), 2))
+    twice.deform(5, 0)
+    assert twice.energy == pytest.approx(2 * d.energy, rel=1e-9)
+    rigid.set_groups(np.zeros(len(d.vertices), dtype=int))
+    rigid.deform(5, 0)
+    assert np.ptp(rigid.rotations(), axis=0).max() == 0 < np.ptp(d.rotations(), axis=0).max()
+
+
+def test_a_free_fall():
+    d = arap.Deformation(*SHAPES["solid"], tetrahedra=True)
+    g, h = np.array([0, 0, -10.0]), 0.01
+    for k in range(1, 4):
+        report = d.advance(h, density=2, modulus=100, acceleration=g)
+        assert report.mass == pytest.approx(2 * len(BAR))
+        assert report.momentum == pytest.approx(report.mass * k * h * g, abs=1e-9)
+    lifted = d.vertices.copy()
+    d.advance(h, density=2, modulus=100, forces=np.zeros_like(lifted))
+    assert (d.vertices - lifted)[:, 2] == pytest.approx(3 * h * g[2] * h, rel=1e-6)
+
+
+def test_visitors():
+    d = bent()
+    before, seen = d.vertices.copy(), []
+    report = d.deform(visitor=lambda k, energy: seen.append((k, energy)))
+    assert [e for _, e in seen] == list(report.energy)
+    assert [k for k, _ in seen] == list(range(report.iterations + 1))
+    d = bent()
+    assert not d.deform(visitor=lambda k, _: "cancel" if k == 3 else None)
+
+    def fails(k, _):
+        if k == 2:
+            raise KeyError("from the visitor")
+    for visitor, error, match in ((fails, KeyError, "from the visitor"), (3, TypeError, "callable"),
+                                  (lambda *_: 3, ValueError, "'stop' or 'cancel', not 3"),
+                                  (lambda *_: d.reset(), arap.DeformationError, "at work"),
+                                  (lambda *_: d.energy, arap.DeformationError, "at work")):
+        with pytest.raises(error, match=match):
+            d.deform(visitor=visitor)
+        assert np.array_equal(d.vertices, before)
+    report = d.deform(visitor=lambda k, _: "stop" if k == 3 else "proceed")
+    assert report and report.status == "stopped" and report.iterations == 3
+
+
+def wait_until_at_work(d):
+    """Without a visitor, this happens only if the global lock is released."""
+    for _ in range(20_000):
+        try:
+            d.energy
+        except arap.DeformationError as error:
+            assert error.status == "in_a_run" and "another thread" in str(error)
+            return True
+        time.sleep(0.001)
+    return False
+
+
+def test_two_threads_on_one_object():
+    d, alone = bent(minimizer="local_global"), bent(minimizer="local_global")
+    go_on, reports = threading.Event(), []
+    thread = threading.Thread(daemon=True, target=lambda: reports.append(
+        d.deform(20, 0, lambda k, _: None if k < 10 or go_on.wait() else None)))
+    thread.start()
+    try:
+        assert wait_until_at_work(d)
+        for call in (d.deform, d.reset, d.state, d.quality, d.rotations, d.preprocess):
+            with pytest.raises(arap.DeformationError, match="another thread"):
+                call()
+        assert np.array_equal(d.vertices, SHAPES["bar"][0])
+    finally:
+        go_on.set()
+        thread.join()
+    alone.deform(20, 0)
+    assert reports[0].iterations == 20 and np.array_equal(d.vertices, alone.vertices)
+
+
+def test_an_interruption_ends_a_run_and_the_global_lock_is_released():
+    vertices, faces = quads([(x, y, 0) for x in range(60) for y in range(60)])
+    d = arap.Deformation(vertices, faces, minimizer="local_global")
+    d.insert_handles(np.concatenate(ends(vertices)))
+    d.transform(ends(vertices)[1], motion((1, 0, 0), 170))
+    thread = threading.Thread(
+        daemon=True, target=lambda: wait_until_at_work(d) and os.kill(os.getpid(), signal.SIGINT))
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        d.deform(2**31 - 1, 0)
+        time.sleep(60)
+    thread.join()
+    assert np.array_equal(d.vertices, vertices)  # that run was not done
+    assert d.deform(1)
+
+
+V, F = SHAPES["bar"]
+NAN, MANY = np.where(np.eye(len(V), 3), np.nan, V), np.full((1, 3), 2**31)
+BAD_SHAPES = [
+    ((V.astype(str), F), ValueError, "vertices must be numbers, not <U"),
+    ((V.astype(complex), F), ValueError, "numbers, not complex128"),
+    ((V.astype(object), F), ValueError, "numbers, not object"), ((V > 0, F), ValueError, "not bool"),
+    ((None, F), ValueError, "numbers, not object"), ((V[:, :2], F), ValueError, r"shape \(any, 3\)"),
+    ((V.ravel(), F), ValueError, "must have the shape"), ((V[None], F), ValueError, "shape"),
+    (([[0, 0, 0], [1, 0]], F), ValueError, "vertices must be an array of numbers"),
+    ((V, F.astype(float)), ValueError, "simplices must be integers, not float64"),
+    ((V, F > 3), ValueError, "integers, not bool"), ((V, F[:, :2]), ValueError, "three corners, not 2"),
+    ((V, F.ravel()), ValueError, "shape"), ((V, -F), IndexError, "-.*not from 0"),
+    ((V, MANY), IndexError, "2147483648, which is not from 0"), ((V, [[0, 1, 2**70]]), ValueError, "object"),
+]
+
+
+@pytest.mark.parametrize("shape, error, match", BAD_SHAPES)
+def test_bad_shapes(shape, error, match):
+    with pytest.raises(error, match=match):
+        arap.Deformation(*shape)
+
+
+@pytest.mark.parametrize("shape, status", [
+    ((NAN, F), "non_finite_point"), ((V * 1e200, F), "non_finite_weight"), ((V, []), "no_simplex"),
+    ((V, F + 1), "not_a_simplex"), ((V, F * 0), "not_a_simplex")])
+def test_bad_data(shape, status):
+    with pytest.raises(arap.DeformationError) as error:
+        arap.deform(*shape, [0, 1], {})
+    assert error.value.status == status and len(str(error.value)) > 20
+
+
+def test_an_empty_shape():
+    assert arap.deform([], [], [], {}).shape == (0, 3)
+    assert arap.deform([], [], [], ([], []), tetrahedra=True).shape == (0, 3)
+
+
+CALLS = [
+    (lambda d: d.insert_handles([-1]), IndexError, "number -1"),
+    (lambda d: d.insert_handles(len(V)), IndexError, f"no vertex {len(V)}"),
+    (lambda d: d.insert_handles(2**40), IndexError, "not from 0 to 2147483647"),
+    (lambda d: d.insert_handles([0.5]), ValueError, "integers, not float64"),
+    (lambda d: d.insert_handles(V[:, 0] == 0), ValueError, "flatnonzero"),
+    (lambda d: d.insert_handles("all"), ValueError, "integers, not <U3"),
+    (lambda d: d.erase_handles(5000), ValueError, "handle 5000 is neither"),
+    (lambda d: d.set_targets({100: [0, 0, 0]}), ValueError, "handle 100 is neither"),
+    (lambda d: d.set_targets([0, 1], [[0, 0, 0]]), ValueError, "2 handles, but 1 targets"),
+    (lambda d: d.set_targets([0], [[0, 0]]), ValueError, r"shape \(any, 3\), not \(1, 2\)"),
+    (lambda d: d.set_targets({0: "here"}), ValueError, "targets must be numbers"),
+    (lambda d: d.set_targets({"0": [1, 2, 3]}), ValueError, "integers, not <U1"),
+    (lambda d: d.set_targets(7), ValueError, "a dict of points"),
+    (lambda d: d.transform([0], np.eye(3)), ValueError, "shape"),
+    (lambda d: d.transform([0], np.ones((4, 4))), ValueError, "last row"),
+    (lambda d: d.set_weight([0], -1), arap.DeformationError, "weight"),
+    (lambda d: d.set_weight([0], "big"), ValueError, "weight must be numbers"),
+    (lambda d: d.set_rotation([0], np.ones((3, 3))), arap.DeformationError, "rotation"),
+    (lambda d: d.set_rotation([0], np.ones(9)), ValueError, "shape"),
+    (lambda d: d.set_rotation([70]), ValueError, "vertex 70 is not a control vertex"),
+    (lambda d: d.locate([0, 0]), ValueError, "shape"),
+    (lambda d: d.insert_point(10**6, [1, 0, 0]), IndexError, "no simplex 1000000"),
+    (lambda d: d.insert_point(-1, [1, 0, 0]), IndexError, "number -1"),
+    (lambda d: d.insert_point(0, [1, 1, 1]), arap.DeformationError, "coordinates"),
+    (lambda d: d.point_position(3), ValueError, "not a control point"),
+    (lambda d: d.target(77), ValueError, "neither"), (lambda d: d.target(2**31), IndexError, "not from"),
+    (lambda d: d.set_stiffness([1, 2]), ValueError, "2 values for the"),
+    (lambda d: d.set_groups([0.5]), ValueError, "integers"),
+    (lambda d: d.deform(-1), arap.DeformationError, "iterations '-1' is not a whole number"),
+    (lambda d: d.deform(1, float("nan")), arap.DeformationError, "tolerance is nan"),
+    (lambda d: d.deform(1, "small"), arap.DeformationError, "tolerance 'small' is not a number"),
+    (lambda d: d.advance(0), arap.DeformationError, "time_step"),
+    (lambda d: d.advance("fast"), ValueError, "time_step must be numbers"),
+    (lambda d: d.advance(acceleration=9.81), ValueError, "acceleration must have the shape"),
+    (lambda d: d.advance(forces=V[:5]), ValueError, "three coordinates for each of the"),
+    (lambda d: d.advance(forces=V * np.nan), arap.DeformationError, "force"),
+    (lambda d: d.quality_at_vertices("beauty"), ValueError, "use one of edge_length_error"),
+    (lambda d: setattr(d, "cells", "squares"), arap.DeformationError, "use one of spokes"),
+    (lambda d: arap.Deformation(V, F, colour=1), arap.DeformationError, "option 'colour' is not known"),
+    (lambda d: arap.Deformation(V, F, weights="equal"), ValueError, "weights 'equal' is not known"),
+    (lambda d: arap.Deformation(V, F, tetrahedra=True), ValueError, r"shape \(any, 4\)"),
+    (lambda d: arap.deform(V, F, [], {}), arap.DeformationError, "."),
+    (lambda d: arap.deform(V, F, [0], {1: [0, 0, float("inf")]}), arap.DeformationError, "vertex 1"),
+    (lambda d: arap.deform(V, F, [0], [[1, 0, 0]]), ValueError, "a dict of points"),
+]
+
+
+@pytest.mark.parametrize("call, error, match", CALLS)
+def test_bad_calls_change_nothing(call, error, match):
+    d, expected = bent(), bent()
+    with pytest.raises(error, match=match):
+        call(d)
+    for session in (d, expected):  # it serves as before
+        session.deform(3, 0)
+    assert np.array_equal(d.vertices, expected.vertices)
+
+
+def test_the_code_of_the_readme():
+    section = (ROOT / "README.md").read_text().split("## From Python")[1]
+    code = re.search("```python\n(.*?)```", section, re.DOTALL).group(1)
+    names = {}
+    exec(code, names)
+    assert 6 <= code.count("\n") <= 12 and not np.array_equal(names["V2"], names["V"])
