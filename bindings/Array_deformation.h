@@ -12,7 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_BINDINGS_ARRAY_DEFORMATION_H
 #define CGAL_ARAP_DEFORMATION_BINDINGS_ARRAY_DEFORMATION_H
 
-// CGAL::ARAP_deformation for arrays of numbers: what other languages are bound to. It only forwards.
+// CGAL::ARAP_deformation for arrays of numbers: what other languages are bound to. It only
+// forwards.
 
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Dynamics.h>
@@ -62,8 +63,9 @@ struct Place // in a face or tetrahedron
   double distance;
 };
 
-// A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a control
-// point inside a simplex. The coordinates of a point, and the entries of a matrix, follow each other.
+// A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a
+// control point inside a simplex. The coordinates of a point, and the entries of a matrix, follow
+// each other.
 class Array_deformation
 {
 public:
@@ -128,8 +130,8 @@ public:
   virtual std::vector<double> quality_at_vertices(Vertex_measure measure) const = 0;
 };
 
-// points: n x 3; simplices: m x k. A volume has tetrahedra, k = 4; else they are faces of k corners.
-// All is copied. weights: see CGAL::ARAP::Chosen_edge_weight.
+// points: n x 3; simplices: m x k. A volume has tetrahedra, k = 4; else they are faces of k
+// corners. All is copied. weights: see CGAL::ARAP::Chosen_edge_weight.
 std::unique_ptr<Array_deformation> make_array_deformation(Numbers points, Indices simplices,
                                                           bool is_volume,
                                                           const std::string& weights);

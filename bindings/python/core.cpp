@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The flat interface for Python: the module arap_deformation._core. Only arap_deformation/__init__.py
-// calls it, which has made all arrays contiguous, of these types, and its own.
+// The flat interface for Python: the module arap_deformation._core. Only the Python file of
+// arap_deformation calls it, which has made all arrays contiguous, of these types, and its own.
 
 #include "../Array_deformation.h"
 
@@ -21,14 +21,17 @@
 #include <pybind11/stl.h>
 
 #include <any>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -84,8 +87,6 @@ py::array_t<T> result(const std::vector<T>& values)
 {
   return py::array_t<T>(py::ssize_t(values.size()), values.data());
 }
-template <typename T, std::size_t N>
-py::list result(const std::array<T, N>& values) { return py::cast(values); }
 
 py::dict result(const Quality& q)
 {
@@ -184,7 +185,7 @@ public:
     if(m_is_at_work.exchange(true))
       throw bindings::Deformation_error(Outcome(
         Status::in_a_run,
-        "the deformation is at work, in another thread or for this visitor; wait until it is done"));
+        "the deformation is at work, in another thread or for this visitor; wait for its end"));
     struct Guard
     {
       std::atomic<bool>& is_at_work;
@@ -203,7 +204,6 @@ public:
     view.attr("setflags")("write"_a = false);
     return view;
   }
-  const Array_deformation& constants() const { return *m_deformation; } // what never changes
 
 private:
   std::unique_ptr<Array_deformation> m_deformation;
@@ -259,14 +259,9 @@ py::dict deform(Session& session, const std::map<std::string, std::string>& opti
 }
 
 py::dict advance(Session& session, double time_step, double density, double modulus, double damping,
-                 const Doubles& acceleration, const Doubles& forces, const py::object& visitor)
+                 const Coordinates& acceleration, const Doubles& forces, const py::object& visitor)
 {
-  Dynamics dynamics;
-  dynamics.time_step = time_step;
-  dynamics.density = density;
-  dynamics.modulus = modulus;
-  dynamics.damping = damping;
-  dynamics.acceleration = {acceleration.at(0), acceleration.at(1), acceleration.at(2)};
+  const Dynamics dynamics{time_step, density, modulus, damping, acceleration};
   const auto f = rows(forces);
   return result(session.at_work([&](Array_deformation& d) {
     return d.advance(dynamics, f, Python_visitor(visitor));
@@ -293,9 +288,6 @@ PYBIND11_MODULE(_core, module)
   using D = Array_deformation;
   py::class_<Session>(module, "Session")
     .def(py::init<const Doubles&, const Integers&, bool, const std::string&>())
-    .def("number_of_vertices", [](const Session& s) { return s.constants().number_of_vertices(); })
-    .def("number_of_simplices", [](const Session& s) { return s.constants().number_of_simplices(); })
-    .def("is_volume", [](const Session& s) { return s.constants().is_volume(); })
     .def("points", &Session::points)
     .def("rest_points", [](Session& s) {
       return result(s.at_work([](const D& d) {
@@ -306,33 +298,23 @@ PYBIND11_MODULE(_core, module)
       return s.at_work([&](D& d) { return option_value(d.options(), name); });
     })
     .def("set_option", bound(&D::set_option))
-    .def("region", bound(&D::region))
-    .def("set_region", bound(&D::set_region))
-    .def("handles", bound(&D::handles))
+    .def("region", bound(&D::region)).def("set_region", bound(&D::set_region))
+    .def("handles", bound(&D::handles)).def("clear_handles", bound(&D::clear_handles))
     .def("insert_handles", bound(&D::insert_handles))
     .def("erase_handles", bound(&D::erase_handles))
-    .def("clear_handles", bound(&D::clear_handles))
-    .def("locate", bound(&D::locate))
-    .def("insert_point", bound(&D::insert_point))
+    .def("locate", bound(&D::locate)).def("insert_point", bound(&D::insert_point))
     .def("point_position", bound_point(&D::point_position))
-    .def("set_targets", bound(&D::set_targets))
-    .def("target", bound_point(&D::target))
-    .def("transform", bound(&D::transform))
-    .def("set_weight", bound(&D::set_weight))
+    .def("target", bound_point(&D::target)).def("set_targets", bound(&D::set_targets))
+    .def("transform", bound(&D::transform)).def("set_weight", bound(&D::set_weight))
     .def("set_rotation", bound(&D::set_rotation))
     .def("set_rotations_of_motion", bound(&D::set_rotations_of_motion))
     .def("erase_rotations", bound(&D::erase_rotations))
-    .def("set_stiffness", bound(&D::set_stiffness))
-    .def("set_groups", bound(&D::set_groups))
+    .def("set_stiffness", bound(&D::set_stiffness)).def("set_groups", bound(&D::set_groups))
     .def("preprocess", bound(&D::preprocess))
-    .def("deform", &deform)
-    .def("advance", &advance)
-    .def("reset", bound(&D::reset))
-    .def("make_rest_shape", bound(&D::make_rest_shape))
-    .def("state", bound(&D::state))
-    .def("restore", bound(&D::restore))
-    .def("energy", bound(&D::energy))
-    .def("rotations", bound(&D::rotations))
+    .def("deform", &deform).def("advance", &advance)
+    .def("reset", bound(&D::reset)).def("make_rest_shape", bound(&D::make_rest_shape))
+    .def("state", bound(&D::state)).def("restore", bound(&D::restore))
+    .def("energy", bound(&D::energy)).def("rotations", bound(&D::rotations))
     .def("quality", bound(&D::quality))
     .def("quality_at_vertices", [](Session& s, int measure) {
       return result(s.at_work([&](const D& d) {

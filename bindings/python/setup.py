@@ -21,7 +21,7 @@ class CMakeBuild(build_ext):
             ["cmake", "-S", here, "-B", folder,
              f"-DPYTHON_EXECUTABLE={sys.executable}", f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"],
             check=True)
-        subprocess.run(["cmake", "--build", folder, "--parallel", "--config", "Release"], check=True)
+        subprocess.run(["cmake", "--build", folder, "--parallel"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
         self.copy_file(str(next(folder.rglob("_core.*" + target.suffix))), str(target))
 

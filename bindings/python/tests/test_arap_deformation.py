@@ -208,7 +208,7 @@ def test_states():
     with pytest.raises(arap.DeformationError) as error:
         other.restore(state)
     assert error.value.status == "foreign_state" and str(error.value)
-    with pytest.raises(TypeError, match="what state"):
+    with pytest.raises(TypeError, match="what state.. returns"):
         d.restore("state")
 
 

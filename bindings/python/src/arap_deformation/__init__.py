@@ -1,10 +1,10 @@
 """As-rigid-as-possible deformation of surfaces and tetrahedral volumes.
 
-``deform()`` is one call; ``Deformation`` is a session, for dragging, undo and time steps. n vertices
-have coordinates of any unit of length, as an array of shape (n, 3); m faces or tetrahedra have k
-corners, as an array of indices of shape (m, k). Arguments may be any arrays of numbers, or lists; they
-are copied. Energies are those of the manual: with cotangent weights their unit is an area for
-surfaces and a volume for tetrahedra.
+``deform()`` is one call; ``Deformation`` is a session, for dragging, undo and time steps. n
+vertices have coordinates of any unit of length, as an array of shape (n, 3); m faces or tetrahedra
+have k corners, as an array of indices of shape (m, k). Arguments may be any arrays of numbers, or
+lists; they are copied. Energies are those of the manual: with cotangent weights their unit is an
+area for surfaces and a volume for tetrahedra.
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ def _targets(targets: Targets) -> Tuple[NDArray[Any], Floats]:
     if isinstance(targets, Mapping):
         targets = (list(targets.keys()), list(targets.values()))
     elif not isinstance(targets, (tuple, list)) or len(targets) != 2:
-        raise ValueError("targets must be a dict of points by vertices, or a pair of indices and points")
+        raise ValueError("targets must be a dict of points by handles, or a pair of both")
     return _indices("handles of targets", targets[0]), _floats("targets", targets[1], None, 3)
 
 
@@ -162,7 +162,7 @@ class Deformation:
     minimizer = _option("minimizer", "'automatic', 'local_global' or 'quasi_newton'")
     initial_guess = _option("initial_guess", "'automatic', 'previous', 'rotations' or 'laplacian'")
     iterations = _option("iterations", "the maximum number of iterations of a run")
-    tolerance = _option("tolerance", "the estimated relative gap to the minimum at which a run ends")
+    tolerance = _option("tolerance", "the estimated relative gap to the minimum that ends a run")
     threads = _option("threads", "the maximum number of threads; 0 for all")
     bending_length = _option("bending_length", "the length over which a bend is spread; 0 for none")
     smoothing_length = _option("smoothing_length", "over which rotations are smooth; 0 for none")
@@ -257,11 +257,11 @@ class Deformation:
         self._session.erase_rotations(_indices("vertices", vertices))
 
     def set_stiffness(self, values: ArrayLike) -> None:
-        """Sets how stiff each cell is, not negative: (n,), or (m,) if cells are elements; none: 1."""
+        """Sets how stiff cells are, not negative: (n,), or (m,) if cells are elements; []: 1."""
         self._session.set_stiffness(_floats("stiffness", values, None))
 
     def set_groups(self, groups: ArrayLike) -> None:
-        """Lets cells of the same number from 0 on share a rotation; -1: its own. None: all their own."""
+        """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 
     def preprocess(self) -> None:
@@ -270,9 +270,9 @@ class Deformation:
 
     def deform(self, iterations: Optional[int] = None, tolerance: Optional[float] = None,
                visitor: Optional[Visitor] = None) -> Report:
-        """Moves the handles to their targets, and the rest with them. The visitor is called with the
-        number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'. If it
-        raises an exception, nothing has changed."""
+        """Moves the handles to their targets, and the rest with them. The visitor is called with
+        the number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'.
+        If it raises an exception, or is interrupted, nothing has changed."""
         options = {"iterations": iterations, "tolerance": tolerance}
         given = {name: str(value) for name, value in options.items() if value is not None}
         return Report(**self._session.deform(given, visitor))
@@ -303,7 +303,7 @@ class Deformation:
     def restore(self, state: State) -> None:
         """Returns to a state of this object."""
         if not isinstance(state, State):
-            raise TypeError(f"restore() needs what state() has returned, not {type(state).__name__}")
+            raise TypeError(f"restore() needs what state() returns, not {type(state).__name__}")
         self._session.restore(state)
 
     @property
