@@ -80,14 +80,14 @@ def test_a_bend_and_its_report():
 def test_the_energy_is_that_of_its_formula():
     d = bent("cactus")
     d.deform(7, 0)
-    energy, rotations = 0, d.rotations()
+    energy, r, p = 0, d.rotations(), d.vertices
     for t in SHAPES["cactus"][1]:
         for a in range(3):
             i, j, k = np.roll(t, a)
             u, v = d.rest_vertices[i] - d.rest_vertices[k], d.rest_vertices[j] - d.rest_vertices[k]
             weight = u @ v / np.linalg.norm(np.cross(u, v)) / 2
             for c in t:
-                energy += weight * np.sum((d.vertices[i] - d.vertices[j] - rotations[c] @ (u - v))**2)
+                energy += weight * np.sum((p[i] - p[j] - r[c] @ (u - v))**2)
     assert energy == pytest.approx(d.energy, rel=1e-11)
 
 
@@ -342,14 +342,17 @@ NAN, MANY = np.where(np.eye(len(V), 3), np.nan, V), np.full((1, 3), 2**31)
 BAD_SHAPES = [
     ((V.astype(str), F), ValueError, "vertices must be numbers, not <U"),
     ((V.astype(complex), F), ValueError, "numbers, not complex128"),
-    ((V.astype(object), F), ValueError, "numbers, not object"), ((V > 0, F), ValueError, "not bool"),
-    ((None, F), ValueError, "numbers, not object"), ((V[:, :2], F), ValueError, r"shape \(any, 3\)"),
+    ((V.astype(object), F), ValueError, "numbers, not object"),
+    ((V > 0, F), ValueError, "not bool"), ((None, F), ValueError, "numbers, not object"),
+    ((V[:, :2], F), ValueError, r"shape \(any, 3\)"),
     ((V.ravel(), F), ValueError, "must have the shape"), ((V[None], F), ValueError, "shape"),
     (([[0, 0, 0], [1, 0]], F), ValueError, "vertices must be an array of numbers"),
     ((V, F.astype(float)), ValueError, "simplices must be integers, not float64"),
-    ((V, F > 3), ValueError, "integers, not bool"), ((V, F[:, :2]), ValueError, "three corners, not 2"),
+    ((V, F > 3), ValueError, "integers, not bool"),
+    ((V, F[:, :2]), ValueError, "three corners, not 2"),
     ((V, F.ravel()), ValueError, "shape"), ((V, -F), IndexError, "-.*not from 0"),
-    ((V, MANY), IndexError, "2147483648, which is not from 0"), ((V, [[0, 1, 2**70]]), ValueError, "object"),
+    ((V, MANY), IndexError, "2147483648, which is not from 0"),
+    ((V, [[0, 1, 2**70]]), ValueError, "object"),
 ]
 
 
@@ -399,7 +402,8 @@ CALLS = [
     (lambda d: d.insert_point(-1, [1, 0, 0]), IndexError, "number -1"),
     (lambda d: d.insert_point(0, [1, 1, 1]), arap.DeformationError, "coordinates"),
     (lambda d: d.point_position(3), ValueError, "not a control point"),
-    (lambda d: d.target(77), ValueError, "neither"), (lambda d: d.target(2**31), IndexError, "not from"),
+    (lambda d: d.target(77), ValueError, "neither"),
+    (lambda d: d.target(2**31), IndexError, "not from"),
     (lambda d: d.set_stiffness([1, 2]), ValueError, "2 values for the"),
     (lambda d: d.set_groups([0.5]), ValueError, "integers"),
     (lambda d: d.deform(-1), arap.DeformationError, "iterations '-1' is not a whole number"),
@@ -412,11 +416,11 @@ CALLS = [
     (lambda d: d.advance(forces=V * np.nan), arap.DeformationError, "force"),
     (lambda d: d.quality_at_vertices("beauty"), ValueError, "use one of edge_length_error"),
     (lambda d: setattr(d, "cells", "squares"), arap.DeformationError, "use one of spokes"),
-    (lambda d: arap.Deformation(V, F, colour=1), arap.DeformationError, "option 'colour' is not known"),
+    (lambda d: arap.Deformation(V, F, colour=1), arap.DeformationError, "option 'colour'"),
     (lambda d: arap.Deformation(V, F, weights="equal"), ValueError, "weights 'equal' is not known"),
     (lambda d: arap.Deformation(V, F, tetrahedra=True), ValueError, r"shape \(any, 4\)"),
-    (lambda d: arap.deform(V, F, [], {}), arap.DeformationError, "."),
-    (lambda d: arap.deform(V, F, [0], {1: [0, 0, float("inf")]}), arap.DeformationError, "vertex 1"),
+    (lambda d: arap.deform(V, F, [], {}), arap.DeformationError, "fix a vertex"),
+    (lambda d: arap.deform(V, F, [0], {1: [0, 0, np.inf]}), arap.DeformationError, "vertex 1"),
     (lambda d: arap.deform(V, F, [0], [[1, 0, 0]]), ValueError, "a dict of points"),
 ]
 

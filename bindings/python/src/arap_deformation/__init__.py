@@ -180,7 +180,8 @@ class Deformation:
 
     @property
     def vertices(self) -> Floats:
-        """(n, 3): where the vertices are, a view that follows later calls. Copy what shall stay."""
+        """(n, 3): where the vertices are, a view without a copy. It changes when a call succeeds,
+        also one of another thread."""
         return self._session.points()
 
     @property
