@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/set_option.h>
 #include <CGAL/arap_deform.h>
 
 #include <boost/property_map/property_map.hpp>
@@ -286,6 +287,53 @@ void test_options()
   CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-3);
 }
 
+// Options by name: what is set is read again; what is refused changes nothing.
+void test_options_by_name()
+{
+  using CGAL::ARAP::option_value;
+  using CGAL::ARAP::set_option;
+  test_case() = "options by name";
+  CGAL::ARAP::Options options;
+  const std::vector<std::pair<std::string, std::vector<std::string>>> valid = {
+    {"cells", {"elements", "spokes_and_rims", "k_ring:2", "spokes"}},
+    {"minimizer", {"local_global", "quasi_newton", "automatic"}},
+    {"initial_guess", {"rotations", "laplacian", "previous", "automatic"}},
+    {"iterations", {"0", "2147483647"}}, {"threads", {"3", "0"}}, {"tolerance", {"0", "0.25"}},
+    {"bending_length", {"1", "0.5"}}, {"smoothing_length", {"7"}}};
+  for(const auto& [name, values] : valid)
+    for(const std::string& value : values)
+    {
+      CHECK(set_option(options, name, value));
+      CHECK(option_value(options, name) == value);
+    }
+  CHECK(options.cells == CGAL::ARAP::Cell_scheme::spokes());
+  CHECK(options.tolerance == 0.25 && options.smoothing_length == 7);
+  options.tolerance = 0.1 + 0.2; // has seventeen digits
+  CHECK(set_option(options, "tolerance", option_value(options, "tolerance")));
+  CHECK(options.tolerance == 0.1 + 0.2);
+  CHECK(option_value(options, "colour").empty());
+
+  const CGAL::ARAP::Options before = options;
+  const std::vector<std::array<std::string, 3>> invalid = {
+    {"cells", "stars", "cells 'stars' is not known; use one of spokes, spokes_and_rims, elements"},
+    {"cells", "k_ring:", "cells k_ring '' is not a whole number"},
+    {"cells", "k_ring:101", "at most k_ring(100)"},
+    {"cells", "elements", "bending_length needs cells at vertices"},
+    {"minimizer", "", "minimizer '' is not known; use one of automatic, local_global"},
+    {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 2147483647"},
+    {"threads", "2147483648", "threads '2147483648' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
+    {"tolerance", "nan", "tolerance is nan"}, {"smoothing_length", "-1", "smoothing_length"},
+    {"Cells", "spokes", "the option 'Cells' is not known; use one of cells, minimizer"}};
+  for(const auto& [name, value, sentence] : invalid)
+  {
+    const CGAL::ARAP::Outcome outcome = set_option(options, name, value);
+    CHECK(outcome.status == Status::invalid_option);
+    CHECK(outcome.message.find(sentence) != std::string::npos);
+  }
+  for(const auto& option : valid)
+    CHECK(option_value(options, option.first) == option_value(before, option.first));
+}
+
 // However small a motion is, the run goes on until the gap is as small as was asked for.
 void test_small_motions()
 {
@@ -404,6 +452,7 @@ void test_all()
   test_rest_shape();
   test_frames();
   test_options();
+  test_options_by_name();
   test_small_motions();
   test_change_of_sets();
   test_defaults();

@@ -15,6 +15,7 @@
 #include "include/conformance.h"
 #include "include/domains.h"
 
+#include <CGAL/ARAP_deformation/Chosen_edge_weight.h>
 #include <CGAL/ARAP_deformation/Edge_map_weight.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/conformance/check_deformation_traits.h>
@@ -35,6 +36,8 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -516,12 +519,40 @@ struct Sparse_solver_that_refuses : Multifrontal_cholesky_solver
   bool factorize(const Sparse_matrix&) { return false; }
 };
 
+// A shipped weight conforms, and so does the one that has its name, whose values are the same.
+template <typename Weight>
+void check_shipped(const Weight& weight, const char* name)
+{
+  test_case() = name;
+  const Chosen_edge_weight chosen(name);
+  CHECK_CONFORMS(check_edge_weight(weight));
+  CHECK_CONFORMS(check_edge_weight(chosen));
+  const std::array<Coordinates, 4> tetrahedron = {{{0, 0, 0}, {1, 0, 2}, {2, 1, 0}, {0, 0, 1}}};
+  const Triangle triangle = {{{0, 0, 0}, {5, 1, 2}, {2, 1, 0}}}; // with an obtuse angle
+  CHECK(chosen.simplex_weights(tetrahedron) == weight.simplex_weights(tetrahedron));
+  CHECK(chosen.simplex_weights(triangle) == weight.simplex_weights(triangle));
+  for(Edge_set set : {Edge_set::star, Edge_set::simplex})
+    for(double sum : {-2.0, 3.0})
+      CHECK(chosen.edge_weight(set, 0, 1, sum) == weight.edge_weight(set, 0, 1, sum));
+}
+
 void test_all()
 {
-  CHECK_CONFORMS(check_edge_weight(Safe_cotangent_weight()));
-  CHECK_CONFORMS(check_edge_weight(Cotangent_weight()));
-  CHECK_CONFORMS(check_edge_weight(Clamped_cotangent_weight()));
-  CHECK_CONFORMS(check_edge_weight(Uniform_weight()));
+  check_shipped(Safe_cotangent_weight(), "safe_cotangent");
+  check_shipped(Cotangent_weight(), "cotangent");
+  check_shipped(Clamped_cotangent_weight(), "clamped_cotangent");
+  check_shipped(Uniform_weight(), "uniform");
+  test_case() = "weights that are not known";
+  try
+  {
+    Chosen_edge_weight("Uniform");
+    CHECK(!"a name that is not known was taken");
+  }
+  catch(const std::invalid_argument& error)
+  {
+    CHECK(std::string(error.what()).find("weights 'Uniform' is not known; use one of") == 0);
+  }
+  test_case() = "conformance";
   Edge_map_weight edge_map;
   edge_map.set_weight(0, 1, 1.5);
   CHECK_CONFORMS(check_edge_weight(edge_map));
