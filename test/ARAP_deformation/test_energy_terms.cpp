@@ -733,6 +733,32 @@ void test_rigid_motions(const Model& model)
 }
 
 // Frames of soft vertices, changed between runs, against the dense reference, with undo.
+// Where every rotation is given none is left to smooth, and the problem is a linear one.
+void test_frames_everywhere(const Model& model)
+{
+  for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+  {
+    test_case() = model.name + ", frames everywhere";
+    const Eigen::Matrix3d rotation = turn(0.3, {1, 2, 0});
+    Run<2> run(model, whole_scenario(model), Cell_scheme::spokes_and_rims(), {});
+    auto& d = run.deformation;
+    for(std::size_t v = 0; v < model.points.size(); ++v)
+    {
+      d.insert_control_vertex(v);
+      CHECK(d.set_target_weight(v, 1));
+      CHECK(d.set_target_rotation(v, rotation));
+    }
+    Options options = d.options();
+    options.smoothing_length = 0.1 * diameter_of(model.points);
+    options.minimizer = minimizer;
+    options.tolerance = 1e-9;
+    CHECK(d.set_options(options));
+    const Report report = d.deform();
+    CHECK(report.status == Status::converged && report.iterations < 4);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0 && report.final_energy() > 0);
+  }
+}
+
 void test_soft_frames(const Model& model)
 {
   const double diameter = diameter_of(model.points);
@@ -1073,6 +1099,7 @@ void test_all()
   test_groups(models.front());
   test_changes(models.front());
   test_rigid_motions(models.front());
+  test_frames_everywhere(models.front());
   test_soft_frames(models.front());
   test_long_lengths<2>(models.front());
   test_long_lengths<3>(iterates::solid());

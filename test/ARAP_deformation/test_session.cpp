@@ -299,6 +299,7 @@ void test_options_by_name()
     {"minimizer", {"local_global", "quasi_newton", "automatic"}},
     {"initial_guess", {"rotations", "laplacian", "previous", "automatic"}},
     {"iterations", {"0", "2147483647"}}, {"threads", {"3", "0"}}, {"tolerance", {"0", "0.25"}},
+    {"verify_minimum", {"false", "true"}},
     {"bending_length", {"1", "0.5"}}, {"smoothing_length", {"7"}}};
   for(const auto& [name, values] : valid)
     for(const std::string& value : values)
@@ -322,6 +323,7 @@ void test_options_by_name()
     {"minimizer", "", "minimizer '' is not known; use one of automatic, local_global"},
     {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 2147483647"},
     {"threads", "2147483648", "threads '2147483648' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
+    {"verify_minimum", "1", "verify_minimum '1' is not known; use one of true, false"},
     {"tolerance", "nan", "tolerance is nan"}, {"smoothing_length", "-1", "smoothing_length"},
     {"Cells", "spokes", "the option 'Cells' is not known; use one of cells, minimizer"}};
   for(const auto& [name, value, sentence] : invalid)

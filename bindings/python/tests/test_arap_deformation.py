@@ -182,6 +182,9 @@ def test_options():
     d = arap.Deformation(*SHAPES["bar"], cells="k_ring:2", iterations=7, tolerance=np.float32(0.5))
     assert (d.cells, d.iterations, d.tolerance) == ("k_ring:2", 7, 0.5)
     assert (d.minimizer, d.initial_guess, d.threads) == ("automatic", "automatic", 0)
+    assert d.verify_minimum is True
+    d.verify_minimum = False
+    assert d.verify_minimum is False
     d.tolerance = 1 / 3
     d.bending_length = d.smoothing_length = 2
     assert d.tolerance == 1 / 3 and d.bending_length == d.smoothing_length == 2
@@ -242,6 +245,16 @@ def test_region_weights_points_and_frames():
     d.set_rotation(0, TURN[:3, :3])
     d.deform()
     assert np.abs(d.vertices - moved(TURN, d.rest_vertices)).max() < 1e-6
+
+
+def test_frames_at_all_vertices():
+    d = arap.Deformation([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], smoothing_length=1)
+    d.insert_handles([0, 1, 2])
+    d.set_weight([0, 1, 2], 2)
+    d.set_rotation([0, 1, 2], np.eye(3))
+    d.set_targets({0: [0, 0, 1]})
+    assert d.deform().status == "converged"
+    d.advance()
 
 
 def test_stiffness_and_groups():

@@ -51,6 +51,10 @@ class Report:
     free_vertices: int
     simplices: int
     inverted_simplices: int
+    end: str
+    saddles_left: int
+    plateaus_left: int
+    looking_iterations: int
     unconstrained_components: List[int]
     stages: Dict[str, bool]
     seconds: Dict[str, float]
@@ -140,14 +144,14 @@ def _targets(targets: Targets) -> Tuple[NDArray[Any], Floats]:
     return _indices("handles of targets", targets[0]), _floats("targets", targets[1], None, 3)
 
 
-def _option(name: str, doc: str) -> Any:
-    def get(self: Deformation) -> Union[str, int, float]:
-        text = self._session.option(name)
-        kind = {"iterations": int, "threads": int, "cells": str, "minimizer": str,
-                "initial_guess": str}.get(name, float)
-        return kind(text)
+def _text(value: Any) -> str:
+    """An option as C++ reads it."""
+    return str(value).lower() if isinstance(value, (bool, np.bool_)) else str(value)
 
-    return property(get, lambda self, value: self._session.set_option(name, str(value)), doc=doc)
+
+def _option(name: str, kind: Callable[[str], Any], doc: str) -> Any:
+    return property(lambda self: kind(self._session.option(name)),
+                    lambda self, value: self._session.set_option(name, _text(value)), doc=doc)
 
 
 class Deformation:
@@ -158,14 +162,16 @@ class Deformation:
     other threads, and from its visitor, raise ``DeformationError`` with the status ``in_a_run``.
     """
 
-    cells = _option("cells", "'spokes', 'spokes_and_rims' (the default), 'elements', 'k_ring:K'")
-    minimizer = _option("minimizer", "'automatic', 'local_global' or 'quasi_newton'")
-    initial_guess = _option("initial_guess", "'automatic', 'previous', 'rotations' or 'laplacian'")
-    iterations = _option("iterations", "the maximum number of iterations of a run")
-    tolerance = _option("tolerance", "the estimated relative gap to the minimum that ends a run")
-    threads = _option("threads", "the maximum number of threads; 0 for all")
-    bending_length = _option("bending_length", "the length over which a bend is spread; 0 for none")
-    smoothing_length = _option("smoothing_length", "over which rotations are smooth; 0 for none")
+    cells = _option("cells", str, "'spokes', 'spokes_and_rims' (the default), 'elements', 'k_ring:K'")
+    minimizer = _option("minimizer", str, "'automatic', 'local_global' or 'quasi_newton'")
+    initial_guess = _option("initial_guess", str,
+                            "'automatic', 'previous', 'rotations' or 'laplacian'")
+    iterations = _option("iterations", int, "the maximum number of iterations of a run")
+    tolerance = _option("tolerance", float, "the estimated relative gap that ends a run")
+    verify_minimum = _option("verify_minimum", "true".__eq__, "whether saddle points are left")
+    threads = _option("threads", int, "the maximum number of threads; 0 for all")
+    bending_length = _option("bending_length", float, "over which a bend is spread; 0 for none")
+    smoothing_length = _option("smoothing_length", float, "of smooth rotations; 0 for none")
 
     def __init__(self, vertices: ArrayLike, simplices: ArrayLike, *, tetrahedra: bool = False,
                  weights: str = "safe_cotangent", **options: Any) -> None:
@@ -176,7 +182,7 @@ class Deformation:
                                  _integers("simplices", simplices, None, 4 if tetrahedra else None),
                                  bool(tetrahedra), str(weights))
         for name, value in options.items():
-            self._session.set_option(name, str(value))
+            self._session.set_option(name, _text(value))
 
     @property
     def vertices(self) -> Floats:
@@ -275,7 +281,7 @@ class Deformation:
         the number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'.
         If it raises an exception, or is interrupted, nothing has changed."""
         options = {"iterations": iterations, "tolerance": tolerance}
-        given = {name: str(value) for name, value in options.items() if value is not None}
+        given = {name: _text(value) for name, value in options.items() if value is not None}
         return Report(**self._session.deform(given, visitor))
 
     def advance(self, time_step: float = 1 / 60, *, density: float = 1, modulus: float = 1,

@@ -72,7 +72,8 @@ public:
     m_system.set_laplacian(std::move(laplacian));
   }
 
-  // The rotations of these cells stay. False if the steps cannot be computed then.
+  // The rotations of these cells stay. False if the steps cannot be computed then, or nothing is left
+  // to turn.
   bool set_given(const Array<int>& cells)
   {
     Constraints constraints;
@@ -83,7 +84,7 @@ public:
       constraints.is_fixed[m_leader[c]] = true;
     m_is_fixed = constraints.is_fixed;
     Stages stages;
-    return m_system.prepare(constraints, stages);
+    return constraints.number_of_free_vertices() > 0 && m_system.prepare(constraints, stages);
   }
 
   // By how much a step from the rotations would lower the energy, by its model. The covariances
