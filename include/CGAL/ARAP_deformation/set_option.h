@@ -37,10 +37,11 @@ template <typename Options_, typename Function>
 Outcome with_option(Options_& options, const std::string& name, const Function& f)
 {
   if(name == "cells")
-    return f(options.cells, Choices<Cell_scheme>{{"spokes", Cell_scheme::spokes()},
-                                                 {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
-                                                 {"elements", Cell_scheme::elements()},
-                                                 {"k_ring:K", Cell_scheme::spokes()}});
+    return f(options.cells,
+             Choices<Cell_scheme>{{"spokes", Cell_scheme::spokes()},
+                                  {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+                                  {"elements", Cell_scheme::elements()},
+                                  {"k_ring:K", Cell_scheme::spokes()}});
   if(name == "minimizer")
     return f(options.minimizer, Choices<Minimizer>{{"automatic", Minimizer::automatic},
                                                    {"local_global", Minimizer::local_global},

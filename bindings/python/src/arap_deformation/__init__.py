@@ -162,7 +162,7 @@ class Deformation:
     other threads, and from its visitor, raise ``DeformationError`` with the status ``in_a_run``.
     """
 
-    cells = _option("cells", str, "'spokes', 'spokes_and_rims' (the default), 'elements', 'k_ring:K'")
+    cells = _option("cells", str, "'spokes', 'spokes_and_rims', 'elements' or 'k_ring:K'")
     minimizer = _option("minimizer", str, "'automatic', 'local_global' or 'quasi_newton'")
     initial_guess = _option("initial_guess", str,
                             "'automatic', 'previous', 'rotations' or 'laplacian'")
@@ -281,12 +281,13 @@ class Deformation:
         the number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'.
         If it raises an exception, or is interrupted, nothing has changed."""
         options = {"iterations": iterations, "tolerance": tolerance}
-        given = {name: _text(value) for name, value in options.items() if value is not None}
+        given = {name: _text(number) for name, number in options.items() if number is not None}
         return Report(**self._session.deform(given, visitor))
 
     def advance(self, time_step: float = 1 / 60, *, density: float = 1, modulus: float = 1,
                 damping: float = 0, acceleration: ArrayLike = (0, 0, 0),
-                forces: Optional[ArrayLike] = None, visitor: Optional[Visitor] = None) -> StepReport:
+                forces: Optional[ArrayLike] = None,
+                visitor: Optional[Visitor] = None) -> StepReport:
         """Advances by a time step of implicit Euler, in any consistent units: mass per area or
         volume, modulus, rate of decay of velocities, acceleration (3,), forces (n, 3)."""
         numbers = [_float(*pair) for pair in (("time_step", time_step), ("density", density),

@@ -72,8 +72,8 @@ public:
     m_system.set_laplacian(std::move(laplacian));
   }
 
-  // The rotations of these cells stay. False if the steps cannot be computed then, or nothing is left
-  // to turn.
+  // The rotations of these cells stay. False if the steps cannot be computed then, or nothing is
+  // left to turn.
   bool set_given(const Array<int>& cells)
   {
     Constraints constraints;
