@@ -131,12 +131,12 @@ def _integers(name: str, value: ArrayLike, *shape: Optional[int], least: int = 0
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
-def _indices(name: str, value: ArrayLike) -> NDArray[Any]:
+def _indices(name: str, value: Any) -> NDArray[Any]:
     """Indices of vertices or handles, of which there may also be one alone."""
     return _integers(name, [value] if np.ndim(value) == 0 else value, None)
 
 
-def _targets(targets: Targets) -> Tuple[NDArray[Any], Floats]:
+def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
     if isinstance(targets, Mapping):
         targets = (list(targets.keys()), list(targets.values()))
     elif not isinstance(targets, (tuple, list)) or len(targets) != 2:

@@ -1,0 +1,5 @@
+from typing import Any
+
+class State: ...
+
+Session: Any
