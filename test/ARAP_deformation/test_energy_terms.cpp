@@ -733,7 +733,7 @@ void test_rigid_motions(const Model& model)
 }
 
 // Frames of soft vertices, changed between runs, against the dense reference, with undo.
-// Where every rotation is given none is left to smooth, and the problem is a linear one.
+// Where every rotation is given none is left to smooth, and one step solves the linear problem.
 void test_frames_everywhere(const Model& model)
 {
   for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
@@ -754,8 +754,8 @@ void test_frames_everywhere(const Model& model)
     options.tolerance = 1e-9;
     CHECK(d.set_options(options));
     const Report report = d.deform();
-    CHECK(report.status == Status::converged && report.iterations < 4);
-    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0 && report.final_energy() > 0);
+    CHECK(report.status == CGAL::ARAP::Status::converged && report.final_energy() > 0);
+    CHECK_AT_MOST(std::abs(report.energy[1] - report.final_energy()), 1e-12 * report.energy[0]);
   }
 }
 
