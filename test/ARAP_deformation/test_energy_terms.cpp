@@ -732,7 +732,6 @@ void test_rigid_motions(const Model& model)
   }
 }
 
-// Frames of soft vertices, changed between runs, against the dense reference, with undo.
 // Where every rotation is given none is left to smooth, and one step solves the linear problem.
 void test_frames_everywhere(const Model& model)
 {
@@ -759,6 +758,7 @@ void test_frames_everywhere(const Model& model)
   }
 }
 
+// Frames of soft vertices, changed between runs, against the dense reference, with undo.
 void test_soft_frames(const Model& model)
 {
   const double diameter = diameter_of(model.points);
