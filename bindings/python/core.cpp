@@ -168,7 +168,8 @@ private:
   std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
-// A deformation that works without the GIL, for one call at a time.
+// A deformation for one call at a time. The long ones release the GIL; the others keep it, so that
+// they are refused only while a long one works, and refuse none.
 class Session
 {
 public:
@@ -182,7 +183,7 @@ public:
   }
 
   template <typename Function>
-  auto at_work(const Function& f)
+  auto at_work(const Function& f, bool is_long = false)
   {
     if(m_is_at_work.exchange(true))
       throw bindings::Deformation_error(Outcome(
@@ -193,7 +194,9 @@ public:
       std::atomic<bool>& is_at_work;
       ~Guard() { is_at_work = false; }
     } guard{m_is_at_work};
-    const py::gil_scoped_release release;
+    std::optional<py::gil_scoped_release> release;
+    if(is_long)
+      release.emplace();
     return f(*m_deformation);
   }
 
@@ -257,7 +260,7 @@ py::dict deform(Session& session, const std::map<std::string, std::string>& opti
       if(const Outcome outcome = set_option(changed, name, value); !outcome)
         throw bindings::Deformation_error(outcome);
     return d.deform(changed.iterations, changed.tolerance, Python_visitor(visitor));
-  }));
+  }, true));
 }
 
 py::dict advance(Session& session, double time_step, double density, double modulus, double damping,
@@ -267,7 +270,7 @@ py::dict advance(Session& session, double time_step, double density, double modu
   const auto f = rows(forces);
   return result(session.at_work([&](Array_deformation& d) {
     return d.advance(dynamics, f, Python_visitor(visitor));
-  }));
+  }, true));
 }
 
 } // namespace
@@ -312,7 +315,7 @@ PYBIND11_MODULE(_core, module)
     .def("set_rotations_of_motion", bound(&D::set_rotations_of_motion))
     .def("erase_rotations", bound(&D::erase_rotations))
     .def("set_stiffness", bound(&D::set_stiffness)).def("set_groups", bound(&D::set_groups))
-    .def("preprocess", bound(&D::preprocess))
+    .def("preprocess", [](Session& s) { s.at_work([](D& d) { d.preprocess(); }, true); })
     .def("deform", &deform).def("advance", &advance)
     .def("reset", bound(&D::reset)).def("make_rest_shape", bound(&D::make_rest_shape))
     .def("state", bound(&D::state)).def("restore", bound(&D::restore))

@@ -158,8 +158,9 @@ class Deformation:
     """A session: a shape, of which handles go to targets, and the rest follows as rigidly as
     possible. A handle is a number: that of a vertex, or from n on that of a point in a simplex.
 
-    An object works for one call at a time, without Python's global lock; in the meantime calls from
-    other threads, and from its visitor, raise ``DeformationError`` with the status ``in_a_run``.
+    The constructor, preprocess(), deform() and advance() release Python's global lock while they
+    work. Until they are done, calls from other threads for the same object, and from its visitor,
+    raise ``DeformationError`` with the status ``in_a_run``; only ``vertices`` can be had.
     """
 
     cells = _option("cells", str, "'spokes', 'spokes_and_rims', 'elements' or 'k_ring:K'")
