@@ -122,10 +122,13 @@ struct Report : Outcome
 
   End end = End::unknown; ///< what kind of place the run ended at.
 
-  /// the numbers of saddle points and of plateaus that the run would have ended at, and has left:
-  /// the former had a direction of negative curvature, at the latter the gap was larger than
+  /// the number of saddle points that the run would have ended at, and has left: they had a
+  /// direction of negative curvature.
+  unsigned int saddles_left = 0;
+
+  /// the number of plateaus that the run has left likewise: there the gap was larger than
   /// estimated.
-  unsigned int saddles_left = 0, plateaus_left = 0;
+  unsigned int plateaus_left = 0;
 
   /// the number of iterations that looked at the second derivative, and moved nothing.
   unsigned int looking_iterations = 0;
