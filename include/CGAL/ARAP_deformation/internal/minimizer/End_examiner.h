@@ -166,6 +166,8 @@ private:
         break;
     }
     energy_at(best);
+    if(best == 0)
+      m_run.keep_energy();
     return best != 0;
   }
 

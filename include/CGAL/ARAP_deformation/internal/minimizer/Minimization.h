@@ -90,6 +90,10 @@ public:
     return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
   }
 
+  // x is back at the last iterate, up to rounding errors: these, and those of a fit that started
+  // from other rotations, do not raise the energy.
+  void keep_energy() { m_value = (std::min)(m_value, report.energy.back()); }
+
   // the energy at x with the current rotations
   double evaluate_without_fit()
   {
@@ -284,9 +288,11 @@ public:
     m_trust *= 0.25;
   }
 
+  // whether there is nothing to be gained, or no more than strains of a millionth give
   bool is_at_zero() const
   {
-    return is_nothing_free() || std::abs(m_value) <= negligible_energy(report);
+    return is_nothing_free() ||
+           std::abs(m_value) <= (std::max)(negligible_energy(report), 1e-12 * report.energy_scale);
   }
 
   // what may be left to be gained where a run ends

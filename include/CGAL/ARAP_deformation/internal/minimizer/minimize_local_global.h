@@ -67,6 +67,8 @@ inline Status minimize_local_global(Minimization& run)
       add_step(shorter - t); // back, if rounding errors are all that is left
       t = shorter;
     }
+    if(t == 0)
+      run.keep_energy();
     status = run.next_iterate(run.decrease([&] { return t * force_before; },
                                            [&] { return t * force_along_step(); }));
   }

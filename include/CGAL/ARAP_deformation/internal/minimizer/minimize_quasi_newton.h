@@ -111,6 +111,7 @@ inline Status minimize_quasi_newton(Minimization& run)
           return Status::solver_failed;
         shorten(0, before, run.x); // rounding errors are all that is left
         run.evaluate();
+        run.keep_energy();
         t = decrease = 0;
         break;
       }
