@@ -1,0 +1,303 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// The flat interface for JavaScript, by way of WebAssembly: index.js calls these functions and nothing
+// else does. Arrays are pointers into the heap. Each function returns whether it succeeded; then
+// there are numbers, else a sentence.
+
+#include "../Array_deformation.h"
+
+#include <emscripten.h>
+
+#include <any>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+using namespace CGAL::ARAP;
+using bindings::Array_deformation;
+using bindings::Indices;
+using bindings::Numbers;
+
+namespace {
+
+struct Answer
+{
+  std::vector<double> numbers;
+  std::string status, message;
+} answer;
+
+// No exception may leave C++.
+template <typename Function>
+bool answer_of(const Function& f)
+{
+  const auto refuse = [](const char* status, const char* message) {
+    answer.status = status;
+    answer.message = message;
+    return false;
+  };
+  answer.numbers.clear();
+  answer.status.clear();
+  answer.message.clear();
+  try
+  {
+    f();
+    return true;
+  }
+  catch(const bindings::Deformation_error& error)
+  {
+    return refuse(to_string(error.status), error.what());
+  }
+  catch(const std::bad_alloc&)
+  {
+    return refuse("out_of_memory", "there is not enough memory");
+  }
+  catch(const std::exception& error) // misuse
+  {
+    return refuse("", error.what());
+  }
+}
+
+template <typename Range>
+void add(const Range& numbers)
+{
+  answer.numbers.insert(answer.numbers.end(), numbers.begin(), numbers.end());
+}
+void add(const double* numbers, std::size_t size)
+{
+  answer.numbers.insert(answer.numbers.end(), numbers, numbers + size);
+}
+
+void add(const Report& report)
+{
+  answer.status = to_string(report.status);
+  answer.message = report.message;
+  const auto& stages = report.stages;
+  const auto& seconds = report.seconds;
+  add(std::vector<double>{
+    double(report.iterations), report.energy_scale, report.rounding_level,
+    report.estimated_relative_gap, double(report.free_vertices), double(report.simplices),
+    double(report.inverted_simplices), double(stages.region), double(stages.weights),
+    double(stages.order), double(stages.factor), double(stages.border), seconds.preprocess,
+    seconds.transfer, seconds.initial_guess, seconds.local_steps, seconds.global_steps,
+    seconds.visitor, seconds.total, double(report.unconstrained_components.size())});
+  add(report.unconstrained_components);
+  add(report.energy);
+}
+
+} // namespace
+
+// the visitor that index.js has set; 0 to proceed, 1 to stop, 2 to cancel
+EM_JS(int, arap_visit, (unsigned int iteration, double energy), {
+  return Module["visit"](iteration, energy);
+});
+
+namespace {
+
+Visitor_action visit(unsigned int iteration, double energy)
+{
+  return static_cast<Visitor_action>(arap_visit(iteration, energy));
+}
+
+} // namespace
+
+extern "C" {
+
+#define ARAP_EXPORT EMSCRIPTEN_KEEPALIVE
+
+ARAP_EXPORT const double* arap_numbers() { return answer.numbers.data(); }
+ARAP_EXPORT std::size_t arap_size() { return answer.numbers.size(); }
+ARAP_EXPORT const char* arap_status() { return answer.status.c_str(); }
+ARAP_EXPORT const char* arap_message() { return answer.message.c_str(); }
+
+// null if it failed
+ARAP_EXPORT Array_deformation* arap_create(const double* points, std::size_t n,
+                                           const std::int32_t* simplices, std::size_t m,
+                                           std::size_t k, bool is_volume, const char* weights)
+{
+  Array_deformation* result = nullptr;
+  answer_of([&] {
+    result = bindings::make_array_deformation({points, n, 3}, {simplices, m, k}, is_volume,
+                                              weights).release();
+  });
+  return result;
+}
+ARAP_EXPORT void arap_delete(Array_deformation* d) { delete d; }
+
+ARAP_EXPORT const double* arap_points(const Array_deformation* d) { return d->points(); }
+ARAP_EXPORT const double* arap_rest_points(const Array_deformation* d) { return d->rest_points(); }
+
+ARAP_EXPORT bool arap_set_option(Array_deformation* d, const char* name, const char* value)
+{
+  return answer_of([&] { d->set_option(name, value); });
+}
+
+ARAP_EXPORT bool arap_set_region(Array_deformation* d, const std::int32_t* vertices, std::size_t n)
+{
+  return answer_of([&] { d->set_region({vertices, n}); });
+}
+ARAP_EXPORT bool arap_region(const Array_deformation* d)
+{
+  return answer_of([&] { add(d->region()); });
+}
+
+ARAP_EXPORT bool arap_insert_handles(Array_deformation* d, const std::int32_t* vertices,
+                                     std::size_t n)
+{
+  return answer_of([&] { d->insert_handles({vertices, n}); });
+}
+ARAP_EXPORT bool arap_erase_handles(Array_deformation* d, const std::int32_t* handles,
+                                    std::size_t n)
+{
+  return answer_of([&] { d->erase_handles({handles, n}); });
+}
+ARAP_EXPORT bool arap_clear_handles(Array_deformation* d)
+{
+  return answer_of([&] { d->clear_handles(); });
+}
+ARAP_EXPORT bool arap_handles(const Array_deformation* d)
+{
+  return answer_of([&] { add(d->handles()); });
+}
+
+// simplex, distance, coordinates; no numbers if there is no place
+ARAP_EXPORT bool arap_locate(const Array_deformation* d, double x, double y, double z)
+{
+  return answer_of([&] {
+    const double point[3] = {x, y, z};
+    if(const auto place = d->locate(point))
+    {
+      add(std::vector<double>{double(place->simplex), place->distance});
+      add(place->coordinates);
+    }
+  });
+}
+ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::size_t simplex,
+                                   const double* coordinates, std::size_t n)
+{
+  return answer_of([&] {
+    add(std::vector<std::int32_t>{d->insert_point(simplex, {coordinates, n})});
+  });
+}
+ARAP_EXPORT bool arap_point_position(const Array_deformation* d, std::int32_t handle)
+{
+  return answer_of([&] {
+    double point[3];
+    d->point_position(handle, point);
+    add(point, 3);
+  });
+}
+
+ARAP_EXPORT bool arap_set_targets(Array_deformation* d, const std::int32_t* handles, std::size_t n,
+                                  const double* targets, std::size_t rows)
+{
+  return answer_of([&] { d->set_targets({handles, n}, {targets, rows, 3}); });
+}
+ARAP_EXPORT bool arap_target(const Array_deformation* d, std::int32_t handle)
+{
+  return answer_of([&] {
+    double point[3];
+    d->target(handle, point);
+    add(point, 3);
+  });
+}
+ARAP_EXPORT bool arap_transform(Array_deformation* d, const std::int32_t* handles, std::size_t n,
+                                const double* matrix, std::size_t rows, bool from_rest)
+{
+  return answer_of([&] { d->transform({handles, n}, {matrix, rows, 4}, from_rest); });
+}
+ARAP_EXPORT bool arap_set_weight(Array_deformation* d, const std::int32_t* handles, std::size_t n,
+                                 double weight)
+{
+  return answer_of([&] { d->set_weight({handles, n}, weight); });
+}
+ARAP_EXPORT bool arap_set_rotation(Array_deformation* d, const std::int32_t* vertices,
+                                   std::size_t n, const double* matrix)
+{
+  return answer_of([&] { d->set_rotation({vertices, n}, matrix); });
+}
+ARAP_EXPORT bool arap_set_rotations_of_motion(Array_deformation* d, const std::int32_t* vertices,
+                                              std::size_t n)
+{
+  return answer_of([&] { d->set_rotations_of_motion({vertices, n}); });
+}
+ARAP_EXPORT bool arap_erase_rotations(Array_deformation* d, const std::int32_t* vertices,
+                                      std::size_t n)
+{
+  return answer_of([&] { d->erase_rotations({vertices, n}); });
+}
+
+ARAP_EXPORT bool arap_set_stiffness(Array_deformation* d, const double* values, std::size_t n)
+{
+  return answer_of([&] { d->set_stiffness({values, n}); });
+}
+ARAP_EXPORT bool arap_set_groups(Array_deformation* d, const std::int32_t* groups, std::size_t n)
+{
+  return answer_of([&] { d->set_groups({groups, n}); });
+}
+
+ARAP_EXPORT bool arap_deform(Array_deformation* d, unsigned int iterations, double tolerance,
+                             bool visits)
+{
+  return answer_of([&] {
+    const Report report = d->deform(iterations, tolerance,
+                                    visits ? visit : Array_deformation::Visitor());
+    answer.numbers.clear(); // of what a visitor may have asked
+    add(report);
+  });
+}
+
+ARAP_EXPORT bool arap_reset(Array_deformation* d)
+{
+  return answer_of([&] { d->reset(); });
+}
+ARAP_EXPORT bool arap_make_rest_shape(Array_deformation* d)
+{
+  return answer_of([&] { d->make_rest_shape(); });
+}
+
+ARAP_EXPORT std::any* arap_state(const Array_deformation* d)
+{
+  std::any* state = nullptr;
+  answer_of([&] { state = new std::any(d->state()); });
+  return state;
+}
+ARAP_EXPORT bool arap_restore(Array_deformation* d, const std::any* state)
+{
+  return answer_of([&] { d->restore(*state); });
+}
+ARAP_EXPORT void arap_delete_state(std::any* state) { delete state; }
+
+ARAP_EXPORT bool arap_energy(const Array_deformation* d)
+{
+  return answer_of([&] { add(std::vector<double>{d->energy()}); });
+}
+ARAP_EXPORT bool arap_rotations(const Array_deformation* d)
+{
+  return answer_of([&] { add(d->rotations()); });
+}
+ARAP_EXPORT bool arap_quality(const Array_deformation* d)
+{
+  return answer_of([&] {
+    const Quality q = d->quality();
+    add(std::vector<double>{q.edge_length_error, q.area_change, q.volume_change,
+                            q.largest_angle_change, q.largest_spike,
+                            double(q.inverted_simplices)});
+  });
+}
+// measure: the number of an enumerator of Vertex_measure
+ARAP_EXPORT bool arap_quality_at_vertices(const Array_deformation* d, int measure)
+{
+  return answer_of([&] { add(d->quality_at_vertices(static_cast<Vertex_measure>(measure))); });
+}
+
+} // extern "C"

@@ -1,0 +1,282 @@
+// As-rigid-as-possible deformation of surfaces and tetrahedral volumes, for arrays of numbers.
+// See index.d.ts for what each function means.
+import createArap from './arap.mjs';
+
+export class ArapError extends Error {
+  constructor(status, message) {
+    super(message);
+    this.name = 'ArapError';
+    this.status = status || 'misuse';
+  }
+}
+
+const measures = ['edge_length_error', 'size_change', 'angle_change', 'spike'];
+
+async function machineCode() {
+  const url = new URL('./arap.wasm', import.meta.url);
+  if (url.protocol === 'file:' && typeof process === 'object') {
+    const { readFile } = await import('node:fs/promises');
+    return readFile(url);
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url} could not be loaded: ${response.status}`);
+  return response.arrayBuffer();
+}
+
+// a typed array of numbers, with a sentence for what is none
+function numbersOf(values, what, Kind) {
+  const isList = Array.isArray(values) || (ArrayBuffer.isView(values) && 'length' in values);
+  if (!isList) throw new TypeError(`${what} must be a typed array or an array of numbers`);
+  if (typeof values[0] === 'bigint') throw new TypeError(`${what} must be numbers, not bigints`);
+  if (values instanceof Kind) return values;
+  const result = Kind.from(values, (value, i) => {
+    if (typeof value === 'number') return value;
+    throw new TypeError(`${what}: the element ${i} is no number; arrays are flat, one number after another`);
+  });
+  if (Kind === Int32Array)
+    for (let i = 0; i < result.length; ++i)
+      if (result[i] !== values[i])
+        throw new TypeError(`${what}: the element ${i} is ${values[i]}, which is no index`);
+  return result;
+}
+
+function rowsOf(array, columns, what) {
+  if (array.length % columns !== 0)
+    throw new RangeError(`${what}: ${array.length} numbers are no rows of ${columns}`);
+  return array.length / columns;
+}
+
+const forgotten = new FinalizationRegistry((free) => free());
+
+export async function load({ wasmBinary } = {}) {
+  const visitors = [];
+  const module = await createArap({
+    wasmBinary: wasmBinary ?? await machineCode(),
+    visit: (iteration, energy) => visitors.at(-1)(iteration, energy),
+  });
+  const text = (pointer) => module.UTF8ToString(pointer >>> 0);
+  const fail = () => {
+    throw new ArapError(text(module._arap_status()), text(module._arap_message()));
+  };
+
+  // Calls f with pointers to copies of the arrays in the heap. A view of the heap is made anew for each
+  // use: the heap may have grown.
+  function withCopies(arrays, f) {
+    const pointers = [];
+    try {
+      for (const array of arrays) {
+        const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+        const pointer = module._malloc(bytes.length || 1) >>> 0;
+        if (!pointer) throw new ArapError('out_of_memory', 'there is not enough memory');
+        pointers.push(pointer);
+        module.HEAPU8.set(bytes, pointer);
+      }
+      return f(...pointers);
+    } finally {
+      pointers.forEach((pointer) => module._free(pointer));
+    }
+  }
+  const withText = (strings, f) =>
+    withCopies(strings.map((s) => new TextEncoder().encode(`${s}\0`)), f);
+  const heapNumbers = (pointer, length) =>
+    new Float64Array(module.HEAPU8.buffer, pointer >>> 0, length);
+  const answer = () => heapNumbers(module._arap_numbers(), module._arap_size()).slice();
+
+  class State {
+    constructor(pointer) {
+      this.pointer = pointer;
+      forgotten.register(this, () => module._arap_delete_state(pointer), this);
+    }
+    dispose() {
+      if (!this.pointer) return;
+      forgotten.unregister(this);
+      module._arap_delete_state(this.pointer);
+      this.pointer = 0;
+    }
+  }
+
+  class Session {
+    #pointer = 0;
+    #runs = 0;
+    #points = 0;
+    #rest = 0;
+
+    constructor(points, simplices, { corners, volume = false, weights = 'safe_cotangent' } = {}) {
+      corners ??= volume ? 4 : 3;
+      const p = numbersOf(points, 'points', Float64Array), s = numbersOf(simplices, 'simplices', Int32Array);
+      const n = rowsOf(p, 3, 'points');
+      if (!(Number.isInteger(corners) && corners > 0))
+        throw new TypeError('corners must be a positive integer');
+      const m = rowsOf(s, corners, 'simplices');
+      this.#pointer = withCopies([p, s], (pp, sp) => withText([weights], (wp) =>
+        module._arap_create(pp, n, sp, m, corners, volume, wp))) || fail();
+      this.numberOfVertices = n;
+      this.numberOfSimplices = m;
+      this.isVolume = volume;
+      this.#points = module._arap_points(this.#pointer);
+      this.#rest = module._arap_rest_points(this.#pointer);
+      const pointer = this.#pointer;
+      forgotten.register(this, () => module._arap_delete(pointer), this);
+    }
+
+    dispose() {
+      if (this.#runs) throw new ArapError('in_a_run', 'a visitor disposed of the session that it visits');
+      if (!this.#pointer) return;
+      forgotten.unregister(this);
+      module._arap_delete(this.#pointer);
+      this.#pointer = 0;
+    }
+
+    #this() {
+      return this.#pointer || (() => { throw new ArapError('misuse', 'the session was disposed of'); })();
+    }
+    #call(name, ...rest) {
+      return module[`_arap_${name}`](this.#this(), ...rest) ? answer() : fail();
+    }
+    // arrays of indices, or of one of them
+    #indices(values, what = 'vertices') {
+      return numbersOf(typeof values === 'number' ? [values] : values, what, Int32Array);
+    }
+    #callWithIndices(name, values, ...rest) {
+      const indices = this.#indices(values);
+      return withCopies([indices], (pointer) => this.#call(name, pointer, indices.length, ...rest));
+    }
+    #copy(pointer, out) {
+      this.#this();
+      const view = heapNumbers(pointer, 3 * this.numberOfVertices);
+      if (!out) return view.slice();
+      out.set(view);
+      return out;
+    }
+
+    points(out) { return this.#copy(this.#points, out); }
+    restPoints(out) { return this.#copy(this.#rest, out); }
+
+    setOption(name, value) {
+      withText([name, value], (n, v) => this.#call('set_option', n, v));
+    }
+    setOptions(options) {
+      for (const [name, value] of Object.entries(options)) this.setOption(name, value);
+    }
+
+    setRegion(vertices) { this.#callWithIndices('set_region', vertices); }
+    region() { return Int32Array.from(this.#call('region')); }
+
+    insertHandles(vertices) { this.#callWithIndices('insert_handles', vertices); }
+    eraseHandles(handles) { this.#callWithIndices('erase_handles', handles); }
+    clearHandles() { this.#call('clear_handles'); }
+    handles() { return Int32Array.from(this.#call('handles')); }
+
+    locate(point) {
+      const [x, y, z] = numbersOf(point, 'the point', Float64Array);
+      const [simplex, distance, ...coordinates] = this.#call('locate', x, y, z);
+      return simplex === undefined ? null : { simplex, distance, coordinates };
+    }
+    insertPoint(simplex, coordinates) {
+      const [s] = this.#indices(simplex, 'the simplex');
+      const c = numbersOf(coordinates, 'coordinates', Float64Array);
+      return withCopies([c], (pointer) => this.#call('insert_point', s, pointer, c.length))[0];
+    }
+    pointPosition(handle) { return this.#call('point_position', this.#indices(handle)[0]); }
+
+    setTargets(handles, targets) {
+      const h = this.#indices(handles, 'handles'), t = numbersOf(targets, 'targets', Float64Array);
+      const rows = rowsOf(t, 3, 'targets');
+      withCopies([h, t], (hp, tp) => this.#call('set_targets', hp, h.length, tp, rows));
+    }
+    target(handle) { return this.#call('target', this.#indices(handle)[0]); }
+    transform(handles, matrix, { fromRest = true } = {}) {
+      const h = this.#indices(handles, 'handles'), m = numbersOf(matrix, 'the matrix', Float64Array);
+      const rows = rowsOf(m, 4, 'the matrix');
+      withCopies([h, m], (hp, mp) => this.#call('transform', hp, h.length, mp, rows, fromRest));
+    }
+    setWeight(handles, weight) { this.#callWithIndices('set_weight', handles, Number(weight)); }
+    setRotation(vertices, matrix) {
+      const m = numbersOf(matrix, 'the matrix', Float64Array);
+      if (m.length !== 9) throw new RangeError('a rotation is a matrix of 3 x 3 numbers');
+      withCopies([m], (pointer) => this.#callWithIndices('set_rotation', vertices, pointer));
+    }
+    setRotationsOfMotion(vertices) { this.#callWithIndices('set_rotations_of_motion', vertices); }
+    eraseRotations(vertices) { this.#callWithIndices('erase_rotations', vertices); }
+
+    setStiffness(values) {
+      const v = numbersOf(values ?? [], 'stiffness', Float64Array);
+      withCopies([v], (pointer) => this.#call('set_stiffness', pointer, v.length));
+    }
+    setGroups(groups) { this.#callWithIndices('set_groups', groups ?? []); }
+
+    deform({ iterations = 1000, tolerance = 1e-3, visitor } = {}) {
+      if (!(Number.isInteger(iterations) && iterations >= 0))
+        throw new TypeError(`iterations is ${iterations}; it must be an integer that is not negative`);
+      let thrown = null;
+      if (visitor)
+        visitors.push((iteration, energy) => {
+          try {
+            return { stop: 1, cancel: 2 }[visitor(iteration, energy)] ?? 0;
+          } catch (error) {
+            thrown = { error };
+            return 2;
+          }
+        });
+      ++this.#runs;
+      let a;
+      try {
+        a = this.#call('deform', iterations, tolerance, !!visitor);
+      } finally {
+        --this.#runs;
+        if (visitor) visitors.pop();
+      }
+      if (thrown) throw thrown.error;
+      const components = a[19], firstEnergy = 20 + components;
+      return {
+        status: text(module._arap_status()), message: text(module._arap_message()),
+        iterations: a[0], energyScale: a[1], roundingLevel: a[2], estimatedRelativeGap: a[3],
+        freeVertices: a[4], simplices: a[5], invertedSimplices: a[6],
+        stages: { region: !!a[7], weights: !!a[8], order: !!a[9], factor: !!a[10], border: !!a[11] },
+        seconds: { preprocess: a[12], transfer: a[13], initialGuess: a[14], localSteps: a[15],
+                   globalSteps: a[16], visitor: a[17], total: a[18] },
+        unconstrainedComponents: Int32Array.from(a.subarray(20, firstEnergy)),
+        energy: a.slice(firstEnergy), finalEnergy: a.length > firstEnergy ? a.at(-1) : NaN,
+      };
+    }
+
+    reset() { this.#call('reset'); }
+    makeRestShape() { this.#call('make_rest_shape'); }
+    state() { return new State(module._arap_state(this.#this()) || fail()); }
+    restore(state) {
+      if (!(state instanceof State) || !state.pointer)
+        throw new TypeError('only what state() has returned and is not disposed of can be restored');
+      this.#call('restore', state.pointer);
+    }
+
+    energy() { return this.#call('energy')[0]; }
+    rotations() { return this.#call('rotations'); }
+    quality() {
+      const q = this.#call('quality');
+      return { edgeLengthError: q[0], areaChange: q[1], volumeChange: q[2], largestAngleChange: q[3],
+               largestSpike: q[4], invertedSimplices: q[5] };
+    }
+    qualityAtVertices(measure) {
+      if (!measures.includes(measure))
+        throw new RangeError(`the measure '${measure}' is not known; use one of ${measures.join(', ')}`);
+      return this.#call('quality_at_vertices', measures.indexOf(measure));
+    }
+  }
+
+  return {
+    session: (points, simplices, options) => new Session(points, simplices, options),
+    deform(points, simplices, handles, targets, { corners, volume, weights, iterations, tolerance, ...options } = {}) {
+      const session = new Session(points, simplices, { corners, volume, weights });
+      try {
+        session.setOptions(options);
+        session.insertHandles(handles);
+        session.setTargets(handles, targets);
+        const report = session.deform({ iterations, tolerance });
+        return { points: session.points(), report };
+      } finally {
+        session.dispose();
+      }
+    },
+    heapBytes: () => module.HEAPU8.buffer.byteLength,
+  };
+}
