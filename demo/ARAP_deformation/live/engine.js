@@ -1,0 +1,42 @@
+// The page's end of the worker: calls are answered in their order, one at a time.
+export class Engine {
+  #calls = [];
+  #current = null;
+  #made = 0;
+
+  constructor(worker, wasm) {
+    this.worker = worker;
+    this.ready = new Promise((resolve, reject) => {
+      worker.onerror = (event) => reject(new Error(event.message || 'the worker could not be started'));
+      worker.onmessage = ({ data }) => {
+        if (data.id === 0) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
+        const { resolve: done, reject: fail } = this.#current;
+        this.#current = null;
+        if (data.error) fail(Object.assign(new Error(data.error), { status: data.status }));
+        else done(data);
+        this.#next();
+      };
+    });
+  }
+
+  get isIdle() { return !this.#current && !this.#calls.length; }
+
+  call(operation, message = {}, transfer = []) {
+    return new Promise((resolve, reject) => {
+      this.#calls.push({ message: { ...message, operation, id: ++this.#made }, transfer, resolve, reject });
+      this.#next();
+    });
+  }
+
+  #next() {
+    if (this.#current || !this.#calls.length) return;
+    this.#current = this.#calls.shift();
+    try {
+      this.worker.postMessage(this.#current.message, this.#current.transfer);
+    } catch (error) {
+      this.#current.reject(error);
+      this.#current = null;
+      this.#next();
+    }
+  }
+}

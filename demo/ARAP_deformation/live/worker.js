@@ -1,0 +1,129 @@
+// The engine, in a thread of its own. It answers each message once; the page sends the next one only
+// then, so that no queue grows.
+import { load } from 'arap-deformation';
+
+let arap, session, shape, states = new Map(), statesMade = 0;
+let status = new Int32Array(0), vertices = [], pointHandles = [];
+
+const rotationOf = (m) => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
+const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+function listOf(values, wanted) {
+  const list = [];
+  for (let v = 0; v < values.length; ++v) if (values[v] === wanted) list.push(v);
+  return Int32Array.from(list);
+}
+
+function disposeOfSession() {
+  states.forEach((state) => state.dispose());
+  states.clear();
+  session?.dispose();
+  session = undefined;
+}
+
+function newSession(points, weights) {
+  const next = arap.session(points, shape.simplices, { corners: shape.corners, volume: shape.volume, weights });
+  disposeOfSession();
+  session = next;
+  status = new Int32Array(points.length / 3).fill(1);
+  vertices = [];
+  pointHandles = [];
+}
+
+// the control vertices and points of the painted regions; only what has changed is told to the session
+function hold(next, handles) {
+  const erased = [], inserted = [];
+  for (let v = 0; v < next.length; ++v)
+    if ((next[v] === 1) !== (status[v] === 1)) (next[v] === 1 ? erased : inserted).push(v);
+  session.eraseHandles(erased);
+  session.insertHandles(inserted);
+  status = next;
+  const fixed = listOf(status, 0);
+  session.setWeight(fixed, Infinity);
+  session.transform(fixed, identity);
+  session.eraseHandles(pointHandles.filter((h) => h >= 0));
+  pointHandles = [];
+  vertices = handles.map((handle, k) => {
+    if (!handle.point) return listOf(status, k + 2);
+    pointHandles.push(session.insertPoint(handle.point.simplex, handle.point.coordinates));
+    return pointHandles.slice(-1);
+  });
+  handles.forEach((handle, k) => session.setWeight(vertices[k], handle.weight ?? Infinity));
+  move(handles);
+}
+
+function move(handles) {
+  handles.forEach((handle, k) => {
+    if (!vertices[k].length) return;
+    session.transform(vertices[k], handle.matrix);
+    if (handle.point) return;
+    if (handle.turns) session.setRotation(vertices[k], rotationOf(handle.matrix));
+    else session.eraseRotations(vertices[k]);
+  });
+}
+
+const positions = () => session.points(new Float32Array(3 * session.numberOfVertices));
+
+const operations = {
+  async load({ wasm }) { arap = await load({ wasmBinary: wasm }); },
+  open({ points, simplices, corners, volume, weights }) {
+    const before = shape;
+    shape = { simplices, corners, volume };
+    try {
+      newSession(points, weights);
+    } catch (error) {
+      shape = before;
+      throw error;
+    }
+  },
+  weights({ weights, handles, options }) {
+    const kept = status, rest = session.restPoints();
+    newSession(rest, weights);
+    session.setOptions(options);
+    hold(kept, handles);
+  },
+  options({ options }) { session.setOptions(options); },
+  stiffness({ values }) { session.setStiffness(values); },
+  hold({ status: next, handles }) { hold(next, handles); },
+  step({ handles, iterations, tolerance, buffer }) {
+    if (handles) move(handles);
+    const start = performance.now();
+    const { status: result, energy, finalEnergy, estimatedRelativeGap, message, iterations: done,
+            unconstrainedComponents, freeVertices } = session.deform({ iterations, tolerance });
+    const milliseconds = performance.now() - start;
+    const points = session.points(buffer ?? new Float32Array(3 * session.numberOfVertices));
+    return { points, result, message, milliseconds, iterations: done, energy: finalEnergy, gap: estimatedRelativeGap,
+             firstEnergy: energy[0], unconstrained: unconstrainedComponents.length, freeVertices };
+  },
+  reset() { session.reset(); return { points: positions() }; },
+  rest() { session.makeRestShape(); return { rest: session.points() }; },
+  points() { return { points: session.points(), rest: session.restPoints() }; },
+  colours({ measure }) { return { values: session.qualityAtVertices(measure), quality: session.quality() }; },
+  locate({ point }) { return { place: session.locate(point) }; },
+  keep() {
+    states.set(++statesMade, Object.assign(session.state(), { held: { status, vertices, pointHandles } }));
+    return { state: statesMade };
+  },
+  restore({ state }) {
+    const known = states.get(state);
+    session.restore(known);
+    ({ status, vertices, pointHandles } = known.held);
+    return { points: positions(), rest: session.restPoints() };
+  },
+  forget({ state }) {
+    states.get(state)?.dispose();
+    states.delete(state);
+  },
+  heap() { return { bytes: arap.heapBytes() }; },
+};
+
+onmessage = async ({ data }) => {
+  try {
+    const answer = (await operations[data.operation](data)) ?? {};
+    const moved = ['points', 'rest', 'values'].map((name) => answer[name]?.buffer).filter(Boolean);
+    postMessage({ ...answer, id: data.id }, moved);
+  } catch (error) {
+    postMessage({ id: data.id, error: error.message, status: error.status ?? error.name });
+  }
+};
+postMessage({ id: 0 });
