@@ -32,6 +32,6 @@ em++ $flags $objects -o "$out/arap.js" --no-entry -sMODULARIZE=1 -sEXPORT_NAME=c
   -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sFILESYSTEM=0 \
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,stringToUTF8,lengthBytesUTF8
 # a module, but without what emscripten would add to find the file of the machine code: index.js does
-{ sed 's/document\.currentScript/undefined/' "$out/arap.js"; echo 'export default createArap;'; } >"$out/arap.mjs"
+{ sed 's/document\.currentScript/undefined/; /^if (typeof exports/,$d' "$out/arap.js"; echo 'export default createArap;'; } >"$out/arap.mjs"
 rm "$out/arap.js"
 cp "$root"/bindings/javascript/{index.js,index.d.ts,package.json,README.md} "$root/LICENSE" "$out/"

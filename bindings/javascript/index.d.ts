@@ -1,0 +1,172 @@
+/** As-rigid-as-possible deformation of surfaces and tetrahedral volumes (Sorkine and Alexa 2007). */
+
+/** Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row. */
+export type Numbers = Float64Array | Float32Array | readonly number[];
+/** Indices of vertices, simplices or handles, from 0; one number stands for a list of one. */
+export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
+
+/** `misuse` is a wrong index, name or shape of an array; the others are those of the C++ library. */
+export type Status =
+  | 'success' | 'converged' | 'iteration_limit' | 'stopped' | 'cancelled' | 'invalid_option' | 'in_a_run'
+  | 'foreign_state' | 'invalid_stiffness' | 'undeclared_map' | 'invalid_rotation' | 'not_a_control_vertex'
+  | 'invalid_weight' | 'invalid_coordinates' | 'dependent_target' | 'too_many_control_points' | 'not_a_simplex'
+  | 'too_many_corners' | 'no_tetrahedron' | 'no_simplex' | 'non_finite_point' | 'non_finite_weight'
+  | 'no_fixed_vertex' | 'singular_matrix' | 'solver_failed' | 'non_finite_energy' | 'out_of_memory' | 'misuse';
+
+/** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a TypeError, of other lengths
+ *  a RangeError. */
+export class ArapError extends Error {
+  status: Status;
+}
+
+export interface Options {
+  /** which edges share a rotation; the default is `spokes_and_rims` */
+  cells?: 'spokes' | 'spokes_and_rims' | 'elements' | `k_ring:${number}`;
+  minimizer?: 'automatic' | 'local_global' | 'quasi_newton';
+  initial_guess?: 'automatic' | 'previous' | 'rotations' | 'laplacian';
+  /** the length over which a sharp bend is spread, in the unit of the points */
+  bending_length?: number;
+  /** the length over which rotations are made smooth */
+  smoothing_length?: number;
+}
+
+export interface Shape {
+  /** of each simplex: 3 or more on a surface (default 3), 4 in a volume */
+  corners?: number;
+  /** whether the simplices are tetrahedra; default false */
+  volume?: boolean;
+  weights?: 'safe_cotangent' | 'cotangent' | 'clamped_cotangent' | 'uniform';
+}
+
+export interface Run {
+  /** at most so many; default 1000 */
+  iterations?: number;
+  /** stop where the estimated relative gap to the minimum is at most this; default 0.001; 0 runs all iterations */
+  tolerance?: number;
+  /** called after each iteration; may end the run, or cancel it, which leaves all as it was. What it throws is thrown. */
+  visitor?: (iteration: number, energy: number) => 'stop' | 'cancel' | void;
+}
+
+export interface Report {
+  status: Status;
+  message: string;
+  iterations: number;
+  /** of the initial guess, and after each iteration */
+  energy: Float64Array;
+  finalEnergy: number;
+  energyScale: number;
+  roundingLevel: number;
+  estimatedRelativeGap: number;
+  freeVertices: number;
+  simplices: number;
+  invertedSimplices: number;
+  /** the smallest vertex of each part that nothing holds; these stay where they are */
+  unconstrainedComponents: Int32Array;
+  /** what had to be done again before the iterations */
+  stages: { region: boolean; weights: boolean; order: boolean; factor: boolean; border: boolean };
+  /** in seconds */
+  seconds: {
+    preprocess: number; transfer: number; initialGuess: number; localSteps: number; globalSteps: number;
+    visitor: number; total: number;
+  };
+}
+
+export interface Place {
+  simplex: number;
+  /** barycentric */
+  coordinates: number[];
+  distance: number;
+}
+
+export interface Quality {
+  edgeLengthError: number;
+  areaChange: number;
+  /** not a number for a surface that is not closed */
+  volumeChange: number;
+  /** in degrees */
+  largestAngleChange: number;
+  largestSpike: number;
+  invertedSimplices: number;
+}
+
+/** A value for undo and redo. */
+export interface State {
+  dispose(): void;
+}
+
+/**
+ * A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a control point inside a simplex.
+ * Its memory is outside of what JavaScript collects at once: call `dispose()` at the end.
+ */
+export interface Session {
+  readonly numberOfVertices: number;
+  readonly numberOfSimplices: number;
+  readonly isVolume: boolean;
+  dispose(): void;
+
+  /** a copy of where the vertices are, n x 3, or into an array of that length, which is returned */
+  points(): Float64Array;
+  points<T extends Float64Array | Float32Array>(out: T): T;
+  restPoints(): Float64Array;
+  restPoints<T extends Float64Array | Float32Array>(out: T): T;
+
+  setOption(name: keyof Options | 'iterations' | 'tolerance' | 'threads', value: string | number): void;
+  setOptions(options: Options): void;
+
+  /** All vertices are in the region of interest at first. */
+  setRegion(vertices: Indices): void;
+  region(): Int32Array;
+
+  /** vertices that become handles, whose targets are where they are */
+  insertHandles(vertices: Indices | number): void;
+  eraseHandles(handles: Indices | number): void;
+  clearHandles(): void;
+  handles(): Int32Array;
+
+  /** the place nearest to a point */
+  locate(point: Numbers): Place | null;
+  /** a new control point; returns its handle */
+  insertPoint(simplex: number, coordinates: Numbers): number;
+  pointPosition(handle: number): Float64Array;
+
+  setTargets(handles: Indices | number, targets: Numbers): void;
+  target(handle: number): Float64Array;
+  /** moves targets by a matrix of 3 x 4 or 4 x 4; those of the rest shape, or else the present ones */
+  transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
+  /** Infinity: a hard target, which is met exactly */
+  setWeight(handles: Indices | number, weight: number): void;
+  /** of the cells around vertices, 3 x 3 */
+  setRotation(vertices: Indices | number, matrix: Numbers): void;
+  setRotationsOfMotion(vertices: Indices | number): void;
+  eraseRotations(vertices: Indices | number): void;
+
+  /** a value for each vertex, or for each simplex if cells are elements; none clears them */
+  setStiffness(values?: Numbers): void;
+  setGroups(groups?: Indices): void;
+
+  deform(run?: Run): Report;
+
+  reset(): void;
+  /** of the present positions */
+  makeRestShape(): void;
+  state(): State;
+  restore(state: State): void;
+
+  energy(): number;
+  /** 3 x 3 for each cell */
+  rotations(): Float64Array;
+  quality(): Quality;
+  qualityAtVertices(measure: 'edge_length_error' | 'size_change' | 'angle_change' | 'spike'): Float64Array;
+}
+
+export interface Arap {
+  session(points: Numbers, simplices: Indices, shape?: Shape): Session;
+  /** one deformation, without a session */
+  deform(points: Numbers, simplices: Indices, handles: Indices, targets: Numbers,
+         options?: Shape & Options & Omit<Run, 'visitor'>): { points: Float64Array; report: Report };
+  /** the memory of the engine, which never shrinks */
+  heapBytes(): number;
+}
+
+/** Starts an engine. `wasmBinary` is for pages that bring the file arap.wasm themselves. */
+export function load(options?: { wasmBinary?: ArrayBuffer | Uint8Array }): Promise<Arap>;

@@ -64,7 +64,7 @@ function bar() {
 
 // a stem with two arms
 function cactus() {
-  const h = 5, size = [34 * 2, 16, 44 * 2].map(Math.round), middle = [34, 8];
+  const size = [68, 16, 88], middle = [34, 8];
   const distance = (x, y, z, a, b) => {
     const d = b.map((c, i) => c - a[i]), l = d.reduce((s, c) => s + c * c, 0);
     const t = Math.max(0, Math.min(1, ([x, y, z].reduce((s, c, i) => s + (c - a[i]) * d[i], 0)) / l));
@@ -74,8 +74,8 @@ function cactus() {
                  [[0, 0, 44], [-20, 0, 48], 4.2], [[-20, 0, 48], [-22, 0, 70], 4.2]];
   const { corners, faces } = voxelSurface(size, (x, y, z) =>
     bones.some(([a, b, r]) => distance(x + 0.5 - middle[0], y + 0.5 - middle[1], z + 0.5, a, b) < r));
-  const points = smoothed(corners, faces, 12).map((x, i) => (i % 3 === 2 ? x / 40 : (x - middle[i % 3]) / 40));
-  return shape(points, faces, (x, y, z) => (z < 0.12 ? 0 : x > 0.4 && z > 1.35 ? 3 : Math.abs(x) < 0.3 && z > 1.8 ? 2 : 1));
+  const points = smoothed(corners, faces, 40).map((x, i) => (i % 3 === 2 ? x / 40 : (x - middle[i % 3]) / 40));
+  return shape(points, faces, (x, y, z) => (z < 0.12 ? 0 : Math.abs(x) < 0.3 && z > 1.7 ? 2 : 1));
 }
 
 function sheet() {

@@ -163,7 +163,7 @@ view.gizmo.addEventListener('objectChange', () => {
 view.gizmo.addEventListener('dragging-changed', ({ value }) => {
   view.orbit.enabled = !value;
   dragging = value ? { gizmo: true } : null;
-  if (!value) commit();
+  if (!value) { closeHelp(); isSettled = false; commit(); }
 });
 
 function handlesMoved() {
@@ -890,8 +890,16 @@ async function saveMesh(ending, which, suffix) {
 
 // ---- the panel
 
-const tools = { grab: ['✥', 'Grab', 'g'], brush: ['●', 'Brush', 'b'], box: ['▭', 'Box', 'x'], lasso: ['➰', 'Lasso', 'l'],
-                flood: ['▼', 'Flood', 'f'], point: ['⌖', 'Point', 'p'], stiffness: ['◆', 'Stiffness', 's'] };
+const icon = (path) => `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" stroke-width="1.8" aria-hidden="true">${path}</svg>`;
+const tools = {
+  grab: ['M12 3v18M3 12h18M9 6l3-3 3 3M9 18l3 3 3-3M6 9l-3 3 3 3M18 9l3 3-3 3', 'Grab', 'g'],
+  brush: ['M20 4l-9 9M11 12c-3-1-5 1-5 4 0 2-1 3-3 3 4 3 10 1 10-5z', 'Brush', 'b'],
+  box: ['M4 6h16v12H4z', 'Box', 'x'],
+  lasso: ['M7 15c-6-2-4-10 5-10s11 8 5 10c-4 1-7 0-10 0zm0 0c-2 1-2 4 1 5', 'Lasso', 'l'],
+  flood: ['M5 12l7-7 7 7-7 7zM5 12h14M20 15c2 3 2 5 0 5s-2-2 0-5', 'Flood', 'f'],
+  point: ['M12 2v6M12 16v6M2 12h6M16 12h6M12 10.5a1.5 1.5 0 100 3 1.5 1.5 0 100-3', 'Point', 'p'],
+  stiffness: ['M12 3l8 5v8l-8 5-8-5V8zM12 12l8-4M12 12v9M12 12L4 8', 'Stiff', 's'],
+};
 
 function setTool(name) {
   tool = name;
@@ -1035,9 +1043,9 @@ function moveByKey(key, turns) {
   return true;
 }
 
-for (const [id, [sign, text, key]] of Object.entries(tools)) {
+for (const [id, [path, text, key]] of Object.entries(tools)) {
   const b = button('', () => setTool(id), `${text} (${key.toUpperCase()})`);
-  b.innerHTML = `<b>${sign}</b>${text}`;
+  b.innerHTML = `${icon(`<path d="${path}" stroke-linejoin="round"/>`)}${text}`;
   b.dataset.tool = id;
   $('tools').append(b);
 }

@@ -38,6 +38,7 @@ export class View {
     this.canvas.setAttribute('aria-label', 'the shape');
     container.append(this.canvas);
     this.scene = new THREE.Scene();
+    this.scene.background = new THREE.Color(0xeef1f5);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.lights = new THREE.Group();
     this.lights.add(new THREE.HemisphereLight(0xffffff, 0x8a94a6, 1.5));
@@ -188,6 +189,7 @@ export class View {
     this.camera.updateProjectionMatrix();
     this.orbit.target.copy(sphere.center);
     this.orbit.update();
+    this.camera.updateMatrixWorld();
     this.isDirty = true;
   }
 
