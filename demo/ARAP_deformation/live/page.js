@@ -37,7 +37,8 @@ function say(sentence, isError = false) {
   if (sentence && !isError) messageTimer = setTimeout(() => say(''), 6000);
 }
 $('message').lastChild.onclick = () => say('');
-const sentence = (error) => `${error.message[0].toUpperCase()}${error.message.slice(1)}${/[.!?]$/.test(error.message) ? '' : '.'}`;
+const sentence = ({ message }) => // names of files keep their letters
+  `${/^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() : message[0]}${message.slice(1)}${/[.!?]$/.test(message) ? '' : '.'}`;
 const complain = (error) => say(sentence(error), true);
 
 let work = 0;
@@ -183,7 +184,8 @@ function choose(k) {
 
 let stepStart = 0;
 function pump() {
-  if (!shape || !engine.isIdle || isSettled || !isHeld || !shape.handles.length) return;
+  if (!shape || !engine.isIdle || isSettled) return;
+  if (!isHeld) return void (isSettled = true);
   const moves = hasNewTargets, fast = moves || dragging || playing;
   const share = measured.perIteration || 1;
   const iterations = fast ? 3 : Math.max(5, Math.min(200, Math.round(60 / share)));

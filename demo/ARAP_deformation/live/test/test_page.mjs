@@ -1,0 +1,577 @@
+// Drives the page in Chromium as a user does. Screenshots: build/live/screenshots.
+// usage: node test_page.mjs [PATTERN]   runs only the steps whose names match
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { models, sphere } from '../models.js';
+import { serve } from '../serve.mjs';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../../../..'), live = join(root, 'build/live');
+const puppeteer = (await import(pathToFileURL(createRequire(join(live, 'x.js')).resolve('puppeteer-core')))).default;
+const shots = join(live, 'screenshots'), files = join(live, 'files');
+for (const folder of [shots, files]) {
+  if (!process.argv[2]) rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+}
+const pattern = new RegExp(process.argv[2] ?? '.');
+const { server, address } = await serve(join(live, 'page'));
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, protocolTimeout: 600000,
+  args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-sync',
+         '--disable-background-networking', '--disable-component-update', '--enable-precise-memory-info'],
+});
+const complaints = [];
+
+async function newPage(options = {}, url = address) {
+  const page = await browser.newPage();
+  await page.setViewport({ width: 1280, height: 800, ...options });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  const session = await page.createCDPSession();
+  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: files, eventsEnabled: false });
+  await page.goto(url);
+  await page.evaluate(() => window.arap.ready);
+  return Object.assign(page, { cdp: session });
+}
+
+const page = await newPage();
+const state = (p = page) => p.evaluate(() => window.arap.state());
+const rest = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+const settled = async (p = page, timeout = 120000) => {
+  await rest(50);
+  await p.waitForFunction(() => window.arap.state().isSettled, { timeout, polling: 100 });
+  return state(p);
+};
+const shot = (name, p = page) => p.screenshot({ path: join(shots, `${name}.png`) });
+const positions = () => page.evaluate(() => [...window.arap.positions()]);
+const largestDifference = (a, b) => a.reduce((worst, x, i) => Math.max(worst, Math.abs(x - b[i])), 0);
+const message = () => page.$eval('#message', (m) => (m.hidden ? '' : m.innerText));
+const clickText = (text) => page.evaluate((t) => [...document.querySelectorAll('#panel button')].find((b) => b.textContent === t).click(), text);
+
+async function drag(from, to, steps = 12, p = page) {
+  await p.mouse.move(...from);
+  await p.mouse.down();
+  for (let i = 1; i <= steps; ++i) await p.mouse.move(...from.map((x, k) => x + (to[k] - x) * i / steps));
+}
+async function dragHandle(dx, dy, number = 1) {
+  const { screen: [x, y] } = (await state()).handles[number - 1];
+  await drag([x, y], [x + dx, y + dy]);
+}
+async function openFile(path, p = page) {
+  const before = (await state(p)).name;
+  await (await p.$('#file')).uploadFile(path);
+  return before;
+}
+async function saved(press, name) {
+  const path = join(files, name);
+  rmSync(path, { force: true });
+  await clickText(press);
+  for (let k = 0; k < 200 && !existsSync(path); ++k) await rest(50);
+  await rest(150);
+  return readFileSync(path);
+}
+const rows = (array, columns, line) =>
+  Array.from({ length: array.length / columns }, (_, i) => line([...array.slice(columns * i, columns * (i + 1))])).join('\n');
+const off = ({ points, simplices }) => `OFF\n${points.length / 3} ${simplices.length / 3} 0\n` +
+  `${rows(points, 3, (p) => p.join(' '))}\n${rows(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`;
+const pointsOf = (text) => {
+  const [, n, , , ...numbers] = text.replace(/#.*/g, '').trim().split(/\s+/);
+  return numbers.slice(0, 3 * n).map(Number);
+};
+const openModel = async (id) => {
+  await page.evaluate((m) => window.arap.openModel(m), id);
+  return settled();
+};
+const garbage = async () => {
+  for (let k = 0; k < 3; ++k) await page.cdp.send('HeapProfiler.collectGarbage');
+  return page.evaluate(async () => ({ script: performance.memory.usedJSHeapSize, engine: await window.arap.heap() }));
+};
+
+const steps = {
+  async 'first visit'() {
+    assert(await page.$eval('#help', (help) => !help.hidden));
+    await settled();
+    await shot('01_first_visit');
+    await page.click('#begin');
+    assert(await page.$eval('#help', (help) => help.hidden));
+    await page.reload();
+    await page.evaluate(() => window.arap.ready);
+    assert(await page.$eval('#help', (help) => help.hidden), 'the help comes once');
+    assert(await page.$('#plot'));
+  },
+
+  async 'drag, undo, redo'() {
+    await settled();
+    const before = await positions();
+    await dragHandle(150, 60);
+    const during = await state();
+    await shot('02_dragging');
+    await page.mouse.up();
+    const after = await settled();
+    assert(during.steps > 0 && after.energy > 0);
+    assert(await page.evaluate(() => window.arap.distanceToTargets()) < 1e-6, 'the handle is at its target');
+    const moved = await positions();
+    assert(largestDifference(before, moved) > 0.1);
+    await shot('03_dragged');
+    await page.click('#undo');
+    await settled();
+    assert(largestDifference(before, await positions()) < 1e-5, 'undo');
+    await page.keyboard.down('Control');
+    await page.keyboard.press('y');
+    await page.keyboard.up('Control');
+    await settled();
+    assert(largestDifference(moved, await positions()) < 1e-2, 'redo');
+    await page.click('#reset');
+    await settled();
+    assert(largestDifference(before, await positions()) < 1e-5, 'reset');
+  },
+
+  async 'a file, painted'() {
+    const bar = models.bar[1](), path = join(files, 'my_bar.off');
+    writeFileSync(path, off(bar));
+    await openFile(path);
+    await page.waitForFunction(() => window.arap.state().name === 'my_bar');
+    let now = await settled();
+    assert.equal(now.vertices, bar.points.length / 3);
+    assert.equal(now.tool, 'brush');
+    assert.equal(now.fixed, 0);
+    await rest(100);
+    const ends = await page.evaluate(() => {
+      const box = window.arap.view.canvas.getBoundingClientRect();
+      return [[0, 0, 0.2], [0, 0, 4.8]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+    });
+    await clickText('Fixed');
+    await drag([ends[0][0] - 40, ends[0][1]], [ends[0][0] + 40, ends[0][1]]);
+    await shot('04_painting');
+    await page.mouse.up();
+    now = await settled();
+    assert(now.fixed > 20, 'the brush paints');
+    const seen = now.fixed;
+    await clickText('Handle 1');
+    await page.keyboard.press('x');
+    await page.click('#through');
+    await drag([ends[1][0] - 90, ends[1][1] - 90], [ends[1][0] + 90, ends[1][1] + 20]);
+    await shot('05_box');
+    await page.mouse.up();
+    now = await settled();
+    assert(now.handles[0].vertices > 50, 'the box paints through the shape');
+    await page.click('#through');
+    // a lasso around the foot, then what is left of it by undo
+    await page.keyboard.press('1');
+    await page.keyboard.press('l');
+    const [x, y] = ends[0];
+    await page.mouse.move(x - 90, y - 20);
+    await page.mouse.down();
+    for (const [a, b] of [[-90, 90], [0, 120], [90, 90], [90, -20]]) await page.mouse.move(x + a, y + b, { steps: 5 });
+    await shot('06_lasso');
+    await page.mouse.up();
+    now = await settled();
+    assert(now.fixed > seen, 'the lasso paints');
+    await page.click('#undo');
+    assert.equal((await settled()).fixed, seen, 'undo of paint');
+    await page.click('#redo');
+    await settled();
+    // flood: all that is free becomes a handle, and undo
+    await page.keyboard.press('f');
+    await page.keyboard.press('3');
+    await page.mouse.click((ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2);
+    now = await settled();
+    assert.equal(now.handles[1].vertices + now.handles[0].vertices + now.fixed, now.vertices, 'the flood fills what is free');
+    await page.keyboard.down('Control');
+    await page.keyboard.press('z');
+    await page.keyboard.up('Control');
+    assert.equal((await settled()).handles.length, 1);
+    await page.keyboard.press('g');
+  },
+
+  async 'saved files, and the command'() {
+    await dragHandle(110, 50);
+    await page.mouse.up();
+    await page.click('#turns');
+    for (let k = 0; k < 4; ++k) { await page.keyboard.down('Shift'); await page.keyboard.press('ArrowRight'); await page.keyboard.up('Shift'); }
+    await rest(600);
+    await settled();
+    await shot('07_turned');
+    await page.click('#moves');
+    const ours = pointsOf(String(await saved('Mesh .off', 'my_bar.off')));
+    for (const [press, name] of [['Rest shape', 'my_bar_rest.off'], ['Selection', 'my_bar.sel'], ['Transforms', 'my_bar.def'], ['.obj', 'my_bar.obj'], ['.mesh', 'my_bar.mesh']])
+      assert((await saved(press, name)).length > 50, name);
+    const [, ...words] = readFileSync(join(files, 'my_bar.sel'), 'utf8').split('\n')[0].replace('# ', '').split(' ');
+    execFileSync(join(root, 'build/release/demo/ARAP_deformation/arap_deform'), [...words, '--iterations', '20000', '--tolerance', '1e-7', '--quiet'], { cwd: files });
+    const theirs = pointsOf(readFileSync(join(files, 'out.off'), 'utf8'));
+    assert.equal(ours.length, theirs.length);
+    const distance = largestDifference(ours, theirs) / 5.2;
+    console.log(`  the command's mesh differs by ${distance.toExponential(1)} of the diagonal`);
+    assert(distance < 1e-3);
+    assert(String(await saved('Picture', 'my_bar.png')).length > 5000);
+  },
+
+  async 'options'() {
+    await openModel('bar');
+    await dragHandle(120, 90);
+    await page.mouse.up();
+    await settled();
+    const energies = {};
+    for (const [id, value] of [['cells', 'spokes'], ['cells', 'elements'], ['cells', 'k_ring:2'], ['cells', 'spokes_and_rims'], ['minimizer', 'local_global'], ['weights', 'uniform'], ['weights', 'safe_cotangent']]) {
+      await page.select(`#${id}`, value);
+      energies[value] = (await settled()).energy;
+      assert.equal(await message(), '', value);
+    }
+    assert.equal(new Set(Object.values(energies).map((e) => e.toPrecision(3))).size >= 5, true, JSON.stringify(energies));
+    await page.$eval('#bending', (b) => { b.value = 5; b.dispatchEvent(new Event('input')); b.dispatchEvent(new Event('change')); });
+    assert((await settled()).energy > energies.safe_cotangent, 'bending adds to the energy');
+    await page.select('#measure', 'edge_length_error');
+    await rest(800);
+    await settled();
+    await shot('08_edge_error');
+    assert(await page.$eval('#legend', (legend) => !legend.hidden));
+    assert.match(await page.$eval('#quality', (q) => q.textContent), /Edges/);
+    await page.select('#measure', '');
+    await page.$eval('#bending', (b) => { b.value = 0; b.dispatchEvent(new Event('change')); });
+    await settled();
+    await page.click('#soft');
+    await page.$eval('#weight', (w) => { w.value = -3; w.dispatchEvent(new Event('change')); });
+    assert((await settled()).energy < energies.safe_cotangent, 'a soft handle gives way');
+    await page.click('#soft');
+    await settled();
+    // stiffness
+    await openModel('bar');
+    await dragHandle(150, 120);
+    await page.mouse.up();
+    const soft = (await settled()).energy;
+    await page.keyboard.press('s');
+    const middle = await page.evaluate(() => {
+      const p = window.arap.positions(), box = window.arap.view.canvas.getBoundingClientRect(), n = p.length / 6 | 0;
+      const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
+      return [x + box.left, y + box.top];
+    });
+    await drag([middle[0] - 30, middle[1] + 30], [middle[0] + 30, middle[1] - 30]);
+    await page.mouse.up();
+    assert((await settled()).energy > soft, 'stiff parts cost energy');
+    await shot('09_stiffness');
+    await page.click('#undo');
+    assert(Math.abs((await settled()).energy / soft - 1) < 1e-2, 'undo of stiffness');
+  },
+
+  async 'points'() {
+    await openModel('sheet');
+    await page.keyboard.press('p');
+    const place = await page.evaluate(() => {
+      const box = window.arap.view.canvas.getBoundingClientRect(), [x, y] = window.arap.view.toScreen(0.503, 0.501, 0);
+      return [x + box.left, y + box.top];
+    });
+    await page.mouse.click(...place);
+    let now = await settled();
+    assert.equal(now.handles.length, 2);
+    assert(now.handles[1].point);
+    await dragHandle(0, -90, 2);
+    await page.mouse.up();
+    now = await settled();
+    await shot('10_point_in_a_face');
+    assert(now.energy > 0);
+    await page.keyboard.press('Delete');
+    now = await settled();
+    assert.equal(now.handles.length, 1);
+  },
+
+  async 'volume'() {
+    await openModel('volume');
+    await page.keyboard.press('e');
+    await shot('11_volume_rings');
+    for (let k = 0; k < 3; ++k) await page.keyboard.press('ArrowRight');
+    await page.keyboard.down('Shift');
+    for (let k = 0; k < 12; ++k) await page.keyboard.press('ArrowUp');
+    await page.keyboard.up('Shift');
+    await rest(600);
+    await settled();
+    await shot('12_volume_turned');
+    await page.keyboard.press('w');
+    for (let k = 0; k < 140; ++k) await page.keyboard.press('ArrowDown');
+    await rest(600);
+    const now = await settled();
+    await shot('13_inverted');
+    console.log(`  ${now.inverted} inverted tetrahedra`);
+    assert(now.volume && now.inverted > 0);
+    assert(await page.evaluate(() => window.arap.distanceToTargets()) < 1e-6);
+    await page.keyboard.press('r');
+    assert.equal((await settled()).inverted, 0);
+    const { length } = await saved('.mesh', 'bar_of_tetrahedra.mesh');
+    await openFile(join(files, 'bar_of_tetrahedra.mesh'));
+    await page.waitForFunction(() => window.arap.state().undo === 0 && window.arap.state().volume);
+    assert(length > 1000 && (await settled()).simplices === models.volume[1]().simplices.length / 4, 'it reads what it writes');
+  },
+
+  async 'key frames and a film'() {
+    await openModel('cactus');
+    await dragHandle(100, 30);
+    await page.mouse.up();
+    await page.keyboard.press('k');
+    await dragHandle(-200, 0);
+    await page.mouse.up();
+    await page.keyboard.press('k');
+    await settled();
+    assert.equal((await state()).keys, 2);
+    const path = join(files, 'cactus.webm');
+    rmSync(path, { force: true });
+    await page.click('#film');
+    await rest(900);
+    await shot('14_playing');
+    for (let k = 0; k < 200 && !existsSync(path); ++k) await rest(50);
+    await rest(200);
+    console.log(`  a film of ${statSync(path).size} bytes`);
+    assert(statSync(path).size > 5000);
+    await settled();
+    await clickText('Key frames');
+    for (let k = 0; k < 100 && !existsSync(join(files, 'cactus-2.def')); ++k) await rest(50);
+    assert(existsSync(join(files, 'cactus-1.def')) && existsSync(join(files, 'cactus-2.def')));
+  },
+
+  async 'rest shape from now'() {
+    await openModel('bar');
+    await dragHandle(100, 30);
+    await page.mouse.up();
+    assert((await settled()).energy > 1e-4);
+    const before = await positions();
+    await page.click('#rest');
+    const now = await settled();
+    assert(now.energy < 1e-12, `the energy of a rest shape is ${now.energy}`);
+    assert(largestDifference(before, await positions()) < 1e-5);
+    await page.click('#undo');
+    assert((await settled()).energy > 1e-4, 'undo of a rest shape');
+  },
+
+  async 'painted where it is deformed'() {
+    await openModel('bar');
+    await dragHandle(140, 100);
+    await page.mouse.up();
+    await settled();
+    const before = await positions();
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    const middle = await page.evaluate(() => {
+      const p = window.arap.positions(), box = window.arap.view.canvas.getBoundingClientRect(), n = p.length / 6 | 0;
+      const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
+      return [x + box.left, y + box.top];
+    });
+    await page.mouse.click(...middle);
+    const now = await settled();
+    assert.equal(now.handles.length, 2);
+    const moved = largestDifference(before, await positions());
+    assert(moved < 0.02 * 5.2, `a new handle stays where it is, up to its own deformation: ${moved}`);
+    await shot('15_second_handle');
+  },
+
+  async 'errors'() {
+    await openModel('bar');
+    const before = await state();
+    const wrong = {
+      'empty.off': '', 'words.off': 'OFF\n3 1 0\n0 0 x\n1 0 0\n0 1 0\n3 0 1 2\n', 'index.off': 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n',
+      'short.off': 'OFF\n30 1 0\n0 0 0\n', 'faceless.obj': 'v 0 0 0\nv 1 0 0\n', 'picture.jpg': 'x', 'nothing.mesh': 'MeshVersionFormatted 2\nVertices\n1\n0 0 0 0\nEnd\n',
+      'noise.ply': 'ply\nformat ascii 1.0\nend_header\n', 'noise.stl': 'solid x\nendsolid x\n', 'huge.off': 'OFF\n1e9 1 0\n', 'nan.obj': 'v nan 0 0\nf 1 1 1\n',
+    };
+    for (const [name, text] of Object.entries(wrong)) {
+      writeFileSync(join(files, name), text);
+      await page.click('#message button').catch(() => {});
+      await page.evaluate(() => { document.querySelector('#message').hidden = true; });
+      await openFile(join(files, name));
+      await page.waitForFunction(() => !document.querySelector('#message').hidden, { timeout: 20000 });
+      const said = (await message()).replace(/\s*×\s*$/, '');
+      console.log(`  ${said}`);
+      assert(said.includes(name) && /\.$/.test(said));
+    }
+    await shot('16_error');
+    const after = await state();
+    assert.deepEqual([after.name, after.vertices, after.energy], [before.name, before.vertices, before.energy], 'nothing is lost');
+    // two parts, of which one is held by nothing
+    const a = models.volume[1](), two = sphere(6);
+    const points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))], n = two.points.length / 3;
+    writeFileSync(join(files, 'two.off'), off({ points, simplices: [...two.simplices, ...two.simplices.map((v) => v + n)] }));
+    await openFile(join(files, 'two.off'));
+    await page.waitForFunction(() => window.arap.state().name === 'two');
+    await settled();
+    const at = await page.evaluate(() => {
+      const box = window.arap.view.canvas.getBoundingClientRect();
+      return [[0, 0, -0.7], [0, 0, 0.9]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+    });
+    await page.keyboard.press('1');
+    await page.mouse.click(...at[0]);
+    await settled();
+    await page.keyboard.press('2');
+    await page.mouse.click(...at[1]);
+    await settled();
+    await page.keyboard.press('g');
+    await dragHandle(20, -30);
+    await page.mouse.up();
+    await settled();
+    assert.match(await message(), /held by nothing/);
+    assert(a);
+  },
+
+  async 'a phone'() {
+    const phone = await newPage({ width: 390, height: 844, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+    await settled(phone);
+    await phone.evaluate(() => document.querySelector('#begin').click());
+    await shot('17_phone', phone);
+    const { screen: [x, y] } = (await state(phone)).handles[0];
+    const finger = await phone.touchscreen.touchStart(x, y);
+    for (let k = 1; k <= 10; ++k) await finger.move(x + 6 * k, y + 9 * k);
+    await finger.end();
+    const now = await settled(phone);
+    assert(now.energy > 1e-4, 'a finger drags the handle');
+    await shot('18_phone_dragged', phone);
+    await phone.tap('#more');
+    await rest(200);
+    await shot('19_phone_panel', phone);
+    assert(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the screen');
+    // painting by touch
+    await phone.tap('#more');
+    await phone.tap('[data-tool=brush]');
+    await phone.evaluate(() => [...document.querySelectorAll('#regions button')].find((b) => b.textContent === 'Fixed').click());
+    const fixed = (await state(phone)).fixed, [a, b] = await phone.evaluate(() => {
+      const box = window.arap.view.canvas.getBoundingClientRect(), [u, v] = window.arap.view.toScreen(0, 0, 0.4);
+      return [u + box.left, v + box.top];
+    });
+    const stroke = await phone.touchscreen.touchStart(a - 8, b);
+    for (let k = 1; k <= 8; ++k) await stroke.move(a - 8 + 2 * k, b);
+    await stroke.end();
+    assert((await settled(phone)).fixed > fixed, 'a finger paints');
+    await phone.close();
+  },
+
+  async 'one file without a server'() {
+    const local = await newPage({}, pathToFileURL(join(live, 'arap_live.html')).href);
+    await local.evaluate(() => document.querySelector('#begin').click());
+    await settled(local);
+    const { screen: [x, y] } = (await state(local)).handles[0];
+    await drag([x, y], [x + 100, y + 40], 10, local);
+    await local.mouse.up();
+    assert((await settled(local)).energy > 1e-4);
+    await local.close();
+  },
+
+  async '10,000 drag events'() {
+    await openModel('sphere');
+    const round = (count) => page.evaluate(async (events) => {
+      const { view } = window.arap, { screen: [x, y] } = window.arap.state().handles[0];
+      const fire = (type, a, b, target) => target.dispatchEvent(new PointerEvent(type, { clientX: a, clientY: b, pointerId: 7, button: type === 'pointermove' ? -1 : 0, buttons: 1, bubbles: true, pointerType: 'mouse', isPrimary: true }));
+      view.canvas.setPointerCapture = () => {};
+      fire('pointermove', x, y, view.canvas);
+      fire('pointerdown', x, y, view.canvas);
+      for (let k = 0; k < events; ++k) {
+        fire('pointermove', x + 60 * Math.sin(k / 40), y - 40 * Math.sin(k / 90), view.canvas);
+        if (k % 10 === 9) await new Promise(requestAnimationFrame);
+      }
+      fire('pointermove', x, y, view.canvas);
+      fire('pointerup', x, y, view.canvas);
+    }, count);
+    await round(1000);
+    await settled();
+    const before = await garbage(), start = await state(), time = Date.now();
+    await round(10000);
+    const seconds = (Date.now() - time) / 1000, end = await state();
+    await settled();
+    const after = await garbage();
+    console.log(`  ${end.steps - start.steps} steps and ${end.frames - start.frames} frames in ${seconds.toFixed(1)} s; script heap ${(before.script / 1e6).toFixed(1)} to ${(after.script / 1e6).toFixed(1)} MB, engine ${before.engine / 1e6} to ${after.engine / 1e6} MB`);
+    assert(end.steps > start.steps + 50, 'it follows');
+    assert(after.script < before.script + 3e6 && after.engine === before.engine, 'nothing grows');
+  },
+
+  async 'fifty models'() {
+    const ids = Object.keys(models), sizes = [];
+    for (let k = 0; k < 50; ++k) {
+      await openModel(ids[k % ids.length]);
+      if (k === 19 || k === 49) sizes.push(await garbage());
+    }
+    console.log(`  script heap ${sizes.map((s) => (s.script / 1e6).toFixed(1)).join(' to ')} MB, engine ${sizes.map((s) => s.engine / 1e6).join(' to ')} MB`);
+    assert(sizes[1].script < sizes[0].script + 3e6 && sizes[1].engine === sizes[0].engine, 'nothing grows');
+  },
+
+  async '400,000 vertices'() {
+    const path = join(files, 'large.off');
+    writeFileSync(path, off(sphere(200)));
+    let time = Date.now();
+    await openFile(path);
+    await page.waitForFunction(() => window.arap.state().name === 'large', { timeout: 120000 });
+    await settled();
+    const opened = Date.now() - time;
+    const statuses = [...sphere(200).status];
+    assert.equal((await state()).vertices, statuses.length);
+    // painted by hand: boxes at both ends
+    const at = await page.evaluate(() => {
+      const box = window.arap.view.canvas.getBoundingClientRect();
+      return [[0, 0, -1], [0, 0, 1]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+    });
+    await page.keyboard.press('x');
+    await clickText('Fixed');
+    await drag([at[0][0] - 120, at[0][1] + 60], [at[0][0] + 120, at[0][1] - 60], 3);
+    await page.mouse.up();
+    await settled();
+    await clickText('Handle 1');
+    await drag([at[1][0] - 90, at[1][1] - 60], [at[1][0] + 90, at[1][1] + 40], 3);
+    time = Date.now();
+    await page.mouse.up();
+    await page.waitForFunction(() => window.arap.state().handles.length === 1, { timeout: 120000 });
+    await settled(page, 300000);
+    const prepared = Date.now() - time;
+    await page.keyboard.press('g');
+    await dragHandle(60, -40);
+    await rest(3000);
+    const during = await state();
+    await shot('20_large');
+    await page.mouse.up();
+    console.log(`  opened in ${opened} ms, ready in ${prepared} ms, then ${during.milliseconds.toFixed(0)} ms for ${during.iterations} iterations`);
+    assert(during.energy > 0);
+    await openModel('bar');
+  },
+
+  async 'milliseconds in the worker'() {
+    for (const f of [32, 101]) {
+      const path = join(files, `sphere_${f}.off`), shape = sphere(f), name = `sphere_${f}`;
+      writeFileSync(path, off(shape));
+      await page.evaluate(async (id, points, simplices, status) => {
+        await window.arap.open({ points: Float64Array.from(points), simplices: Int32Array.from(simplices), corners: 3, volume: false, status: Int32Array.from(status) }, id);
+      }, name, [...shape.points], [...shape.simplices], [...shape.status]);
+      await settled();
+      const { screen: [x, y] } = (await state()).handles[0];
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      const times = [], frames = [];
+      let last = (await state()), t = performance.now();
+      for (let k = 0; times.length < (f === 32 ? 150 : 40) && k < 2000; ++k) {
+        await page.mouse.move(x + 40 * Math.sin(k / 10), y - 30 * Math.sin(k / 7));
+        const now = await state();
+        if (now.steps !== last.steps && now.iterations === 3) times.push(now.milliseconds);
+        if (now.steps !== last.steps) { frames.push(performance.now() - t); t = performance.now(); }
+        last = now;
+      }
+      await page.mouse.up();
+      const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
+      console.log(`  ${shape.points.length / 3} vertices: ${median(times.slice(times.length / 3)).toFixed(2)} ms for three iterations (median of ${times.length})`);
+      await openModel('bar');
+    }
+  },
+};
+
+let failures = 0;
+for (const [name, step] of Object.entries(steps)) {
+  if (!pattern.test(name)) continue;
+  console.log(name);
+  const start = Date.now();
+  try {
+    await step();
+    assert.deepEqual(complaints.splice(0), [], 'errors in the console');
+    console.log(`  well, ${((Date.now() - start) / 1000).toFixed(1)} s`);
+  } catch (error) {
+    ++failures;
+    console.log(`  FAILED: ${error.stack}`);
+    console.log(`  the page says: ${await message().catch(() => '')} ${complaints.splice(0).join('; ')}`);
+    await shot(`failed_${name.replace(/\W+/g, '_')}`).catch(() => {});
+  }
+}
+await browser.close();
+server.close();
+console.log(failures ? `${failures} steps failed` : `The page: all is well; screenshots: ${readdirSync(shots).length} in build/live/screenshots`);
+process.exit(failures ? 1 : 0);
