@@ -98,8 +98,6 @@ export async function load({ wasmBinary } = {}) {
   class Session {
     #pointer = 0;
     #runs = 0;
-    #points = 0;
-    #rest = 0;
 
     constructor(points, simplices, { corners, volume = false, weights = 'safe_cotangent' } = {}) {
       corners ??= volume ? 4 : 3;
@@ -113,8 +111,6 @@ export async function load({ wasmBinary } = {}) {
       this.numberOfVertices = n;
       this.numberOfSimplices = m;
       this.isVolume = volume;
-      this.#points = module._arap_points(this.#pointer);
-      this.#rest = module._arap_rest_points(this.#pointer);
       const pointer = this.#pointer;
       forgotten.register(this, () => module._arap_delete(pointer), this);
     }
@@ -141,16 +137,15 @@ export async function load({ wasmBinary } = {}) {
       const indices = this.#indices(values);
       return withCopies([indices], (pointer) => this.#call(name, pointer, indices.length, ...rest));
     }
-    #copy(pointer, out) {
-      this.#this();
-      const view = heapNumbers(pointer, 3 * this.numberOfVertices);
+    #copy(name, out) {
+      const view = heapNumbers(module[name](this.#this()), 3 * this.numberOfVertices);
       if (!out) return view.slice();
       out.set(view);
       return out;
     }
 
-    points(out) { return this.#copy(this.#points, out); }
-    restPoints(out) { return this.#copy(this.#rest, out); }
+    points(out) { return this.#copy('_arap_points', out); }
+    restPoints(out) { return this.#copy('_arap_rest_points', out); }
 
     setOption(name, value) {
       withText([name, value], (n, v) => this.#call('set_option', n, v));

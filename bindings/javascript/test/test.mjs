@@ -118,6 +118,7 @@ session.setTargets([0], [0, 0, 1]);
 session.deform();
 session.restore(state);
 assert.deepEqual(session.points(), before);
+assert.deepEqual([...session.restPoints()], points);
 state.dispose();
 refuses(() => session.restore(state), TypeError, /disposed/);
 

@@ -50,6 +50,7 @@ function readOff(text) {
   let line = lines.findIndex((l) => /OFF/.test(l));
   line += /OFF\s+\d/.test(lines[line]) ? 1 : 2; // the counts may be on the first line
   const numbers = (what) => (lines[line] === undefined ? fail(`it ends before ${what}`) : lines[line++].split(/\s+/).map(Number));
+  if (n + m > lines.length) fail(`it has fewer lines than its ${n} vertices and ${m} faces`);
   const points = new Float64Array(3 * n), polygons = [];
   for (let v = 0; v < n; ++v) {
     const p = numbers(`vertex ${v}`);
@@ -89,7 +90,9 @@ function readMedit(text) {
     const keyword = words.word().toLowerCase();
     if (keyword === 'end') break;
     if (!(keyword in sections) || found[keyword]) continue;
-    const n = words.count(`the number of ${keyword}`), columns = sections[keyword], numbers = new Float64Array((columns - 1) * n);
+    const n = words.count(`the number of ${keyword}`), columns = sections[keyword];
+    if (n * columns > words.words.length) fail(`it is too short for ${n} ${keyword}`);
+    const numbers = new Float64Array((columns - 1) * n);
     for (let i = 0; i < n; ++i) {
       for (let c = 0; c + 1 < columns; ++c) numbers[(columns - 1) * i + c] = words.number(`row ${i + 1} of ${keyword}`);
       words.word(); // the reference
@@ -138,7 +141,7 @@ export function readMesh(name, bytes) {
   try {
     mesh = readers[ending]();
   } catch (error) {
-    fail(`${name} cannot be read: ${error.message}.`);
+    fail(error instanceof RangeError ? `${name} cannot be read: it ends too early.` : `${name} cannot be read: ${error.message}.`);
   }
   if (!mesh.simplices.length) fail(`${name} has no faces.`);
   if (!mesh.points.every(Number.isFinite)) fail(`${name} has a coordinate that is no finite number.`);

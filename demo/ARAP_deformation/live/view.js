@@ -181,7 +181,7 @@ export class View {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     this.radius = sphere.radius || 1;
     const half = Math.min(this.camera.fov, 2 * Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * this.camera.aspect) * 180 / Math.PI) * Math.PI / 360;
-    const distance = 1.15 * this.radius / Math.sin(half);
+    const distance = 1.05 * this.radius / Math.sin(half);
     const direction = this.up === 'z' ? new THREE.Vector3(0.45, -0.85, 0.32) : new THREE.Vector3(0.45, 0.32, 0.85);
     this.camera.position.copy(sphere.center).addScaledVector(direction.normalize(), distance);
     this.camera.near = distance / 100;
