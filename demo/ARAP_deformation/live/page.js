@@ -302,7 +302,7 @@ async function open(mesh, name, note) {
     failed = '';
     Object.assign(measured, { energy: NaN, milliseconds: NaN, perIteration: n / 10000 });
     history.energy.length = history.milliseconds.length = 0;
-    view.setShape(points, shape.faces, mesh.flat ?? volume);
+    view.setShape(points, shape.faces);
     view.fit();
     if ($('measure').value) $('measure').value = '';
     recountHandles(false);
@@ -334,7 +334,7 @@ async function openModel(id) {
   try {
     const [title, make] = models[id];
     $('model').value = id;
-    await open({ ...make(), flat: id === 'bar' }, title.toLowerCase().replace(/ /g, '_'));
+    await open(make(), title.toLowerCase().replace(/ /g, '_'));
   } catch (error) {
     complain(error);
   }

@@ -98,19 +98,22 @@ export class View {
     this.isDirty = true;
   }
 
-  setShape(points, faces, flat) {
+  setShape(points, faces) {
     this.mesh.geometry.dispose();
     const geometry = new THREE.BufferGeometry(), n = points.length / 3;
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(points), 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(new Uint8Array(3 * n).fill(200), 3, true));
     geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(faces), 1));
     this.faces = faces;
-    this.isSmooth = !flat && n <= 60000;
-    if (this.isSmooth) geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
+    this.mesh.geometry = geometry;
+    this.isSmooth = n <= 60000;
+    if (this.isSmooth) {
+      geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(3 * n), 3));
+      this.updateNormals();
+      this.isSmooth = !this.hasSharpEdges();
+    }
     this.material.flatShading = !this.isSmooth;
     this.material.needsUpdate = true;
-    this.mesh.geometry = geometry;
-    this.updateNormals();
     this.isDirty = true;
   }
 
@@ -144,6 +147,18 @@ export class View {
       q[i] *= l; q[i + 1] *= l; q[i + 2] *= l;
     }
     attribute.needsUpdate = true;
+  }
+
+  // whether many faces meet at an angle at which a mean of their normals looks wrong
+  hasSharpEdges() {
+    const p = this.positions, f = this.faces, q = this.mesh.geometry.attributes.normal.array;
+    const at = (array, v) => new THREE.Vector3().fromArray(array, 3 * v);
+    let sharp = 0;
+    for (let i = 0; i < f.length; i += 3) {
+      const [a, b, c] = [at(p, f[i]), at(p, f[i + 1]), at(p, f[i + 2])], normal = b.sub(a).cross(c.sub(a)).normalize();
+      for (let k = 0; k < 3; ++k) sharp += normal.dot(at(q, f[i + k])) < 0.75;
+    }
+    return sharp > 0.02 * f.length;
   }
 
   // colourOf(vertex) returns a colour as 0xrrggbb
@@ -181,7 +196,7 @@ export class View {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     this.radius = sphere.radius || 1;
     const half = Math.min(this.camera.fov, 2 * Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * this.camera.aspect) * 180 / Math.PI) * Math.PI / 360;
-    const distance = 1.05 * this.radius / Math.sin(half);
+    const distance = 1.15 * this.radius / Math.sin(half);
     const direction = this.up === 'z' ? new THREE.Vector3(0.45, -0.85, 0.32) : new THREE.Vector3(0.45, 0.32, 0.85);
     this.camera.position.copy(sphere.center).addScaledVector(direction.normalize(), distance);
     this.camera.near = distance / 100;
