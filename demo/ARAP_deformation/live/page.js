@@ -924,7 +924,7 @@ function showPanel() {
       showPanel();
     });
     b.innerHTML = `<i style="background:${css(colourOf(status))}"></i>${text}`;
-    b.classList.toggle('on', paints === status && tool !== 'grab');
+    b.classList.toggle('on', paints === status && !['grab', 'point', 'stiffness'].includes(tool));
     return b;
   };
   const painted = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
