@@ -239,7 +239,7 @@ async function commit() {
   const dropped = past.splice(now + 1);
   past.push(kept);
   now = past.length - 1;
-  const largest = Math.max(3, Math.min(60, Math.floor(2e7 / shape.points.length)));
+  const largest = Math.max(3, Math.min(60, Math.floor(1.2e7 / shape.points.length)));
   while (past.length > largest) { dropped.push(past.shift()); --now; }
   showPanel();
   kept.state = engine.call('keep').then((answer) => answer.state, () => null);
@@ -1149,6 +1149,6 @@ window.arap = {
     return worst;
   },
   positions: () => view.positions.slice(), status: () => shape.status.slice(), open, openModel, openFile, setTool, choose,
-  heap: async () => (await engine.call('heap')).bytes, commandLine, view,
+  heap: async () => (await engine.call('heap')).bytes, commandLine, view, engine,
 };
 engine.ready.catch((error) => say(`The engine could not be started: ${error.message}.`, true));

@@ -86,8 +86,8 @@ const operations = {
   stiffness({ values }) { session.setStiffness(values); },
   hold({ status: next, handles }) { hold(next, handles); },
   step({ handles, iterations, tolerance, buffer }) {
-    if (handles) move(handles);
     const start = performance.now();
+    if (handles) move(handles);
     const { status: result, energy, finalEnergy, estimatedRelativeGap, message, iterations: done,
             unconstrainedComponents, freeVertices } = session.deform({ iterations, tolerance });
     const milliseconds = performance.now() - start;
