@@ -12,7 +12,16 @@ const colourOf = (status) => (status === FIXED ? red : status === FREE ? grey : 
 const identity = () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const css = (rgb) => `#${rgb.toString(16).padStart(6, '0')}`;
 
-const view = new View($('view'));
+const view = (() => {
+  try {
+    return new View($('view'));
+  } catch (error) {
+    $('message').hidden = false;
+    $('message').className = 'error';
+    $('message').firstChild.textContent = 'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+    throw error;
+  }
+})();
 const engine = new Engine(...window.arapParts());
 
 // what is open: points are those of the rest shape
@@ -188,7 +197,7 @@ function pump() {
   if (!isHeld) return void (isSettled = true);
   const moves = hasNewTargets, fast = moves || dragging || playing;
   const share = measured.perIteration || 1;
-  const iterations = fast ? 3 : Math.max(5, Math.min(200, Math.round(60 / share)));
+  const iterations = fast ? Math.max(1, Math.min(3, Math.round(50 / share))) : Math.max(5, Math.min(200, Math.round(60 / share)));
   hasNewTargets = false;
   stepStart = performance.now();
   const of = shape, buffer = spare && spare.length === shape.points.length ? spare : null;
@@ -1061,6 +1070,7 @@ const actions = {
   fit: () => view.fit(), remove: removeHandle, home: () => changeHandle((h) => { h.matrix = identity(); }),
   moves: () => { view.gizmo.setMode('translate'); showPanel(); }, turns: () => { view.gizmo.setMode('rotate'); showPanel(); },
   up: () => { view.up = view.up === 'z' ? 'y' : 'z'; view.makeOrbit(); view.fit(); showPanel(); },
+  how: () => { $('help').hidden = false; },
   clear: () => { shape.status.fill(FREE); shape.handles = []; chosen = -1; paints = FIXED; tool = 'brush'; reset().then(painted); },
   more: () => {
     const closed = document.querySelector('main').classList.toggle('closed');
@@ -1094,7 +1104,7 @@ addEventListener('keydown', (event) => {
   else if (moveByKey(key, event.shiftKey)) closeHelp();
   else if (key === ' ' && event.target.closest?.('button')) return;
   else ({ o: actions.open, r: reset, v: actions.fit, u: actions.up, w: actions.moves, e: actions.turns, k: addKey, ' ': () => play(),
-          h: actions.more, Delete: removeHandle }[key] ?? (() => { event.handled = true; }))();
+          h: actions.more, '?': actions.how, Delete: removeHandle }[key] ?? (() => { event.handled = true; }))();
   if (!event.handled) event.preventDefault();
 });
 

@@ -275,6 +275,27 @@ const steps = {
     await page.keyboard.press('Delete');
     now = await settled();
     assert.equal(now.handles.length, 1);
+    // a handle of one vertex, which turns the cells around it
+    await page.$eval('#brush', (b) => { b.value = 4; b.dispatchEvent(new Event('input')); });
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    const [x, y] = await page.evaluate(() => {
+      const p = window.arap.positions(), v = 71 * 53 + 20, box = window.arap.view.canvas.getBoundingClientRect();
+      const at = window.arap.view.toScreen(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
+      return [at[0] + box.left, at[1] + box.top];
+    });
+    await page.mouse.click(x, y);
+    now = await settled();
+    assert.equal(now.handles[1].vertices, 1);
+    const { energy } = now;
+    await page.keyboard.press('g');
+    await page.keyboard.down('Shift');
+    for (let k = 0; k < 9; ++k) await page.keyboard.press('ArrowRight');
+    await page.keyboard.up('Shift');
+    await rest(600);
+    assert((await settled()).energy > energy + 1e-3, 'one vertex turns its surroundings');
+    await shot('10_one_vertex_turned');
+    await page.$eval('#brush', (b) => { b.value = 26; b.dispatchEvent(new Event('input')); });
   },
 
   async 'volume'() {
