@@ -332,6 +332,7 @@ async function open(mesh, name, note) {
 async function openFile(file) {
   try {
     const mesh = await busy(`Reading ${file.name}…`, async () => readMesh(file.name, await file.arrayBuffer()));
+    closeHelp();
     await open(mesh, file.name.replace(/\.\w+$/, ''), mesh.note || `${file.name}: paint what stays, then what you hold.`);
     $('model').value = '';
   } catch (error) {

@@ -195,10 +195,16 @@ export class View {
     const box = new THREE.Box3().setFromArray(this.positions);
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     this.radius = sphere.radius || 1;
-    const half = Math.min(this.camera.fov, 2 * Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * this.camera.aspect) * 180 / Math.PI) * Math.PI / 360;
-    const distance = 1.15 * this.radius / Math.sin(half);
-    const direction = this.up === 'z' ? new THREE.Vector3(0.45, -0.85, 0.32) : new THREE.Vector3(0.45, 0.32, 0.85);
-    this.camera.position.copy(sphere.center).addScaledVector(direction.normalize(), distance);
+    const direction = (this.up === 'z' ? new THREE.Vector3(0.45, -0.85, 0.32) : new THREE.Vector3(0.45, 0.32, 0.85)).normalize();
+    // so far that each corner of the box is in the picture, with a margin
+    const right = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize(), up = new THREE.Vector3().crossVectors(direction, right);
+    const high = 0.8 * Math.tan(this.camera.fov * Math.PI / 360), wide = high * this.camera.aspect;
+    let distance = 1e-3 * this.radius;
+    for (let k = 0; k < 8; ++k) {
+      const c = new THREE.Vector3(...['x', 'y', 'z'].map((axis, i) => (k >> i & 1 ? box.max : box.min)[axis])).sub(sphere.center);
+      distance = Math.max(distance, c.dot(direction) + Math.max(Math.abs(c.dot(right)) / wide, Math.abs(c.dot(up)) / high));
+    }
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance);
     this.camera.near = distance / 100;
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();

@@ -276,7 +276,7 @@ const steps = {
     now = await settled();
     assert.equal(now.handles.length, 1);
     // a handle of one vertex, which turns the cells around it
-    await page.$eval('#brush', (b) => { b.value = 4; b.dispatchEvent(new Event('input')); });
+    await page.$eval('#brush', (b) => { b.value = 1; b.dispatchEvent(new Event('input')); });
     await page.keyboard.press('b');
     await page.keyboard.press('3');
     const [x, y] = await page.evaluate(() => {
