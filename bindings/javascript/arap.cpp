@@ -245,6 +245,10 @@ ARAP_EXPORT bool arap_set_groups(Array_deformation* d, const std::int32_t* group
   return answer_of([&] { d->set_groups({groups, n}); });
 }
 
+ARAP_EXPORT bool arap_preprocess(Array_deformation* d)
+{
+  return answer_of([&] { d->preprocess(); });
+}
 ARAP_EXPORT bool arap_deform(Array_deformation* d, unsigned int iterations, double tolerance,
                              bool visits)
 {

@@ -21,7 +21,7 @@ for source in bindings/javascript/arap bindings/Array_deformation src/ARAP_defor
   object=$out/${source##*/}.o
   objects="$objects $object"
   # shellcheck disable=SC2086
-  if [ ! -f "$object" ] || [ -n "$(find "$root/include" "$root/bindings" "$root/src" -newer "$object" -name '*.h' -o -newer "$object" -name '*.cpp' -not -path '*/test/*')" ]; then
+  if [ ! -f "$object" ] || [ -n "$(find "$root/include" "$root/bindings" "$root/src" -newer "$object" -name '*.h' -o -newer "$object" -name '*.cpp' -not -path '*/test/*' -not -path '*/python/*')" ]; then
     em++ $flags -c "$root/$source.cpp" -o "$object" &
     pids="$pids $!"
   fi

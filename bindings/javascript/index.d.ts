@@ -7,11 +7,34 @@ export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[]
 
 /** `misuse` is a wrong index, name or shape of an array; the others are those of the C++ library. */
 export type Status =
-  | 'success' | 'converged' | 'iteration_limit' | 'stopped' | 'cancelled' | 'invalid_option' | 'in_a_run'
-  | 'foreign_state' | 'invalid_stiffness' | 'undeclared_map' | 'invalid_rotation' | 'not_a_control_vertex'
-  | 'invalid_weight' | 'invalid_coordinates' | 'dependent_target' | 'too_many_control_points' | 'not_a_simplex'
-  | 'too_many_corners' | 'no_tetrahedron' | 'no_simplex' | 'non_finite_point' | 'non_finite_weight'
-  | 'no_fixed_vertex' | 'singular_matrix' | 'solver_failed' | 'non_finite_energy' | 'out_of_memory' | 'misuse';
+  | 'success'
+  | 'converged'
+  | 'iteration_limit'
+  | 'stopped'
+  | 'cancelled'
+  | 'invalid_option'
+  | 'in_a_run'
+  | 'foreign_state'
+  | 'invalid_stiffness'
+  | 'undeclared_map'
+  | 'invalid_rotation'
+  | 'not_a_control_vertex'
+  | 'invalid_weight'
+  | 'invalid_coordinates'
+  | 'dependent_target'
+  | 'too_many_control_points'
+  | 'not_a_simplex'
+  | 'too_many_corners'
+  | 'no_tetrahedron'
+  | 'no_simplex'
+  | 'non_finite_point'
+  | 'non_finite_weight'
+  | 'no_fixed_vertex'
+  | 'singular_matrix'
+  | 'solver_failed'
+  | 'non_finite_energy'
+  | 'out_of_memory'
+  | 'misuse';
 
 /** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a TypeError, of other lengths
  *  a RangeError. */
@@ -66,8 +89,13 @@ export interface Report {
   stages: { region: boolean; weights: boolean; order: boolean; factor: boolean; border: boolean };
   /** in seconds */
   seconds: {
-    preprocess: number; transfer: number; initialGuess: number; localSteps: number; globalSteps: number;
-    visitor: number; total: number;
+    preprocess: number;
+    transfer: number;
+    initialGuess: number;
+    localSteps: number;
+    globalSteps: number;
+    visitor: number;
+    total: number;
   };
 }
 
@@ -110,7 +138,10 @@ export interface Session {
   restPoints(): Float64Array;
   restPoints<T extends Float64Array | Float32Array>(out: T): T;
 
-  setOption(name: keyof Options | 'iterations' | 'tolerance' | 'threads', value: string | number): void;
+  setOption(
+    name: keyof Options | 'iterations' | 'tolerance' | 'threads',
+    value: string | number,
+  ): void;
   setOptions(options: Options): void;
 
   /** All vertices are in the region of interest at first. */
@@ -144,6 +175,8 @@ export interface Session {
   setStiffness(values?: Numbers): void;
   setGroups(groups?: Indices): void;
 
+  /** does what the next call of `deform()` needs, such as the factorization, before it is made */
+  preprocess(): void;
   deform(run?: Run): Report;
 
   reset(): void;
@@ -156,14 +189,21 @@ export interface Session {
   /** 3 x 3 for each cell */
   rotations(): Float64Array;
   quality(): Quality;
-  qualityAtVertices(measure: 'edge_length_error' | 'size_change' | 'angle_change' | 'spike'): Float64Array;
+  qualityAtVertices(
+    measure: 'edge_length_error' | 'size_change' | 'angle_change' | 'spike',
+  ): Float64Array;
 }
 
 export interface Arap {
   session(points: Numbers, simplices: Indices, shape?: Shape): Session;
   /** one deformation, without a session */
-  deform(points: Numbers, simplices: Indices, handles: Indices, targets: Numbers,
-         options?: Shape & Options & Omit<Run, 'visitor'>): { points: Float64Array; report: Report };
+  deform(
+    points: Numbers,
+    simplices: Indices,
+    handles: Indices,
+    targets: Numbers,
+    options?: Shape & Options & Omit<Run, 'visitor'>,
+  ): { points: Float64Array; report: Report };
   /** the memory of the engine, which never shrinks */
   heapBytes(): number;
 }

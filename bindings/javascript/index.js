@@ -31,7 +31,9 @@ function numbersOf(values, what, Kind) {
   if (values instanceof Kind) return values;
   const result = Kind.from(values, (value, i) => {
     if (typeof value === 'number') return value;
-    throw new TypeError(`${what}: the element ${i} is no number; arrays are flat, one number after another`);
+    throw new TypeError(
+      `${what}: the element ${i} is no number; arrays are flat, one number after another`,
+    );
   });
   if (Kind === Int32Array)
     for (let i = 0; i < result.length; ++i)
@@ -51,7 +53,7 @@ const forgotten = new FinalizationRegistry((free) => free());
 export async function load({ wasmBinary } = {}) {
   const visitors = [];
   const module = await createArap({
-    wasmBinary: wasmBinary ?? await machineCode(),
+    wasmBinary: wasmBinary ?? (await machineCode()),
     visit: (iteration, energy) => visitors.at(-1)(iteration, energy),
   });
   const text = (pointer) => module.UTF8ToString(pointer >>> 0);
@@ -77,7 +79,10 @@ export async function load({ wasmBinary } = {}) {
     }
   }
   const withText = (strings, f) =>
-    withCopies(strings.map((s) => new TextEncoder().encode(`${s}\0`)), f);
+    withCopies(
+      strings.map((s) => new TextEncoder().encode(`${s}\0`)),
+      f,
+    );
   const heapNumbers = (pointer, length) =>
     new Float64Array(module.HEAPU8.buffer, pointer >>> 0, length);
   const answer = () => heapNumbers(module._arap_numbers(), module._arap_size()).slice();
@@ -101,13 +106,16 @@ export async function load({ wasmBinary } = {}) {
 
     constructor(points, simplices, { corners, volume = false, weights = 'safe_cotangent' } = {}) {
       corners ??= volume ? 4 : 3;
-      const p = numbersOf(points, 'points', Float64Array), s = numbersOf(simplices, 'simplices', Int32Array);
+      const p = numbersOf(points, 'points', Float64Array),
+        s = numbersOf(simplices, 'simplices', Int32Array);
       const n = rowsOf(p, 3, 'points');
       if (!(Number.isInteger(corners) && corners > 0))
         throw new TypeError('corners must be a positive integer');
       const m = rowsOf(s, corners, 'simplices');
-      this.#pointer = withCopies([p, s], (pp, sp) => withText([weights], (wp) =>
-        module._arap_create(pp, n, sp, m, corners, volume, wp))) || fail();
+      this.#pointer =
+        withCopies([p, s], (pp, sp) =>
+          withText([weights], (wp) => module._arap_create(pp, n, sp, m, corners, volume, wp)),
+        ) || fail();
       this.numberOfVertices = n;
       this.numberOfSimplices = m;
       this.isVolume = volume;
@@ -116,7 +124,8 @@ export async function load({ wasmBinary } = {}) {
     }
 
     dispose() {
-      if (this.#runs) throw new ArapError('in_a_run', 'a visitor disposed of the session that it visits');
+      if (this.#runs)
+        throw new ArapError('in_a_run', 'a visitor disposed of the session that it visits');
       if (!this.#pointer) return;
       forgotten.unregister(this);
       module._arap_delete(this.#pointer);
@@ -124,7 +133,12 @@ export async function load({ wasmBinary } = {}) {
     }
 
     #this() {
-      return this.#pointer || (() => { throw new ArapError('misuse', 'the session was disposed of'); })();
+      return (
+        this.#pointer ||
+        (() => {
+          throw new ArapError('misuse', 'the session was disposed of');
+        })()
+      );
     }
     #call(name, ...rest) {
       return module[`_arap_${name}`](this.#this(), ...rest) ? answer() : fail();
@@ -144,8 +158,12 @@ export async function load({ wasmBinary } = {}) {
       return out;
     }
 
-    points(out) { return this.#copy('_arap_points', out); }
-    restPoints(out) { return this.#copy('_arap_rest_points', out); }
+    points(out) {
+      return this.#copy('_arap_points', out);
+    }
+    restPoints(out) {
+      return this.#copy('_arap_rest_points', out);
+    }
 
     setOption(name, value) {
       withText([name, value], (n, v) => this.#call('set_option', n, v));
@@ -154,13 +172,25 @@ export async function load({ wasmBinary } = {}) {
       for (const [name, value] of Object.entries(options)) this.setOption(name, value);
     }
 
-    setRegion(vertices) { this.#callWithIndices('set_region', vertices); }
-    region() { return Int32Array.from(this.#call('region')); }
+    setRegion(vertices) {
+      this.#callWithIndices('set_region', vertices);
+    }
+    region() {
+      return Int32Array.from(this.#call('region'));
+    }
 
-    insertHandles(vertices) { this.#callWithIndices('insert_handles', vertices); }
-    eraseHandles(handles) { this.#callWithIndices('erase_handles', handles); }
-    clearHandles() { this.#call('clear_handles'); }
-    handles() { return Int32Array.from(this.#call('handles')); }
+    insertHandles(vertices) {
+      this.#callWithIndices('insert_handles', vertices);
+    }
+    eraseHandles(handles) {
+      this.#callWithIndices('erase_handles', handles);
+    }
+    clearHandles() {
+      this.#call('clear_handles');
+    }
+    handles() {
+      return Int32Array.from(this.#call('handles'));
+    }
 
     locate(point) {
       const [x, y, z] = numbersOf(point, 'the point', Float64Array);
@@ -172,37 +202,56 @@ export async function load({ wasmBinary } = {}) {
       const c = numbersOf(coordinates, 'coordinates', Float64Array);
       return withCopies([c], (pointer) => this.#call('insert_point', s, pointer, c.length))[0];
     }
-    pointPosition(handle) { return this.#call('point_position', this.#indices(handle)[0]); }
+    pointPosition(handle) {
+      return this.#call('point_position', this.#indices(handle)[0]);
+    }
 
     setTargets(handles, targets) {
-      const h = this.#indices(handles, 'handles'), t = numbersOf(targets, 'targets', Float64Array);
+      const h = this.#indices(handles, 'handles'),
+        t = numbersOf(targets, 'targets', Float64Array);
       const rows = rowsOf(t, 3, 'targets');
       withCopies([h, t], (hp, tp) => this.#call('set_targets', hp, h.length, tp, rows));
     }
-    target(handle) { return this.#call('target', this.#indices(handle)[0]); }
+    target(handle) {
+      return this.#call('target', this.#indices(handle)[0]);
+    }
     transform(handles, matrix, { fromRest = true } = {}) {
-      const h = this.#indices(handles, 'handles'), m = numbersOf(matrix, 'the matrix', Float64Array);
+      const h = this.#indices(handles, 'handles'),
+        m = numbersOf(matrix, 'the matrix', Float64Array);
       const rows = rowsOf(m, 4, 'the matrix');
       withCopies([h, m], (hp, mp) => this.#call('transform', hp, h.length, mp, rows, fromRest));
     }
-    setWeight(handles, weight) { this.#callWithIndices('set_weight', handles, Number(weight)); }
+    setWeight(handles, weight) {
+      this.#callWithIndices('set_weight', handles, Number(weight));
+    }
     setRotation(vertices, matrix) {
       const m = numbersOf(matrix, 'the matrix', Float64Array);
       if (m.length !== 9) throw new RangeError('a rotation is a matrix of 3 x 3 numbers');
       withCopies([m], (pointer) => this.#callWithIndices('set_rotation', vertices, pointer));
     }
-    setRotationsOfMotion(vertices) { this.#callWithIndices('set_rotations_of_motion', vertices); }
-    eraseRotations(vertices) { this.#callWithIndices('erase_rotations', vertices); }
+    setRotationsOfMotion(vertices) {
+      this.#callWithIndices('set_rotations_of_motion', vertices);
+    }
+    eraseRotations(vertices) {
+      this.#callWithIndices('erase_rotations', vertices);
+    }
 
     setStiffness(values) {
       const v = numbersOf(values ?? [], 'stiffness', Float64Array);
       withCopies([v], (pointer) => this.#call('set_stiffness', pointer, v.length));
     }
-    setGroups(groups) { this.#callWithIndices('set_groups', groups ?? []); }
+    setGroups(groups) {
+      this.#callWithIndices('set_groups', groups ?? []);
+    }
 
+    preprocess() {
+      this.#call('preprocess');
+    }
     deform({ iterations = 1000, tolerance = 1e-3, visitor } = {}) {
       if (!(Number.isInteger(iterations) && iterations >= 0))
-        throw new TypeError(`iterations is ${iterations}; it must be an integer that is not negative`);
+        throw new TypeError(
+          `iterations is ${iterations}; it must be an integer that is not negative`,
+        );
       let thrown = null;
       if (visitor)
         visitors.push((iteration, energy) => {
@@ -222,45 +271,92 @@ export async function load({ wasmBinary } = {}) {
         if (visitor) visitors.pop();
       }
       if (thrown) throw thrown.error;
-      const components = a[19], firstEnergy = 20 + components;
+      const components = a[19],
+        firstEnergy = 20 + components;
       return {
-        status: text(module._arap_status()), message: text(module._arap_message()),
-        iterations: a[0], energyScale: a[1], roundingLevel: a[2], estimatedRelativeGap: a[3],
-        freeVertices: a[4], simplices: a[5], invertedSimplices: a[6],
-        stages: { region: !!a[7], weights: !!a[8], order: !!a[9], factor: !!a[10], border: !!a[11] },
-        seconds: { preprocess: a[12], transfer: a[13], initialGuess: a[14], localSteps: a[15],
-                   globalSteps: a[16], visitor: a[17], total: a[18] },
+        status: text(module._arap_status()),
+        message: text(module._arap_message()),
+        iterations: a[0],
+        energyScale: a[1],
+        roundingLevel: a[2],
+        estimatedRelativeGap: a[3],
+        freeVertices: a[4],
+        simplices: a[5],
+        invertedSimplices: a[6],
+        stages: {
+          region: !!a[7],
+          weights: !!a[8],
+          order: !!a[9],
+          factor: !!a[10],
+          border: !!a[11],
+        },
+        seconds: {
+          preprocess: a[12],
+          transfer: a[13],
+          initialGuess: a[14],
+          localSteps: a[15],
+          globalSteps: a[16],
+          visitor: a[17],
+          total: a[18],
+        },
         unconstrainedComponents: Int32Array.from(a.subarray(20, firstEnergy)),
-        energy: a.slice(firstEnergy), finalEnergy: a.length > firstEnergy ? a.at(-1) : NaN,
+        energy: a.slice(firstEnergy),
+        finalEnergy: a.length > firstEnergy ? a.at(-1) : NaN,
       };
     }
 
-    reset() { this.#call('reset'); }
-    makeRestShape() { this.#call('make_rest_shape'); }
-    state() { return new State(module._arap_state(this.#this()) || fail()); }
+    reset() {
+      this.#call('reset');
+    }
+    makeRestShape() {
+      this.#call('make_rest_shape');
+    }
+    state() {
+      return new State(module._arap_state(this.#this()) || fail());
+    }
     restore(state) {
       if (!(state instanceof State) || !state.pointer)
-        throw new TypeError('only what state() has returned and is not disposed of can be restored');
+        throw new TypeError(
+          'only what state() has returned and is not disposed of can be restored',
+        );
       this.#call('restore', state.pointer);
     }
 
-    energy() { return this.#call('energy')[0]; }
-    rotations() { return this.#call('rotations'); }
+    energy() {
+      return this.#call('energy')[0];
+    }
+    rotations() {
+      return this.#call('rotations');
+    }
     quality() {
       const q = this.#call('quality');
-      return { edgeLengthError: q[0], areaChange: q[1], volumeChange: q[2], largestAngleChange: q[3],
-               largestSpike: q[4], invertedSimplices: q[5] };
+      return {
+        edgeLengthError: q[0],
+        areaChange: q[1],
+        volumeChange: q[2],
+        largestAngleChange: q[3],
+        largestSpike: q[4],
+        invertedSimplices: q[5],
+      };
     }
     qualityAtVertices(measure) {
       if (!measures.includes(measure))
-        throw new RangeError(`the measure '${measure}' is not known; use one of ${measures.join(', ')}`);
+        throw new RangeError(
+          `the measure '${measure}' is not known; use one of ${measures.join(', ')}`,
+        );
       return this.#call('quality_at_vertices', measures.indexOf(measure));
     }
   }
 
   return {
     session: (points, simplices, options) => new Session(points, simplices, options),
-    deform(points, simplices, handles, targets, { corners, volume, weights, iterations, tolerance, ...options } = {}) {
+    deform(
+      points,
+      simplices,
+      handles,
+      targets,
+      { corners, volume, weights, iterations, tolerance, ...options } = {},
+    ) {
       const session = new Session(points, simplices, { corners, volume, weights });
       try {
         session.setOptions(options);

@@ -8,22 +8,48 @@ import { models } from './models.js';
 const arap = await load();
 const command = process.env.ARAP_DEFORM;
 
-const numbers = (file) => readFileSync(file, 'utf8').replace(/#.*/g, '').trim().split(/\s+/).map(Number);
+const numbers = (file) =>
+  readFileSync(file, 'utf8').replace(/#.*/g, '').trim().split(/\s+/).map(Number);
 function readOff(file) {
-  const [n, m, , ...rest] = numbers(file).slice(1), faces = rest.slice(3 * n);
-  return { points: rest.slice(0, 3 * n), simplices: faces.filter((_, i) => i % 4), corners: 3, volume: false, m };
+  const [n, m, , ...rest] = numbers(file).slice(1),
+    faces = rest.slice(3 * n);
+  return {
+    points: rest.slice(0, 3 * n),
+    simplices: faces.filter((_, i) => i % 4),
+    corners: 3,
+    volume: false,
+    m,
+  };
 }
 const lines = (array, columns, line) =>
-  Array.from({ length: array.length / columns }, (_, i) => line([...array.slice(columns * i, columns * (i + 1))])).join('\n');
+  Array.from({ length: array.length / columns }, (_, i) =>
+    line([...array.slice(columns * i, columns * (i + 1))]),
+  ).join('\n');
 
 function compare(name, file, shape, status, matrices, options) {
   // the quasi-Newton method makes more and more of the differences of rounding
   const iterations = options.minimizer === 'quasi_newton' ? 8 : 20;
   const report = `${name}.json`;
   const { weights = 'safe_cotangent', volume } = shape;
-  execFileSync(command, [file, '-o', `out.${volume ? 'mesh' : 'off'}`, '--selection', `${name}.sel`, '--transform', `${name}.def`,
-    '--report', report, '--iterations', String(iterations), '--tolerance', '0', '--quiet', '--weights', weights,
-    ...Object.entries(options).flatMap(([key, value]) => [`--${key}`, value])]);
+  execFileSync(command, [
+    file,
+    '-o',
+    `out.${volume ? 'mesh' : 'off'}`,
+    '--selection',
+    `${name}.sel`,
+    '--transform',
+    `${name}.def`,
+    '--report',
+    report,
+    '--iterations',
+    String(iterations),
+    '--tolerance',
+    '0',
+    '--quiet',
+    '--weights',
+    weights,
+    ...Object.entries(options).flatMap(([key, value]) => [`--${key}`, value]),
+  ]);
   const native = JSON.parse(readFileSync(report)).energy;
   const session = arap.session(shape.points, shape.simplices, shape);
   session.setOptions(options);
@@ -42,33 +68,60 @@ function compare(name, file, shape, status, matrices, options) {
 }
 
 const turn = (degrees, x, z) => {
-  const c = Math.cos(degrees * Math.PI / 180), s = Math.sin(degrees * Math.PI / 180);
+  const c = Math.cos((degrees * Math.PI) / 180),
+    s = Math.sin((degrees * Math.PI) / 180);
   return [c, -s, 0, x, s, c, 0, 0, 0, 0, 1, z, 0, 0, 0, 1];
 };
 for (const name of ['bar', 'cactus', 'volume']) {
-  const shape = models[name][1](), { points, simplices, corners, volume, status } = shape, file = `${name}.${volume ? 'mesh' : 'off'}`;
-  const n = points.length / 3, m = simplices.length / corners, matrices = [turn(70, 0.8, -0.3)];
-  writeFileSync(file, volume
-    ? `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${lines(points, 3, (p) => `${p.join(' ')} 0`)}\nTetrahedra\n${m}\n` +
-      `${lines(simplices, 4, (s) => `${s.map((v) => v + 1).join(' ')} 0`)}\nEnd\n`
-    : `OFF\n${n} ${m} 0\n${lines(points, 3, (p) => p.join(' '))}\n${lines(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`);
+  const shape = models[name][1](),
+    { points, simplices, corners, volume, status } = shape,
+    file = `${name}.${volume ? 'mesh' : 'off'}`;
+  const n = points.length / 3,
+    m = simplices.length / corners,
+    matrices = [turn(70, 0.8, -0.3)];
+  writeFileSync(
+    file,
+    volume
+      ? `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${lines(points, 3, (p) => `${p.join(' ')} 0`)}\nTetrahedra\n${m}\n` +
+          `${lines(simplices, 4, (s) => `${s.map((v) => v + 1).join(' ')} 0`)}\nEnd\n`
+      : `OFF\n${n} ${m} 0\n${lines(points, 3, (p) => p.join(' '))}\n${lines(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`,
+  );
   writeFileSync(`${name}.sel`, `${status.join('\n')}\n`);
-  writeFileSync(`${name}.def`, `${matrices.map((a) => lines(a, 4, (row) => row.join(' '))).join('\n')}\n`);
-  for (const options of [{ cells: 'spokes_and_rims' }, { cells: 'elements' }, { cells: 'spokes', minimizer: 'quasi_newton' }])
-    console.log(`${name}, ${Object.values(options).join(', ')}: energies differ by ${compare(name, file, shape, [...status], matrices, options).toExponential(1)}`);
+  writeFileSync(
+    `${name}.def`,
+    `${matrices.map((a) => lines(a, 4, (row) => row.join(' '))).join('\n')}\n`,
+  );
+  for (const options of [
+    { cells: 'spokes_and_rims' },
+    { cells: 'elements' },
+    { cells: 'spokes', minimizer: 'quasi_newton' },
+  ])
+    console.log(
+      `${name}, ${Object.values(options).join(', ')}: energies differ by ${compare(name, file, shape, [...status], matrices, options).toExponential(1)}`,
+    );
 }
 const folder = process.argv[2];
-for (const file of folder && existsSync(folder) ? readdirSync(folder).filter((f) => f.endsWith('.off')) : []) {
-  const name = file.slice(0, -4), status = numbers(`${folder}/${name}.sel`), entries = numbers(`${folder}/${name}.def`);
-  for (const ending of ['sel', 'def']) writeFileSync(`${name}.${ending}`, readFileSync(`${folder}/${name}.${ending}`));
+for (const file of folder && existsSync(folder)
+  ? readdirSync(folder).filter((f) => f.endsWith('.off'))
+  : []) {
+  const name = file.slice(0, -4),
+    status = numbers(`${folder}/${name}.sel`),
+    entries = numbers(`${folder}/${name}.def`);
+  for (const ending of ['sel', 'def'])
+    writeFileSync(`${name}.${ending}`, readFileSync(`${folder}/${name}.${ending}`));
   const handles = Math.max(...status) - 1;
-  const matrices = Array.from({ length: handles }, (_, k) => entries.slice(entries.length === 16 ? 0 : 16 * k).slice(0, 16));
+  const matrices = Array.from({ length: handles }, (_, k) =>
+    entries.slice(entries.length === 16 ? 0 : 16 * k).slice(0, 16),
+  );
   for (const cells of ['spokes', 'spokes_and_rims'])
-    console.log(`${file}, ${cells}: energies differ by ${compare(name, `${folder}/${file}`, readOff(`${folder}/${file}`), status, matrices, { cells }).toExponential(1)}`);
+    console.log(
+      `${file}, ${cells}: energies differ by ${compare(name, `${folder}/${file}`, readOff(`${folder}/${file}`), status, matrices, { cells }).toExponential(1)}`,
+    );
 }
 
 // errors
-const points = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], faces = [0, 1, 2, 0, 2, 3];
+const points = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0],
+  faces = [0, 1, 2, 0, 2, 3];
 const session = arap.session(points, faces);
 const refuses = (f, kind, pattern, status) =>
   assert.throws(f, (error) => {
@@ -77,7 +130,8 @@ const refuses = (f, kind, pattern, status) =>
     if (status) assert.equal(error.status, status);
     return true;
   });
-refuses(() => session.deform(), ArapError, /vertex 0 is free/, 'no_fixed_vertex');
+for (const f of [() => session.preprocess(), () => session.deform()])
+  refuses(f, ArapError, /vertex 0 is free/, 'no_fixed_vertex');
 refuses(() => session.insertHandles([4]), ArapError, /no vertex 4/, 'misuse');
 refuses(() => session.insertHandles([-1]), ArapError, /no vertex/, 'misuse');
 refuses(() => session.insertHandles([0.5]), TypeError, /0\.5/);
@@ -86,7 +140,12 @@ refuses(() => session.insertHandles('0'), TypeError, /array/);
 refuses(() => session.insertHandles([[0]]), TypeError, /flat/);
 refuses(() => session.setTargets([0], [0, 0, 0]), ArapError, /neither/);
 refuses(() => session.setOption('cells', 'rims'), ArapError, /rims/, 'invalid_option');
-refuses(() => session.setOption('bending_length', -1), ArapError, /bending_length/, 'invalid_option');
+refuses(
+  () => session.setOption('bending_length', -1),
+  ArapError,
+  /bending_length/,
+  'invalid_option',
+);
 refuses(() => session.setStiffness([1]), ArapError, /1 values/);
 refuses(() => session.transform([], [1, 2, 3]), RangeError, /rows of 4/);
 refuses(() => session.restore({}), TypeError, /state\(\)/);
@@ -107,13 +166,41 @@ assert.deepEqual([...session.points()], points); // nothing was lost
 session.setTargets([0], [0, 0, 0.5]);
 
 // visitors
-refuses(() => session.deform({ tolerance: 0, visitor() { throw new SyntaxError('mine'); } }), SyntaxError, /mine/);
-refuses(() => session.deform({ tolerance: 0, visitor() { session.dispose(); } }), ArapError, /visit/, 'in_a_run');
+refuses(
+  () =>
+    session.deform({
+      tolerance: 0,
+      visitor() {
+        throw new SyntaxError('mine');
+      },
+    }),
+  SyntaxError,
+  /mine/,
+);
+refuses(
+  () =>
+    session.deform({
+      tolerance: 0,
+      visitor() {
+        session.dispose();
+      },
+    }),
+  ArapError,
+  /visit/,
+  'in_a_run',
+);
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'stop' }).status, 'stopped');
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'cancel' }).status, 'cancelled');
 
+// what is prepared is not done again
+session.setTargets([0], [0, 0, 0.6]);
+session.setOption('cells', 'spokes');
+session.preprocess();
+assert.equal(session.deform().stages.factor, false);
+
 // undo
-const before = session.points(), state = session.state();
+const before = session.points(),
+  state = session.state();
 session.setTargets([0], [0, 0, 1]);
 session.deform();
 session.restore(state);
@@ -123,7 +210,8 @@ state.dispose();
 refuses(() => session.restore(state), TypeError, /disposed/);
 
 // no memory is lost, although the heap may grow meanwhile
-const big = models.bar[1](), sizes = [];
+const big = models.bar[1](),
+  sizes = [];
 for (let k = 0; k < 40; ++k) {
   const s = arap.session(big.points, big.simplices);
   s.insertHandles([...big.status.keys()].filter((v) => big.status[v] !== 1));
@@ -137,7 +225,12 @@ assert.equal(sizes.at(-1), sizes[9], 'the heap grows');
 session.dispose();
 refuses(() => session.points(), ArapError, /disposed/);
 session.dispose();
-const { points: moved, report } = arap.deform(points, faces, [0, 1, 2], [0, 0, 0, 1, 0, 0, 1, 1, 0.2]);
+const { points: moved, report } = arap.deform(
+  points,
+  faces,
+  [0, 1, 2],
+  [0, 0, 0, 1, 0, 0, 1, 1, 0.2],
+);
 assert.equal(moved.length, 12);
 assert.equal(report.freeVertices, 1);
 console.log(`JavaScript: all is well; the heap is ${sizes.at(-1) / 2 ** 20} MB`);

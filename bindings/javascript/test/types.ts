@@ -4,7 +4,11 @@ import { load, ArapError, type Report, type Status } from 'arap-deformation';
 const arap = await load();
 const session = arap.session(new Float64Array(9), [0, 1, 2], { weights: 'uniform' });
 session.setOptions({ cells: 'k_ring:2', bending_length: 0.1 });
-const report: Report = session.deform({ iterations: 3, tolerance: 0, visitor: (_, energy) => (energy > 1 ? 'stop' : undefined) });
+const report: Report = session.deform({
+  iterations: 3,
+  tolerance: 0,
+  visitor: (_, energy) => (energy > 1 ? 'stop' : undefined),
+});
 const status: Status = report.status;
 const points: Float32Array = session.points(new Float32Array(9));
 // @ts-expect-error there are no such cells

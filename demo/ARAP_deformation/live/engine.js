@@ -7,7 +7,8 @@ export class Engine {
   constructor(worker, wasm) {
     this.worker = worker;
     this.ready = new Promise((resolve, reject) => {
-      worker.onerror = (event) => reject(new Error(event.message || 'the worker could not be started'));
+      worker.onerror = (event) =>
+        reject(new Error(event.message || 'the worker could not be started'));
       worker.onmessage = ({ data }) => {
         if (data.id === 0) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
         const { resolve: done, reject: fail } = this.#current;
@@ -19,11 +20,18 @@ export class Engine {
     });
   }
 
-  get isIdle() { return !this.#current && !this.#calls.length; }
+  get isIdle() {
+    return !this.#current && !this.#calls.length;
+  }
 
   call(operation, message = {}, transfer = []) {
     return new Promise((resolve, reject) => {
-      this.#calls.push({ message: { ...message, operation, id: ++this.#made }, transfer, resolve, reject });
+      this.#calls.push({
+        message: { ...message, operation, id: ++this.#made },
+        transfer,
+        resolve,
+        reject,
+      });
       this.#next();
     });
   }

@@ -4,15 +4,25 @@ import { PLYLoader } from 'three/examples/jsm/loaders/PLYLoader.js';
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
-const fail = (sentence) => { throw new Error(sentence); };
+const fail = (sentence) => {
+  throw new Error(sentence);
+};
 
 // the words of a text without comments
 class Words {
-  constructor(text) { this.words = text.replace(/#[^\n]*/g, '').match(/\S+/g) ?? []; this.next = 0; }
-  get isAtEnd() { return this.next >= this.words.length; }
-  word() { return this.isAtEnd ? fail('it ends too early') : this.words[this.next++]; }
+  constructor(text) {
+    this.words = text.replace(/#[^\n]*/g, '').match(/\S+/g) ?? [];
+    this.next = 0;
+  }
+  get isAtEnd() {
+    return this.next >= this.words.length;
+  }
+  word() {
+    return this.isAtEnd ? fail('it ends too early') : this.words[this.next++];
+  }
   number(what) {
-    const word = this.word(), x = Number(word);
+    const word = this.word(),
+      x = Number(word);
     return Number.isFinite(x) ? x : fail(`${what} is ${word}, which is no number`);
   }
   count(what) {
@@ -28,7 +38,8 @@ function triangulated(polygons, n) {
   for (const polygon of polygons) {
     if (polygon.length < 3) fail(`a face has ${polygon.length} corners`);
     for (const v of polygon)
-      if (!(Number.isInteger(v) && v >= 0 && v < n)) fail(`a face has the vertex ${v}, but there are ${n} vertices`);
+      if (!(Number.isInteger(v) && v >= 0 && v < n))
+        fail(`a face has the vertex ${v}, but there are ${n} vertices`);
     if (polygon.length > 3) ++cut;
     for (let k = 2; k < polygon.length; ++k) triangles.push(polygon[0], polygon[k - 1], polygon[k]);
   }
@@ -37,24 +48,40 @@ function triangulated(polygons, n) {
 
 const surface = (points, polygons) => {
   const { triangles, note } = triangulated(polygons, points.length / 3);
-  return { points: Float64Array.from(points), simplices: Int32Array.from(triangles), corners: 3, volume: false, note };
+  return {
+    points: Float64Array.from(points),
+    simplices: Int32Array.from(triangles),
+    corners: 3,
+    volume: false,
+    note,
+  };
 };
 
 function readOff(text) {
   const words = new Words(text);
   if (!/^(ST|C|N)*OFF$/.test(words.words[0] ?? '')) fail('it does not begin with OFF');
   const kind = words.word();
-  const n = words.count('the number of vertices'), m = words.count('the number of faces');
+  const n = words.count('the number of vertices'),
+    m = words.count('the number of faces');
   words.count('the number of edges');
-  const lines = text.replace(/#[^\n]*/g, '').split('\n').map((line) => line.trim()).filter(Boolean);
+  const lines = text
+    .replace(/#[^\n]*/g, '')
+    .split('\n')
+    .map((line) => line.trim())
+    .filter(Boolean);
   let line = lines.findIndex((l) => /OFF/.test(l));
   line += /OFF\s+\d/.test(lines[line]) ? 1 : 2; // the counts may be on the first line
-  const numbers = (what) => (lines[line] === undefined ? fail(`it ends before ${what}`) : lines[line++].split(/\s+/).map(Number));
+  const numbers = (what) =>
+    lines[line] === undefined
+      ? fail(`it ends before ${what}`)
+      : lines[line++].split(/\s+/).map(Number);
   if (n + m > lines.length) fail(`it has fewer lines than its ${n} vertices and ${m} faces`);
-  const points = new Float64Array(3 * n), polygons = [];
+  const points = new Float64Array(3 * n),
+    polygons = [];
   for (let v = 0; v < n; ++v) {
     const p = numbers(`vertex ${v}`);
-    if (p.length < 3 || !p.slice(0, 3).every(Number.isFinite)) fail(`vertex ${v} has no three coordinates${kind === 'OFF' ? '' : ` (${kind})`}`);
+    if (p.length < 3 || !p.slice(0, 3).every(Number.isFinite))
+      fail(`vertex ${v} has no three coordinates${kind === 'OFF' ? '' : ` (${kind})`}`);
     points.set(p.slice(0, 3), 3 * v);
   }
   for (let f = 0; f < m; ++f) {
@@ -66,47 +93,68 @@ function readOff(text) {
 }
 
 function readObj(text) {
-  const points = [], polygons = [];
-  text.replace(/\\\r?\n/g, ' ').split('\n').forEach((line, number) => {
-    const [key, ...words] = line.trim().split(/\s+/);
-    if (key === 'v') {
-      const p = words.slice(0, 3).map(Number);
-      if (p.length < 3 || !p.every(Number.isFinite)) fail(`line ${number + 1}: a vertex needs three coordinates`);
-      points.push(...p);
-    }
-    if (key === 'f')
-      polygons.push(words.filter((w) => !w.startsWith('#')).map((word) => {
-        const v = parseInt(word, 10);
-        return v < 0 ? points.length / 3 + v : v - 1;
-      }));
-  });
+  const points = [],
+    polygons = [];
+  text
+    .replace(/\\\r?\n/g, ' ')
+    .split('\n')
+    .forEach((line, number) => {
+      const [key, ...words] = line.trim().split(/\s+/);
+      if (key === 'v') {
+        const p = words.slice(0, 3).map(Number);
+        if (p.length < 3 || !p.every(Number.isFinite))
+          fail(`line ${number + 1}: a vertex needs three coordinates`);
+        points.push(...p);
+      }
+      if (key === 'f')
+        polygons.push(
+          words
+            .filter((w) => !w.startsWith('#'))
+            .map((word) => {
+              const v = parseInt(word, 10);
+              return v < 0 ? points.length / 3 + v : v - 1;
+            }),
+        );
+    });
   return surface(points, polygons);
 }
 
 function readMedit(text) {
-  const words = new Words(text), found = {};
+  const words = new Words(text),
+    found = {};
   const sections = { vertices: 4, tetrahedra: 5, triangles: 4 };
   while (!words.isAtEnd) {
     const keyword = words.word().toLowerCase();
     if (keyword === 'end') break;
     if (!(keyword in sections) || found[keyword]) continue;
-    const n = words.count(`the number of ${keyword}`), columns = sections[keyword];
+    const n = words.count(`the number of ${keyword}`),
+      columns = sections[keyword];
     if (n * columns > words.words.length) fail(`it is too short for ${n} ${keyword}`);
     const numbers = new Float64Array((columns - 1) * n);
     for (let i = 0; i < n; ++i) {
-      for (let c = 0; c + 1 < columns; ++c) numbers[(columns - 1) * i + c] = words.number(`row ${i + 1} of ${keyword}`);
+      for (let c = 0; c + 1 < columns; ++c)
+        numbers[(columns - 1) * i + c] = words.number(`row ${i + 1} of ${keyword}`);
       words.word(); // the reference
     }
     found[keyword] = numbers;
   }
   const { vertices, tetrahedra, triangles } = found;
   if (!vertices) fail('it has no Vertices');
-  const n = vertices.length / 3, corners = tetrahedra?.length ? 4 : 3, simplices = corners === 4 ? tetrahedra : triangles;
+  const n = vertices.length / 3,
+    corners = tetrahedra?.length ? 4 : 3,
+    simplices = corners === 4 ? tetrahedra : triangles;
   if (!simplices?.length) fail('it has neither tetrahedra nor triangles');
   simplices.forEach((v) => {
-    if (!(Number.isInteger(v) && v >= 1 && v <= n)) fail(`an element has the vertex ${v}, but there are ${n} vertices`);
+    if (!(Number.isInteger(v) && v >= 1 && v <= n))
+      fail(`an element has the vertex ${v}, but there are ${n} vertices`);
   });
-  return { points: vertices, simplices: Int32Array.from(simplices, (v) => v - 1), corners, volume: corners === 4, note: '' };
+  return {
+    points: vertices,
+    simplices: Int32Array.from(simplices, (v) => v - 1),
+    corners,
+    volume: corners === 4,
+    note: '',
+  };
 }
 
 // STL has no vertices in common; PLY may have normals, at which vertices differ
@@ -114,14 +162,16 @@ function readGeometry(geometry, merges) {
   if (!geometry.attributes.position?.count) fail('it has no vertices');
   let note = '';
   if (merges) {
-    for (const name of Object.keys(geometry.attributes)) if (name !== 'position') geometry.deleteAttribute(name);
+    for (const name of Object.keys(geometry.attributes))
+      if (name !== 'position') geometry.deleteAttribute(name);
     geometry.computeBoundingSphere();
     const before = geometry.attributes.position.count;
     geometry = mergeVertices(geometry, 1e-7 * geometry.boundingSphere.radius);
     note = `${before} corners were merged to ${geometry.attributes.position.count} vertices.`;
   }
   if (!geometry.index) fail('it has no faces');
-  const index = geometry.index.array, polygons = [];
+  const index = geometry.index.array,
+    polygons = [];
   for (let f = 0; f < index.length; f += 3) {
     const triangle = [index[f], index[f + 1], index[f + 2]];
     if (!merges || new Set(triangle).size === 3) polygons.push(triangle);
@@ -130,9 +180,12 @@ function readGeometry(geometry, merges) {
 }
 
 export function readMesh(name, bytes) {
-  const ending = name.split('.').pop().toLowerCase(), text = () => new TextDecoder().decode(bytes);
+  const ending = name.split('.').pop().toLowerCase(),
+    text = () => new TextDecoder().decode(bytes);
   const readers = {
-    off: () => readOff(text()), obj: () => readObj(text()), mesh: () => readMedit(text()),
+    off: () => readOff(text()),
+    obj: () => readObj(text()),
+    mesh: () => readMedit(text()),
     ply: () => readGeometry(new PLYLoader().parse(bytes), false),
     stl: () => readGeometry(new STLLoader().parse(bytes), true),
   };
@@ -141,10 +194,15 @@ export function readMesh(name, bytes) {
   try {
     mesh = readers[ending]();
   } catch (error) {
-    fail(error instanceof RangeError ? `${name} cannot be read: it ends too early.` : `${name} cannot be read: ${error.message}.`);
+    fail(
+      error instanceof RangeError
+        ? `${name} cannot be read: it ends too early.`
+        : `${name} cannot be read: ${error.message}.`,
+    );
   }
   if (!mesh.simplices.length) fail(`${name} has no faces.`);
-  if (!mesh.points.every(Number.isFinite)) fail(`${name} has a coordinate that is no finite number.`);
+  if (!mesh.points.every(Number.isFinite))
+    fail(`${name} has a coordinate that is no finite number.`);
   return mesh;
 }
 
@@ -156,13 +214,17 @@ function rows(array, columns, line) {
 }
 
 export function writeMesh(ending, { points, simplices, corners, volume }) {
-  const n = points.length / 3, m = simplices.length / corners, faces = volume ? boundary(simplices) : simplices;
+  const n = points.length / 3,
+    m = simplices.length / corners,
+    faces = volume ? boundary(simplices) : simplices;
   if (ending === 'obj')
     return `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n${rows(faces, 3, (f) => `f ${Array.from(f, (v) => v + 1).join(' ')}`)}\n`;
   if (ending === 'mesh')
-    return `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${rows(points, 3, (p) => `${p.join(' ')} 0`)}\n` +
-           `${volume ? 'Tetrahedra' : 'Triangles'}\n${m}\n` +
-           `${rows(simplices, corners, (s) => `${Array.from(s, (v) => v + 1).join(' ')} 0`)}\nEnd\n`;
+    return (
+      `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${rows(points, 3, (p) => `${p.join(' ')} 0`)}\n` +
+      `${volume ? 'Tetrahedra' : 'Triangles'}\n${m}\n` +
+      `${rows(simplices, corners, (s) => `${Array.from(s, (v) => v + 1).join(' ')} 0`)}\nEnd\n`
+    );
   return `OFF\n${n} ${faces.length / 3} 0\n${rows(points, 3, (p) => p.join(' '))}\n${rows(faces, 3, (f) => `3 ${f.join(' ')}`)}\n`;
 }
 
@@ -170,7 +232,12 @@ export function writeMesh(ending, { points, simplices, corners, volume }) {
 export function boundary(tetrahedra, points) {
   const faces = new Map();
   for (let t = 0; t < tetrahedra.length; t += 4)
-    for (const [i, j, k] of [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]) {
+    for (const [i, j, k] of [
+      [1, 2, 3],
+      [0, 3, 2],
+      [0, 1, 3],
+      [0, 2, 1],
+    ]) {
       const face = [tetrahedra[t + i], tetrahedra[t + j], tetrahedra[t + k]];
       const key = [...face].sort((a, b) => a - b).join();
       if (!faces.delete(key)) faces.set(key, { face, t });
@@ -185,15 +252,22 @@ export function boundary(tetrahedra, points) {
 
 // six times the volume of the tetrahedron whose corners begin at t
 export function volumeOf(p, tetrahedra, t) {
-  const a = 3 * tetrahedra[t], [u, v, w] = [1, 2, 3].map((k) => {
-    const b = 3 * tetrahedra[t + k];
-    return [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-  });
-  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+  const a = 3 * tetrahedra[t],
+    [u, v, w] = [1, 2, 3].map((k) => {
+      const b = 3 * tetrahedra[t + k];
+      return [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
+    });
+  return (
+    u[0] * (v[1] * w[2] - v[2] * w[1]) +
+    u[1] * (v[2] * w[0] - v[0] * w[2]) +
+    u[2] * (v[0] * w[1] - v[1] * w[0])
+  );
 }
 
 export const writeSelection = (status, comment) => `# ${comment}\n${status.join('\n')}\n`;
 
 // a matrix of four rows for each handle
 export const writeTransforms = (matrices) =>
-  matrices.map((m) => [0, 4, 8, 12].map((r) => Array.from(m.slice(r, r + 4)).join(' ')).join('\n')).join('\n\n') + '\n';
+  matrices
+    .map((m) => [0, 4, 8, 12].map((r) => Array.from(m.slice(r, r + 4)).join(' ')).join('\n'))
+    .join('\n\n') + '\n';

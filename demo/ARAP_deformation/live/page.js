@@ -1,14 +1,25 @@
 // The page: what is open, painted and held, and what happened to it.
 import { Engine } from './engine.js';
-import { boundary, readMesh, volumeOf, writeMesh, writeSelection, writeTransforms } from './files.js';
+import {
+  boundary,
+  readMesh,
+  volumeOf,
+  writeMesh,
+  writeSelection,
+  writeTransforms,
+} from './files.js';
 import { models } from './models.js';
 import { THREE, View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
-const FIXED = 0, FREE = 1, HANDLE = 2;
+const FIXED = 0,
+  FREE = 1,
+  HANDLE = 2;
 const palette = [0xf6c415, 0x2f7fe0, 0x36a852, 0x9b51c9, 0xf08a24, 0x14b8b0, 0xe0569b, 0x8a6d3b];
-const grey = 0xc9ced6, red = 0xd8302f;
-const colourOf = (status) => (status === FIXED ? red : status === FREE ? grey : palette[(status - HANDLE) % palette.length]);
+const grey = 0xc9ced6,
+  red = 0xd8302f;
+const colourOf = (status) =>
+  status === FIXED ? red : status === FREE ? grey : palette[(status - HANDLE) % palette.length];
 const identity = () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const css = (rgb) => `#${rgb.toString(16).padStart(6, '0')}`;
 
@@ -18,7 +29,8 @@ const view = (() => {
   } catch (error) {
     $('message').hidden = false;
     $('message').className = 'error';
-    $('message').firstChild.textContent = 'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+    $('message').firstElementChild.textContent =
+      'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
     throw error;
   }
 })();
@@ -26,13 +38,29 @@ const engine = new Engine(...window.arapParts());
 
 // what is open: points are those of the rest shape
 let shape = null; // { name, points, simplices, corners, volume, faces, diagonal, status, handles, stiffness }
-let tool = 'grab', paints = FIXED, chosen = -1; // the handle with the gizmo
-let hasNewTargets = false, isSettled = true, isHeld = false, failed = '';
-let past = [], now = -1; // undo and redo
-let keys = [], playing = null;
+let tool = 'grab',
+  paints = FIXED,
+  chosen = -1; // the handle with the gizmo
+let hasNewTargets = false,
+  isSettled = true,
+  isHeld = false,
+  failed = '';
+let past = [],
+  now = -1; // undo and redo
+let keys = [],
+  playing = null;
 let spare = null; // an array for the next points
-let dragging = null, stroke = null;
-const measured = { energy: NaN, milliseconds: NaN, iterations: 0, perIteration: 1, frames: 0, steps: 0, message: '' };
+let dragging = null,
+  stroke = null;
+const measured = {
+  energy: NaN,
+  milliseconds: NaN,
+  iterations: 0,
+  perIteration: 1,
+  frames: 0,
+  steps: 0,
+  message: '',
+};
 const history = { energy: [], milliseconds: [] };
 
 // ---- messages
@@ -42,11 +70,12 @@ function say(sentence, isError = false) {
   clearTimeout(messageTimer);
   $('message').hidden = !sentence;
   $('message').className = isError ? 'error' : '';
-  $('message').firstChild.textContent = sentence;
+  $('message').firstElementChild.textContent = sentence;
   if (sentence && !isError) messageTimer = setTimeout(() => say(''), 6000);
 }
-$('message').lastChild.onclick = () => say('');
-const sentence = ({ message }) => // names of files keep their letters
+$('message').lastElementChild.onclick = () => say('');
+const sentence = ({ message }) =>
+  // names of files keep their letters
   `${/^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() : message[0]}${message.slice(1)}${/[.!?]$/.test(message) ? '' : '.'}`;
 const complain = (error) => say(sentence(error), true);
 
@@ -54,7 +83,9 @@ let work = 0;
 async function busy(what, f) {
   ++work;
   $('busy').textContent = what;
-  const timer = setTimeout(() => { $('busy').hidden = false; }, 150);
+  const timer = setTimeout(() => {
+    $('busy').hidden = false;
+  }, 150);
   try {
     return await f();
   } finally {
@@ -67,7 +98,9 @@ async function busy(what, f) {
 
 // A handle is what is painted with one colour, or one point in a face: it moves with its matrix, from the rest shape.
 const rigidParts = (handle) => {
-  const m = new THREE.Matrix4().set(...handle.matrix), p = new THREE.Vector3(), q = new THREE.Quaternion();
+  const m = new THREE.Matrix4().set(...handle.matrix),
+    p = new THREE.Vector3(),
+    q = new THREE.Quaternion();
   m.decompose(p, q, new THREE.Vector3());
   return { m, q, place: new THREE.Vector3(...handle.pivot).applyMatrix4(m) };
 };
@@ -95,33 +128,60 @@ function centre(points, list) {
 // The rigid motion that takes vertices from their rest shape to where they are, by Horn's quaternion: what
 // is painted in a deformed shape stays where it is.
 function fittedMotion(list) {
-  const p = shape.points, q = view.positions, a = centre(p, list), b = centre(q, list), s = Array(9).fill(0);
+  const p = shape.points,
+    q = view.positions,
+    a = centre(p, list),
+    b = centre(q, list),
+    s = Array(9).fill(0);
   let size = 0;
-  for (const v of list) for (let i = 0; i < 3; ++i) for (let j = 0; j < 3; ++j) {
-    const product = (p[3 * v + i] - a[i]) * (q[3 * v + j] - b[j]);
-    s[3 * i + j] += product;
-    size += Math.abs(product);
-  }
-  const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = s, shift = 2 * size || 1;
-  const n = [[xx + yy + zz, yz - zy, zx - xz, xy - yx], [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-             [zx - xz, xy + yx, yy - xx - zz, yz + zy], [xy - yx, zx + xz, yz + zy, zz - xx - yy]];
+  for (const v of list)
+    for (let i = 0; i < 3; ++i)
+      for (let j = 0; j < 3; ++j) {
+        const product = (p[3 * v + i] - a[i]) * (q[3 * v + j] - b[j]);
+        s[3 * i + j] += product;
+        size += Math.abs(product);
+      }
+  const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = s,
+    shift = 2 * size || 1;
+  const n = [
+    [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+    [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+    [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+    [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+  ];
   let e = [1, 0.01, 0.02, 0.03];
   for (let k = 0; k < 300; ++k) {
-    const f = n.map((row, i) => row.reduce((sum, x, j) => sum + x * e[j], shift * e[i])), l = Math.hypot(...f);
+    const f = n.map((row, i) => row.reduce((sum, x, j) => sum + x * e[j], shift * e[i])),
+      l = Math.hypot(...f);
     e = f.map((x) => x / l);
   }
-  const turn = list.length > 2 ? new THREE.Quaternion(e[1], e[2], e[3], e[0]) : new THREE.Quaternion();
+  const turn =
+    list.length > 2 ? new THREE.Quaternion(e[1], e[2], e[3], e[0]) : new THREE.Quaternion();
   return matrixOf(a, turn, new THREE.Vector3(...b));
 }
 
-const isDeformed = () => shape.handles.some((h) => h.matrix.some((x, i) => Math.abs(x - identity()[i]) > 1e-12));
+const isDeformed = () =>
+  shape.handles.some((h) => h.matrix.some((x, i) => Math.abs(x - identity()[i]) > 1e-12));
 
 function newHandle(rest = {}) {
-  return { matrix: identity(), pivot: [0, 0, 0], weight: null, turns: false, point: null, size: 0, ...rest };
+  return {
+    matrix: identity(),
+    pivot: [0, 0, 0],
+    weight: null,
+    turns: false,
+    point: null,
+    size: 0,
+    ...rest,
+  };
 }
 
-const messageOfHandles = () => shape.handles.map(({ matrix, weight, turns, point }) =>
-  ({ matrix, weight: weight ?? Infinity, turns, point }));
+const messageOfHandles = () =>
+  shape.handles.map(({ matrix, weight, turns, point }) => ({
+    matrix,
+    weight: weight ?? Infinity,
+    turns,
+    point,
+  }));
 
 // after painting: which handles there are, and where they turn about
 function recountHandles(fits) {
@@ -131,12 +191,14 @@ function recountHandles(fits) {
     if (s >= HANDLE) sizes.set(s - HANDLE, (sizes.get(s - HANDLE) ?? 0) + 1);
     fixed += s === FIXED;
   }
-  while (shape.handles.length < Math.max(0, ...[...sizes.keys()].map((k) => k + 1))) shape.handles.push(newHandle());
+  while (shape.handles.length < Math.max(0, ...[...sizes.keys()].map((k) => k + 1)))
+    shape.handles.push(newHandle());
   shape.handles.forEach((handle, k) => {
     if (handle.point) return;
     const size = sizes.get(k) ?? 0;
     if (size && (size !== handle.size || fits)) {
-      const list = membersOf(k), isNew = !handle.size;
+      const list = membersOf(k),
+        isNew = !handle.size;
       if (isNew && fits) handle.matrix = fittedMotion(list);
       if (isNew) handle.turns = size === 1;
       handle.pivot = centre(shape.points, list);
@@ -144,10 +206,12 @@ function recountHandles(fits) {
     if (!size) handle.matrix = identity();
     handle.size = size;
   });
-  while (shape.handles.length && !shape.handles.at(-1).size && !shape.handles.at(-1).point) shape.handles.pop();
+  while (shape.handles.length && !shape.handles.at(-1).size && !shape.handles.at(-1).point)
+    shape.handles.pop();
   shape.fixed = fixed;
   isHeld = fixed > 0 || shape.handles.length > 0;
-  if (chosen >= shape.handles.length || (chosen >= 0 && !isThere(shape.handles[chosen]))) chosen = -1;
+  if (chosen >= shape.handles.length || (chosen >= 0 && !isThere(shape.handles[chosen])))
+    chosen = -1;
 }
 const isThere = (handle) => handle.size > 0 || !!handle.point;
 
@@ -173,7 +237,11 @@ view.gizmo.addEventListener('objectChange', () => {
 view.gizmo.addEventListener('dragging-changed', ({ value }) => {
   view.orbit.enabled = !value;
   dragging = value ? { gizmo: true } : null;
-  if (!value) { closeHelp(); isSettled = false; commit(); }
+  if (!value) {
+    closeHelp();
+    isSettled = false;
+    commit();
+  }
 });
 
 function handlesMoved() {
@@ -195,45 +263,74 @@ let stepStart = 0;
 function pump() {
   if (!shape || !engine.isIdle || isSettled) return;
   if (!isHeld) return void (isSettled = true);
-  const moves = hasNewTargets, fast = moves || dragging || playing;
+  const moves = hasNewTargets,
+    fast = moves || dragging || playing;
   const share = measured.perIteration || 1;
-  const iterations = fast ? Math.max(1, Math.min(3, Math.round(50 / share))) : Math.max(5, Math.min(200, Math.round(60 / share)));
+  const iterations = fast
+    ? Math.max(1, Math.min(3, Math.round(50 / share)))
+    : Math.max(5, Math.min(200, Math.round(60 / share)));
   hasNewTargets = false;
   stepStart = performance.now();
-  const of = shape, buffer = spare && spare.length === shape.points.length ? spare : null;
+  const of = shape,
+    buffer = spare && spare.length === shape.points.length ? spare : null;
   spare = null;
-  engine.call('step', { handles: moves ? messageOfHandles() : null, iterations, tolerance: fast ? 0 : 1e-6, buffer },
-              buffer ? [buffer.buffer] : []).then((step) => {
-    if (of !== shape) return;
-    if (!(isSettled && !hasNewTargets)) spare = view.setPositions(step.points);
-    failed = '';
-    ++measured.steps;
-    Object.assign(measured, { energy: step.energy, milliseconds: step.milliseconds, iterations: step.iterations,
-                              message: step.message, gap: step.gap, roundtrip: performance.now() - stepStart });
-    if (step.iterations) measured.perIteration = 0.5 * measured.perIteration + 0.5 * step.milliseconds / step.iterations;
-    history.energy.push(step.energy);
-    history.milliseconds.push(step.milliseconds / Math.max(1, step.iterations));
-    for (const list of Object.values(history)) if (list.length > 110) list.shift();
-    const done = step.result === 'converged' || (!fast && step.firstEnergy - step.energy <= 1e-12 * step.energy);
-    if (done && !hasNewTargets && !dragging && !playing) settle(step);
-    drawPlot();
-    drawInverted();
-    drawMarks();
-    placeGizmo();
-    pump();
-  }, (error) => {
-    if (of !== shape) return;
-    isSettled = true;
-    if (failed !== error.message) complain(error);
-    failed = error.message;
-    spare = null;
-  });
+  engine
+    .call(
+      'step',
+      {
+        handles: moves ? messageOfHandles() : null,
+        iterations,
+        tolerance: fast ? 0 : 1e-6,
+        buffer,
+      },
+      buffer ? [buffer.buffer] : [],
+    )
+    .then(
+      (step) => {
+        if (of !== shape) return;
+        if (!(isSettled && !hasNewTargets)) spare = view.setPositions(step.points);
+        failed = '';
+        ++measured.steps;
+        Object.assign(measured, {
+          energy: step.energy,
+          milliseconds: step.milliseconds,
+          iterations: step.iterations,
+          message: step.message,
+          gap: step.gap,
+          roundtrip: performance.now() - stepStart,
+        });
+        if (step.iterations)
+          measured.perIteration =
+            0.5 * measured.perIteration + (0.5 * step.milliseconds) / step.iterations;
+        history.energy.push(step.energy);
+        history.milliseconds.push(step.milliseconds / Math.max(1, step.iterations));
+        for (const list of Object.values(history)) if (list.length > 110) list.shift();
+        const done =
+          step.result === 'converged' ||
+          (!fast && step.firstEnergy - step.energy <= 1e-12 * step.energy);
+        if (done && !hasNewTargets && !dragging && !playing) settle(step);
+        drawPlot();
+        drawInverted();
+        drawMarks();
+        placeGizmo();
+        pump();
+      },
+      (error) => {
+        if (of !== shape) return;
+        isSettled = true;
+        if (failed !== error.message) complain(error);
+        failed = error.message;
+        spare = null;
+      },
+    );
 }
 
 function settle(step) {
   isSettled = true;
   if (step.unconstrained)
-    say(`${step.unconstrained} ${step.unconstrained === 1 ? 'part of the shape is' : 'parts of the shape are'} held by nothing and stay${step.unconstrained === 1 ? 's' : ''}.`);
+    say(
+      `${step.unconstrained} ${step.unconstrained === 1 ? 'part of the shape is' : 'parts of the shape are'} held by nothing and stay${step.unconstrained === 1 ? 's' : ''}.`,
+    );
   showMeasure();
 }
 
@@ -242,29 +339,49 @@ function settle(step) {
 async function commit() {
   const of = shape;
   const kept = {
-    status: shape.status.slice(), stiffness: shape.stiffness && shape.stiffness.slice(), keys: keys.slice(), chosen,
-    handles: structuredClone(shape.handles), options: options(), measure: $('measure').value, points: shape.points,
+    status: shape.status.slice(),
+    stiffness: shape.stiffness && shape.stiffness.slice(),
+    keys: keys.slice(),
+    chosen,
+    handles: structuredClone(shape.handles),
+    options: options(),
+    measure: $('measure').value,
+    points: shape.points,
   };
   const dropped = past.splice(now + 1);
   past.push(kept);
   now = past.length - 1;
   const largest = Math.max(3, Math.min(60, Math.floor(1.2e7 / shape.points.length)));
-  while (past.length > largest) { dropped.push(past.shift()); --now; }
+  while (past.length > largest) {
+    dropped.push(past.shift());
+    --now;
+  }
   showPanel();
-  kept.state = engine.call('keep').then((answer) => answer.state, () => null);
-  for (const old of dropped) old.state.then((state) => of === shape && state && engine.call('forget', { state }).catch(() => {}));
+  kept.state = engine.call('keep').then(
+    (answer) => answer.state,
+    () => null,
+  );
+  for (const old of dropped)
+    old.state.then(
+      (state) => of === shape && state && engine.call('forget', { state }).catch(() => {}),
+    );
   await kept.state;
 }
 
 async function goTo(index) {
   if (index < 0 || index >= past.length || dragging || stroke) return;
   stopPlaying();
-  const kept = past[index], before = past[now];
+  const kept = past[index],
+    before = past[now];
   now = index;
   const state = await kept.state;
   if (!state) return;
   try {
-    Object.assign(shape, { status: kept.status.slice(), handles: structuredClone(kept.handles), stiffness: kept.stiffness });
+    Object.assign(shape, {
+      status: kept.status.slice(),
+      handles: structuredClone(kept.handles),
+      stiffness: kept.stiffness,
+    });
     keys = kept.keys.slice();
     isSettled = true;
     hasNewTargets = false;
@@ -274,7 +391,8 @@ async function goTo(index) {
       showOptions(kept.options);
       await engine.call('options', { options: kept.options });
     }
-    if (kept.stiffness !== before.stiffness) await engine.call('stiffness', { values: kept.stiffness ?? [] });
+    if (kept.stiffness !== before.stiffness)
+      await engine.call('stiffness', { values: kept.stiffness ?? [] });
     spare = view.setPositions(points);
     chosen = kept.chosen;
     recountHandles(false);
@@ -286,20 +404,29 @@ async function goTo(index) {
     complain(error);
   }
 }
-const undo = () => goTo(now - 1), redo = () => goTo(now + 1);
+const undo = () => goTo(now - 1),
+  redo = () => goTo(now + 1);
 
 // ---- opening
 
 async function open(mesh, name, note) {
   stopPlaying();
   return busy('Opening…', async () => {
-    const { points, simplices, corners, volume } = mesh, n = points.length / 3;
+    const { points, simplices, corners, volume } = mesh,
+      n = points.length / 3;
     if (!n || !simplices.length) throw new Error(`${name} has no faces`);
     await engine.call('open', { points, simplices, corners, volume, weights: $('weights').value });
     const box = new THREE.Box3().setFromArray(points);
     shape = {
-      name, points, simplices, corners, volume, faces: volume ? boundary(simplices, points) : simplices, handles: [],
-      status: mesh.status?.slice() ?? new Int32Array(n).fill(FREE), stiffness: null,
+      name,
+      points,
+      simplices,
+      corners,
+      volume,
+      faces: volume ? boundary(simplices, points) : simplices,
+      handles: [],
+      status: mesh.status?.slice() ?? new Int32Array(n).fill(FREE),
+      stiffness: null,
       diagonal: box.getSize(new THREE.Vector3()).length(),
     };
     neighbours = null;
@@ -331,9 +458,15 @@ async function open(mesh, name, note) {
 
 async function openFile(file) {
   try {
-    const mesh = await busy(`Reading ${file.name}…`, async () => readMesh(file.name, await file.arrayBuffer()));
+    const mesh = await busy(`Reading ${file.name}…`, async () =>
+      readMesh(file.name, await file.arrayBuffer()),
+    );
     closeHelp();
-    await open(mesh, file.name.replace(/\.\w+$/, ''), mesh.note || `${file.name}: paint what stays, then what you hold.`);
+    await open(
+      mesh,
+      file.name.replace(/\.\w+$/, ''),
+      mesh.note || `${file.name}: paint what stays, then what you hold.`,
+    );
     $('model').value = '';
   } catch (error) {
     complain(error);
@@ -353,19 +486,24 @@ async function openModel(id) {
 // ---- options
 
 const options = () => ({
-  cells: $('cells').value, minimizer: $('minimizer').value,
-  bending_length: String($('bending').value / 100 * (shape?.diagonal ?? 1)),
+  cells: $('cells').value,
+  minimizer: $('minimizer').value,
+  bending_length: String(($('bending').value / 100) * (shape?.diagonal ?? 1)),
 });
 function showOptions(kept) {
   $('cells').value = kept.cells;
   $('minimizer').value = kept.minimizer;
-  $('bending').value = kept.bending_length / shape.diagonal * 100;
+  $('bending').value = (kept.bending_length / shape.diagonal) * 100;
   showPanel();
 }
 
 async function optionsChanged() {
-  const before = past[now].options, wanted = options();
-  if (wanted.cells === 'elements') { $('bending').value = 0; wanted.bending_length = '0'; }
+  const before = past[now].options,
+    wanted = options();
+  if (wanted.cells === 'elements') {
+    $('bending').value = 0;
+    wanted.bending_length = '0';
+  }
   try {
     // in an order in which none refuses the other
     await engine.call('options', { options: { bending_length: '0' } });
@@ -389,7 +527,13 @@ async function optionsChanged() {
 
 async function weightsChanged() {
   try {
-    await busy('Weights…', () => engine.call('weights', { weights: $('weights').value, handles: messageOfHandles(), options: options() }));
+    await busy('Weights…', () =>
+      engine.call('weights', {
+        weights: $('weights').value,
+        handles: messageOfHandles(),
+        options: options(),
+      }),
+    );
     if (shape.stiffness) await engine.call('stiffness', { values: shape.stiffness });
     past = [];
     now = -1;
@@ -405,24 +549,36 @@ async function weightsChanged() {
 // ---- painting
 
 let neighbours = null;
-function neighbourLists() { // compressed rows
+function neighbourLists() {
+  // compressed rows
   if (neighbours) return neighbours;
-  const n = shape.status.length, s = shape.simplices, c = shape.corners, starts = new Uint32Array(n + 1);
+  const n = shape.status.length,
+    s = shape.simplices,
+    c = shape.corners,
+    starts = new Uint32Array(n + 1);
   for (const v of s) starts[v + 1] += c - 1;
   for (let v = 0; v < n; ++v) starts[v + 1] += starts[v];
-  const list = new Uint32Array(starts[n]), next = starts.slice();
-  for (let i = 0; i < s.length; i += c) for (let a = 0; a < c; ++a) for (let b = 0; b < c; ++b)
-    if (a !== b) list[next[s[i + a]]++] = s[i + b];
+  const list = new Uint32Array(starts[n]),
+    next = starts.slice();
+  for (let i = 0; i < s.length; i += c)
+    for (let a = 0; a < c; ++a)
+      for (let b = 0; b < c; ++b) if (a !== b) list[next[s[i + a]]++] = s[i + b];
   return (neighbours = { starts, list });
 }
 
 // what is connected to a vertex by vertices of its status
 function flood(seed) {
-  const { starts, list } = neighbourLists(), wanted = shape.status[seed], reached = new Uint8Array(shape.status.length), queue = [seed];
+  const { starts, list } = neighbourLists(),
+    wanted = shape.status[seed],
+    reached = new Uint8Array(shape.status.length),
+    queue = [seed];
   reached[seed] = 1;
   for (let i = 0; i < queue.length; ++i)
     for (let k = starts[queue[i]]; k < starts[queue[i] + 1]; ++k)
-      if (!reached[list[k]] && shape.status[list[k]] === wanted) { reached[list[k]] = 1; queue.push(list[k]); }
+      if (!reached[list[k]] && shape.status[list[k]] === wanted) {
+        reached[list[k]] = 1;
+        queue.push(list[k]);
+      }
   return queue;
 }
 
@@ -433,7 +589,8 @@ function stiffnessOfVertices() {
 
 function paint(vertices) {
   if (tool === 'stiffness') {
-    const values = stiffnessOfVertices(), k = 10 ** Number($('stiffness').value);
+    const values = stiffnessOfVertices(),
+      k = 10 ** Number($('stiffness').value);
     for (const v of vertices) values[v] = k;
   } else for (const v of vertices) shape.status[v] = paints;
   stroke.hasPainted ||= vertices.length > 0;
@@ -443,31 +600,43 @@ function paint(vertices) {
 const isInside = (polygon, x, y) => {
   let inside = false;
   for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {
-    const [a, b] = polygon[i], [c, d] = polygon[j];
-    if ((b > y) !== (d > y) && x < (c - a) * (y - b) / (d - b) + a) inside = !inside;
+    const [a, b] = polygon[i],
+      [c, d] = polygon[j];
+    if (b > y !== d > y && x < ((c - a) * (y - b)) / (d - b) + a) inside = !inside;
   }
   return inside;
 };
 
 function nearestSeen(screen, x, y, within, accepts = () => true) {
-  let best = -1, least = within * within;
+  let best = -1,
+    least = within * within;
   for (let v = 0; v < screen.xs.length; ++v) {
     if (!screen.seen[v]) continue;
     const d = (screen.xs[v] - x) ** 2 + (screen.ys[v] - y) ** 2;
-    if (d < least && accepts(v)) { least = d; best = v; }
+    if (d < least && accepts(v)) {
+      least = d;
+      best = v;
+    }
   }
   return best;
 }
 
 function brushAt(x, y) {
-  const { xs, ys, seen } = stroke.screen, radius = Number($('brush').value), [x0, y0] = stroke.last ?? [x, y];
-  const dx = x - x0, dy = y - y0, l = dx * dx + dy * dy, list = [];
-  for (let v = 0; v < xs.length; ++v) { // along the way from the last place
+  const { xs, ys, seen } = stroke.screen,
+    radius = Number($('brush').value),
+    [x0, y0] = stroke.last ?? [x, y];
+  const dx = x - x0,
+    dy = y - y0,
+    l = dx * dx + dy * dy,
+    list = [];
+  for (let v = 0; v < xs.length; ++v) {
+    // along the way from the last place
     if (!seen[v]) continue;
     const t = l ? Math.max(0, Math.min(1, ((xs[v] - x0) * dx + (ys[v] - y0) * dy) / l)) : 0;
     if ((xs[v] - x0 - t * dx) ** 2 + (ys[v] - y0 - t * dy) ** 2 < radius * radius) list.push(v);
   }
-  if (!list.length && !stroke.last) { // coarser than the brush
+  if (!list.length && !stroke.last) {
+    // coarser than the brush
     const v = nearestSeen(stroke.screen, x, y, 40);
     if (v >= 0) list.push(v);
   }
@@ -476,11 +645,14 @@ function brushAt(x, y) {
 }
 
 function paintArea() {
-  const { screen, path } = stroke, [[x0, y0], [x1, y1]] = [path[0], path.at(-1)], list = [];
+  const { screen, path } = stroke,
+    [[x0, y0], [x1, y1]] = [path[0], path.at(-1)],
+    list = [];
   if (Math.hypot(x1 - x0, y1 - y0) < 3 && path.length < 4) return;
-  const hits = tool === 'box'
-    ? (x, y) => (x - x0) * (x - x1) <= 0 && (y - y0) * (y - y1) <= 0
-    : (x, y) => isInside(path, x, y);
+  const hits =
+    tool === 'box'
+      ? (x, y) => (x - x0) * (x - x1) <= 0 && (y - y0) * (y - y1) <= 0
+      : (x, y) => isInside(path, x, y);
   for (let v = 0; v < screen.xs.length; ++v)
     if ((screen.seen[v] || $('through').checked) && hits(screen.xs[v], screen.ys[v])) list.push(v);
   paint(list);
@@ -504,7 +676,8 @@ async function painted() {
     hasNewTargets = shape.handles.length > 0;
     draw();
     await commit();
-    if (!shape.fixed && shape.handles.length === 1) say('Now paint what stays: choose Fixed. Else the whole shape moves with its handle.');
+    if (!shape.fixed && shape.handles.length === 1)
+      say('Now paint what stays: choose Fixed. Else the whole shape moves with its handle.');
     pump();
   } catch (error) {
     complain(error);
@@ -512,20 +685,27 @@ async function painted() {
   }
 }
 
-const ofSimplices = (values) => Float64Array.from({ length: shape.simplices.length / shape.corners }, (_, s) => {
-  let sum = 0;
-  for (let k = 0; k < shape.corners; ++k) sum += values[shape.simplices[s * shape.corners + k]] / shape.corners;
-  return sum;
-});
+const ofSimplices = (values) =>
+  Float64Array.from({ length: shape.simplices.length / shape.corners }, (_, s) => {
+    let sum = 0;
+    for (let k = 0; k < shape.corners; ++k)
+      sum += values[shape.simplices[s * shape.corners + k]] / shape.corners;
+    return sum;
+  });
 
 // a handle in a face, or at a vertex if that is clicked
 async function placePoint(x, y) {
   const hit = view.ray(x, y).intersectObject(view.mesh)[0];
   if (!hit) return;
   // the place in the rest shape: the same barycentric coordinates in the face that was hit
-  const face = [hit.face.a, hit.face.b, hit.face.c], corners = face.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
-  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3())?.toArray() ?? [1, 0, 0];
-  const pivot = [0, 1, 2].map((i) => face.reduce((sum, v, k) => sum + b[k] * shape.points[3 * v + i], 0));
+  const face = [hit.face.a, hit.face.b, hit.face.c],
+    corners = face.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
+  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3())?.toArray() ?? [
+    1, 0, 0,
+  ];
+  const pivot = [0, 1, 2].map((i) =>
+    face.reduce((sum, v, k) => sum + b[k] * shape.points[3 * v + i], 0),
+  );
   try {
     let place = { simplex: hit.faceIndex, coordinates: b };
     if (shape.volume) ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
@@ -551,7 +731,9 @@ async function placePoint(x, y) {
 
 const drawing = $('drawing').getContext('2d');
 function drawStroke(x, y) {
-  const { clientWidth: w, clientHeight: h } = $('view'), canvas = drawing.canvas, ratio = devicePixelRatio;
+  const { clientWidth: w, clientHeight: h } = $('view'),
+    canvas = drawing.canvas,
+    ratio = devicePixelRatio;
   if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
     canvas.width = Math.round(w * ratio);
     canvas.height = Math.round(h * ratio);
@@ -568,7 +750,8 @@ function drawStroke(x, y) {
   } else if (stroke?.path && tool === 'box') {
     const [[x0, y0], [x1, y1]] = [stroke.path[0], stroke.path.at(-1)];
     drawing.rect(x0, y0, x1 - x0, y1 - y0);
-  } else if (stroke?.path) stroke.path.forEach(([a, b], i) => (i ? drawing.lineTo(a, b) : drawing.moveTo(a, b)));
+  } else if (stroke?.path)
+    stroke.path.forEach(([a, b], i) => (i ? drawing.lineTo(a, b) : drawing.moveTo(a, b)));
   else return;
   drawing.fill();
   drawing.stroke();
@@ -584,7 +767,8 @@ function pressed(event) {
   if (event.target !== view.canvas || !shape) return;
   view.canvas.focus({ preventScroll: true });
   pointers.add(event.pointerId);
-  if (pointers.size > 1) { // two fingers turn the view
+  if (pointers.size > 1) {
+    // two fingers turn the view
     cancelStroke();
     return;
   }
@@ -593,7 +777,8 @@ function pressed(event) {
   const [x, y] = at(event);
   if (tool === 'grab') {
     const { clientWidth: w, clientHeight: h } = view.container;
-    if (chosen >= 0) view.gizmo.pointerHover({ x: 2 * x / w - 1, y: 1 - 2 * y / h, button: -1 });
+    if (chosen >= 0)
+      view.gizmo.pointerHover({ x: (2 * x) / w - 1, y: 1 - (2 * y) / h, button: -1 });
     if (chosen >= 0 && view.gizmo.axis) return view.letTurn(false);
     const k = handleAt(x, y, event.pointerType === 'touch' ? 30 : 16);
     if (k < 0) return;
@@ -606,7 +791,12 @@ function pressed(event) {
   if (tool !== 'box' && tool !== 'lasso' && !screen.isOn(x, y)) return; // beside the shape the view turns
   view.letTurn(false);
   if (tool === 'point') return void placePoint(x, y);
-  stroke = { screen, before: shape.status.slice(), stiffness: shape.stiffness?.slice() ?? null, id: event.pointerId };
+  stroke = {
+    screen,
+    before: shape.status.slice(),
+    stiffness: shape.stiffness?.slice() ?? null,
+    id: event.pointerId,
+  };
   view.canvas.setPointerCapture(event.pointerId);
   if (tool === 'flood') {
     const seed = nearestSeen(screen, x, y, 60);
@@ -617,11 +807,16 @@ function pressed(event) {
 }
 
 function handleAt(x, y, within) {
-  let best = -1, least = within;
+  let best = -1,
+    least = within;
   shape.handles.forEach((handle, k) => {
     if (!handle.point) return;
-    const [a, b] = view.toScreen(...rigidParts(handle).place), d = Math.hypot(a - x, b - y);
-    if (d < least) { least = d; best = k; }
+    const [a, b] = view.toScreen(...rigidParts(handle).place),
+      d = Math.hypot(a - x, b - y);
+    if (d < least) {
+      least = d;
+      best = k;
+    }
   });
   if (best >= 0 || !shape.handles.length) return best;
   const v = nearestSeen(view.screen(), x, y, within, (w) => shape.status[w] >= HANDLE);
@@ -631,19 +826,27 @@ function handleAt(x, y, within) {
 // in the plane of the screen through the handle
 function grab(event, x, y, k) {
   const { place, q } = rigidParts(shape.handles[k]);
-  const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(view.camera.getWorldDirection(new THREE.Vector3()), place);
+  const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(
+    view.camera.getWorldDirection(new THREE.Vector3()),
+    place,
+  );
   const hit = (a, b) => view.ray(a, b).ray.intersectPlane(plane, new THREE.Vector3());
   const start = hit(x, y);
   if (!start) return;
   view.canvas.setPointerCapture(event.pointerId);
-  dragging = { id: event.pointerId, k, hasMoved: false, to: (a, b) => {
-    const p = hit(a, b);
-    if (!p) return;
-    const handle = shape.handles[k];
-    handle.matrix = matrixOf(handle.pivot, q, p.sub(start).add(place));
-    dragging.hasMoved = true;
-    handlesMoved();
-  } };
+  dragging = {
+    id: event.pointerId,
+    k,
+    hasMoved: false,
+    to: (a, b) => {
+      const p = hit(a, b);
+      if (!p) return;
+      const handle = shape.handles[k];
+      handle.matrix = matrixOf(handle.pivot, q, p.sub(start).add(place));
+      dragging.hasMoved = true;
+      handlesMoved();
+    },
+  };
 }
 
 function cancelStroke() {
@@ -672,7 +875,10 @@ function released(event) {
     const { hasMoved } = dragging;
     dragging = null;
     placeGizmo();
-    if (hasMoved) { closeHelp(); commit(); }
+    if (hasMoved) {
+      closeHelp();
+      commit();
+    }
     isSettled = false;
   }
   if (!stroke || stroke.id !== event.pointerId) return;
@@ -692,25 +898,38 @@ $('view').addEventListener('contextmenu', (event) => event.preventDefault());
 
 // ---- drawing
 
-const ramp = [[0x30, 0x4f, 0x9e], [0x4f, 0xb0, 0xc6], [0xf2, 0xf0, 0xd0], [0xf2, 0x9a, 0x3c], [0xb3, 0x13, 0x2b]];
+const ramp = [
+  [0x30, 0x4f, 0x9e],
+  [0x4f, 0xb0, 0xc6],
+  [0xf2, 0xf0, 0xd0],
+  [0xf2, 0x9a, 0x3c],
+  [0xb3, 0x13, 0x2b],
+];
 function rampColour(t) {
-  const x = Math.max(0, Math.min(1, t || 0)) * (ramp.length - 1), i = Math.min(ramp.length - 2, Math.floor(x));
-  return ramp[i].reduce((rgb, c, k) => (rgb << 8) | Math.round(c + (x - i) * (ramp[i + 1][k] - c)), 0);
+  const x = Math.max(0, Math.min(1, t || 0)) * (ramp.length - 1),
+    i = Math.min(ramp.length - 2, Math.floor(x));
+  return ramp[i].reduce(
+    (rgb, c, k) => (rgb << 8) | Math.round(c + (x - i) * (ramp[i + 1][k] - c)),
+    0,
+  );
 }
 
-let values = null, range = [0, 1];
+let values = null,
+  range = [0, 1];
 function drawColours() {
   if ($('measure').value === 'stiffness' || (stroke && tool === 'stiffness')) {
     const s = shape.stiffness;
     view.setColours((v) => (s && s[v] !== 1 ? rampColour((Math.log10(s[v]) + 2) / 5) : grey));
-  } else if (values) view.setColours((v) => rampColour((values[v] - range[0]) / (range[1] - range[0])));
+  } else if (values)
+    view.setColours((v) => rampColour((values[v] - range[0]) / (range[1] - range[0])));
   else view.setColours((v) => colourOf(shape.status[v]));
 }
 
 // the measure at the vertices, where the shape has come to rest or now and then
 let isMeasuring = false;
 async function showMeasure() {
-  const measure = $('measure').value, of = shape;
+  const measure = $('measure').value,
+    of = shape;
   if (!measure || measure === 'stiffness') {
     values = null;
     $('legend').hidden = true;
@@ -723,14 +942,20 @@ async function showMeasure() {
     const answer = await engine.call('colours', { measure });
     if (of !== shape || $('measure').value !== measure) return;
     values = answer.values;
-    const sizes = Float64Array.from(values, Math.abs).sort(), top = sizes[Math.floor(0.995 * (sizes.length - 1))] || 1e-3;
+    const sizes = Float64Array.from(values, Math.abs).sort(),
+      top = sizes[Math.floor(0.995 * (sizes.length - 1))] || 1e-3;
     range = measure === 'size_change' ? [-top, top] : [0, top];
-    const unit = (x) => (measure === 'angle_change' ? `${x.toPrecision(3)}°` : `${(100 * x).toPrecision(3)}%`);
+    const unit = (x) =>
+      measure === 'angle_change' ? `${x.toPrecision(3)}°` : `${(100 * x).toPrecision(3)}%`;
     $('legend').hidden = false;
-    $('legend').firstElementChild.style.background = `linear-gradient(90deg, ${ramp.map((c) => `rgb(${c})`).join()})`;
-    $('legend').lastElementChild.replaceChildren(...range.map((x) => Object.assign(document.createElement('b'), { textContent: unit(x) })));
+    $('legend').firstElementChild.style.background =
+      `linear-gradient(90deg, ${ramp.map((c) => `rgb(${c})`).join()})`;
+    $('legend').lastElementChild.replaceChildren(
+      ...range.map((x) => Object.assign(document.createElement('b'), { textContent: unit(x) })),
+    );
     const { edgeLengthError, areaChange, volumeChange, invertedSimplices } = answer.quality;
-    $('quality').textContent = `Edges ${(100 * edgeLengthError).toPrecision(3)}%, area ${(100 * areaChange).toPrecision(3)}%` +
+    $('quality').textContent =
+      `Edges ${(100 * edgeLengthError).toPrecision(3)}%, area ${(100 * areaChange).toPrecision(3)}%` +
       (Number.isFinite(volumeChange) ? `, volume ${(100 * volumeChange).toPrecision(3)}%` : '') +
       (shape.volume ? `, ${invertedSimplices} inverted` : '');
     drawColours();
@@ -743,20 +968,29 @@ async function showMeasure() {
 
 function drawInverted() {
   if (!shape.volume) return view.setInverted([]);
-  const p = view.positions, s = shape.simplices, corners = [];
+  const p = view.positions,
+    s = shape.simplices,
+    corners = [];
   shape.inverted = 0;
   for (let t = 0; t < s.length; t += 4) {
     if (volumeOf(p, s, t) * volumeOf(shape.points, s, t) >= 0) continue;
     ++shape.inverted;
-    for (const [i, j, k] of [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
-      for (const c of [i, j, k]) corners.push(p[3 * s[t + c]], p[3 * s[t + c] + 1], p[3 * s[t + c] + 2]);
+    for (const [i, j, k] of [
+      [1, 2, 3],
+      [0, 3, 2],
+      [0, 1, 3],
+      [0, 2, 1],
+    ])
+      for (const c of [i, j, k])
+        corners.push(p[3 * s[t + c]], p[3 * s[t + c] + 1], p[3 * s[t + c] + 2]);
   }
   view.setInverted(corners);
 }
 
 // points for what is too small to be seen as a region
 function drawMarks() {
-  const points = [], colours = [];
+  const points = [],
+    colours = [];
   shape.handles.forEach((handle, k) => {
     if (!handle.point && (handle.size === 0 || handle.size > 6)) return;
     points.push(...rigidParts(handle).place.toArray());
@@ -764,28 +998,50 @@ function drawMarks() {
   });
   if (shape.fixed && shape.fixed <= 12)
     for (let v = 0; v < shape.status.length; ++v)
-      if (shape.status[v] === FIXED) { points.push(...view.positions.subarray(3 * v, 3 * v + 3)); colours.push(red); }
+      if (shape.status[v] === FIXED) {
+        points.push(...view.positions.subarray(3 * v, 3 * v + 3));
+        colours.push(red);
+      }
   view.setMarks(points, colours);
 }
 
 function drawPlot() {
-  const canvas = $('plot'), c = canvas.getContext('2d'), { width: w, height: h } = canvas;
+  const canvas = $('plot'),
+    c = canvas.getContext('2d'),
+    { width: w, height: h } = canvas;
   c.clearRect(0, 0, w, h);
   c.font = '22px system-ui, sans-serif';
   const line = (list, colour, low, high) => {
     c.beginPath();
-    list.forEach((x, i) => c.lineTo(8 + i * (w - 16) / 109, h - 8 - (h - 48) * (x - low) / (high - low || 1)));
+    list.forEach((x, i) =>
+      c.lineTo(8 + (i * (w - 16)) / 109, h - 8 - ((h - 48) * (x - low)) / (high - low || 1)),
+    );
     c.strokeStyle = colour;
     c.lineWidth = 3;
     c.stroke();
   };
-  const logs = history.energy.map((e) => Math.log10(Math.max(e, 1e-300))), top = Math.max(...logs), bottom = Math.max(Math.min(...logs), top - 6);
-  line(logs.map((x) => Math.max(x, bottom)), '#1f6fd6', bottom, top);
+  const logs = history.energy.map((e) => Math.log10(Math.max(e, 1e-300))),
+    top = Math.max(...logs),
+    bottom = Math.max(Math.min(...logs), top - 6);
+  line(
+    logs.map((x) => Math.max(x, bottom)),
+    '#1f6fd6',
+    bottom,
+    top,
+  );
   line(history.milliseconds, '#d97706', 0, Math.max(...history.milliseconds));
   c.fillStyle = '#1f6fd6';
-  c.fillText(`energy ${Number.isFinite(measured.energy) ? measured.energy.toPrecision(4) : '–'}`, 8, 26);
+  c.fillText(
+    `energy ${Number.isFinite(measured.energy) ? measured.energy.toPrecision(4) : '–'}`,
+    8,
+    26,
+  );
   c.fillStyle = '#b45309';
-  c.fillText(`${Number.isFinite(measured.milliseconds) ? (measured.milliseconds / Math.max(1, measured.iterations)).toFixed(1) : '–'} ms/iteration`, w - 210, 26);
+  c.fillText(
+    `${Number.isFinite(measured.milliseconds) ? (measured.milliseconds / Math.max(1, measured.iterations)).toFixed(1) : '–'} ms/iteration`,
+    w - 210,
+    26,
+  );
 }
 
 function draw() {
@@ -807,7 +1063,10 @@ function addKey() {
 function stopPlaying() {
   playing?.recorder?.stop();
   playing = null;
-  if (shape) { placeGizmo(); showPanel(); }
+  if (shape) {
+    placeGizmo();
+    showPanel();
+  }
 }
 
 function play(recorder) {
@@ -815,36 +1074,62 @@ function play(recorder) {
   const usable = keys.filter((key) => key.length === shape.handles.length);
   if (!usable.length) return say('There is no key frame: move a handle, and choose Add.', true);
   const path = [shape.handles.map(identity), ...usable];
-  playing = { path, start: performance.now(), seconds: 1.5, recorder, last: shape.handles.map((h) => h.matrix) };
+  playing = {
+    path,
+    start: performance.now(),
+    seconds: 1.5,
+    recorder,
+    last: shape.handles.map((h) => h.matrix),
+  };
   recorder?.start();
   placeGizmo();
   showPanel();
 }
 
 function playFrame(time) {
-  const { path, start, seconds } = playing, t = (time - start) / 1000 / seconds, i = Math.floor(t);
-  const isEnd = i >= path.length - 1, share = isEnd ? 1 : t - i, from = path[isEnd ? path.length - 2 : Math.max(0, i)], to = path[isEnd ? path.length - 1 : i + 1];
+  const { path, start, seconds } = playing,
+    t = (time - start) / 1000 / seconds,
+    i = Math.floor(t);
+  const isEnd = i >= path.length - 1,
+    share = isEnd ? 1 : t - i,
+    from = path[isEnd ? path.length - 2 : Math.max(0, i)],
+    to = path[isEnd ? path.length - 1 : i + 1];
   shape.handles.forEach((handle, k) => {
-    const a = rigidParts({ ...handle, matrix: from[k] }), b = rigidParts({ ...handle, matrix: to[k] });
-    handle.matrix = isEnd ? to[k].slice() : matrixOf(handle.pivot, a.q.slerp(b.q, share), a.place.lerp(b.place, share));
+    const a = rigidParts({ ...handle, matrix: from[k] }),
+      b = rigidParts({ ...handle, matrix: to[k] });
+    handle.matrix = isEnd
+      ? to[k].slice()
+      : matrixOf(handle.pivot, a.q.slerp(b.q, share), a.place.lerp(b.place, share));
   });
   handlesMoved();
-  if (isEnd) { stopPlaying(); commit(); }
+  if (isEnd) {
+    stopPlaying();
+    commit();
+  }
 }
 
 function film() {
-  const type = ['video/webm;codecs=vp9', 'video/webm', 'video/mp4'].find((t) => window.MediaRecorder?.isTypeSupported(t));
+  const type = ['video/webm;codecs=vp9', 'video/webm', 'video/mp4'].find((t) =>
+    window.MediaRecorder?.isTypeSupported(t),
+  );
   if (!type) return say('This browser cannot record films.', true);
-  const recorder = new MediaRecorder(view.canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 6e6 }), parts = [];
+  const recorder = new MediaRecorder(view.canvas.captureStream(30), {
+      mimeType: type,
+      videoBitsPerSecond: 6e6,
+    }),
+    parts = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
-  recorder.onstop = () => save(`${shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`, new Blob(parts, { type }));
+  recorder.onstop = () =>
+    save(`${shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`, new Blob(parts, { type }));
   play(recorder);
 }
 
 // ---- saving
 
 function save(name, content) {
-  const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type: 'text/plain' }));
+  const url = URL.createObjectURL(
+    content instanceof Blob ? content : new Blob([content], { type: 'text/plain' }),
+  );
   Object.assign(document.createElement('a'), { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
   say(`${name} was saved.`);
@@ -858,16 +1143,24 @@ function filed() {
 }
 
 function commandLine() {
-  const { name, volume } = shape, { cells, minimizer } = options(), ending = volume ? 'mesh' : 'off', { numbers } = filed();
+  const { name, volume } = shape,
+    { cells, minimizer } = options(),
+    ending = volume ? 'mesh' : 'off',
+    { numbers } = filed();
   const soft = numbers.map((k) => shape.handles[k].weight).find((w) => w !== null);
-  return `arap_deform ${name}_rest.${ending} -o out.${ending} --selection ${name}.sel` +
-    (numbers.length ? ` --transform ${name}.def` : '') + ` --cells ${cells} --weights ${$('weights').value}` +
-    ` --minimizer ${minimizer} --bending ${$('bending').value / 100}` + (soft === undefined ? '' : ` --soft ${soft}`) +
-    (numbers.length && numbers.every((k) => shape.handles[k].turns) ? ' --turn' : '');
+  return (
+    `arap_deform ${name}_rest.${ending} -o out.${ending} --selection ${name}.sel` +
+    (numbers.length ? ` --transform ${name}.def` : '') +
+    ` --cells ${cells} --weights ${$('weights').value}` +
+    ` --minimizer ${minimizer} --bending ${$('bending').value / 100}` +
+    (soft === undefined ? '' : ` --soft ${soft}`) +
+    (numbers.length && numbers.every((k) => shape.handles[k].turns) ? ' --turn' : '')
+  );
 }
 
 const saves = {
-  'Mesh .off': () => saveMesh('off', 'points', ''), '.obj': () => saveMesh('obj', 'points', ''),
+  'Mesh .off': () => saveMesh('off', 'points', ''),
+  '.obj': () => saveMesh('obj', 'points', ''),
   '.mesh': () => saveMesh('mesh', 'points', ''),
   'Rest shape': () => saveMesh(shape.volume ? 'mesh' : 'off', 'rest', '_rest'),
   Selection: () => save(`${shape.name}.sel`, writeSelection(filed().status, commandLine())),
@@ -879,7 +1172,9 @@ const saves = {
   'Key frames': () => {
     const { numbers } = filed();
     if (!keys.length) return say('There is no key frame: move a handle, and choose Add.', true);
-    keys.forEach((key, i) => save(`${shape.name}-${i + 1}.def`, writeTransforms(numbers.map((k) => key[k] ?? identity()))));
+    keys.forEach((key, i) =>
+      save(`${shape.name}-${i + 1}.def`, writeTransforms(numbers.map((k) => key[k] ?? identity()))),
+    );
   },
   Picture: () => {
     const shown = view.gizmo.getHelper().visible;
@@ -894,7 +1189,10 @@ const saves = {
 async function saveMesh(ending, which, suffix) {
   try {
     const answer = await engine.call('points');
-    save(`${shape.name}${suffix}.${ending}`, writeMesh(ending, { ...shape, points: answer[which] }));
+    save(
+      `${shape.name}${suffix}.${ending}`,
+      writeMesh(ending, { ...shape, points: answer[which] }),
+    );
   } catch (error) {
     complain(error);
   }
@@ -902,7 +1200,8 @@ async function saveMesh(ending, which, suffix) {
 
 // ---- the panel
 
-const icon = (path) => `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" stroke-width="1.8" aria-hidden="true">${path}</svg>`;
+const icon = (path) =>
+  `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" stroke-width="1.8" aria-hidden="true">${path}</svg>`;
 const tools = {
   grab: ['M12 3v18M3 12h18M9 6l3-3 3 3M9 18l3 3 3-3M6 9l-3 3 3 3M18 9l3 3-3 3', 'Grab', 'g'],
   brush: ['M20 4l-9 9M11 12c-3-1-5 1-5 4 0 2-1 3-3 3 4 3 10 1 10-5z', 'Brush', 'b'],
@@ -917,11 +1216,13 @@ function setTool(name) {
   tool = name;
   drawStroke();
   placeGizmo();
-  view.canvas.style.cursor = { grab: 'grab', brush: 'none', stiffness: 'none' }[name] ?? 'crosshair';
+  view.canvas.style.cursor =
+    { grab: 'grab', brush: 'none', stiffness: 'none' }[name] ?? 'crosshair';
   showPanel();
 }
 
-const button = (text, press, title = '') => Object.assign(document.createElement('button'), { textContent: text, onclick: press, title });
+const button = (text, press, title = '') =>
+  Object.assign(document.createElement('button'), { textContent: text, onclick: press, title });
 
 function showPanel() {
   for (const b of $('tools').children) b.classList.toggle('on', b.dataset.tool === tool);
@@ -930,7 +1231,12 @@ function showPanel() {
     const b = button('', () => {
       paints = status;
       if (tool === 'grab' || tool === 'point' || tool === 'stiffness') setTool('brush');
-      if (status >= HANDLE && shape.handles[status - HANDLE] && isThere(shape.handles[status - HANDLE])) choose(status - HANDLE);
+      if (
+        status >= HANDLE &&
+        shape.handles[status - HANDLE] &&
+        isThere(shape.handles[status - HANDLE])
+      )
+        choose(status - HANDLE);
       showPanel();
     });
     b.innerHTML = `<i style="background:${css(colourOf(status))}"></i>${text}`;
@@ -938,14 +1244,21 @@ function showPanel() {
     return b;
   };
   const painted = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
-  const next = Array.from({ length: 99 }, (_, k) => k).find((k) => !shape.handles[k] || !isThere(shape.handles[k]));
-  $('regions').replaceChildren(region(FREE, 'Free'), region(FIXED, 'Fixed'),
+  const next = Array.from({ length: 99 }, (_, k) => k).find(
+    (k) => !shape.handles[k] || !isThere(shape.handles[k]),
+  );
+  $('regions').replaceChildren(
+    region(FREE, 'Free'),
+    region(FIXED, 'Fixed'),
     ...painted.filter((k) => k !== next).map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
-    region(next + HANDLE, next ? 'New handle' : 'Handle 1'));
+    region(next + HANDLE, next ? 'New handle' : 'Handle 1'),
+  );
   const handle = shape.handles[chosen];
   $('handle').hidden = !handle;
   if (handle) {
-    $('handle').querySelector('h2').textContent = handle.point ? `Point ${chosen + 1}` : `Handle ${chosen + 1}`;
+    $('handle').querySelector('h2').textContent = handle.point
+      ? `Point ${chosen + 1}`
+      : `Handle ${chosen + 1}`;
     $('soft').checked = handle.weight !== null;
     $('weight').disabled = handle.weight === null;
     if (handle.weight !== null) $('weight').value = Math.log10(handle.weight);
@@ -956,21 +1269,35 @@ function showPanel() {
   $('turns').classList.toggle('on', view.gizmo.mode === 'rotate');
   $('undo').disabled = now <= 0;
   $('redo').disabled = now >= past.length - 1;
-  $('name').textContent = `${shape.name}: ${(shape.points.length / 3).toLocaleString('en')} vertices, ` +
+  $('name').textContent =
+    `${shape.name}: ${(shape.points.length / 3).toLocaleString('en')} vertices, ` +
     `${(shape.simplices.length / shape.corners).toLocaleString('en')} ${shape.volume ? 'tetrahedra' : 'triangles'}`;
-  const shown = (id, text) => { $(id).parentElement.querySelector('output').textContent = text; };
+  const shown = (id, text) => {
+    $(id).parentElement.querySelector('output').textContent = text;
+  };
   shown('brush', `${$('brush').value} px`);
   shown('weight', handle?.weight != null ? (10 ** $('weight').value).toPrecision(2) : 'hard');
   shown('bending', $('bending').value === '0' ? 'none' : `${$('bending').value}%`);
   shown('stiffness', `× ${10 ** $('stiffness').value}`);
   $('bending').disabled = $('cells').value === 'elements';
   $('up').textContent = `Up: ${view.up}`;
-  $('keys').replaceChildren(...keys.map((key, i) => button(String(i + 1), () => {
-    if (key.length !== shape.handles.length) return say('This key frame is of other handles.', true);
-    shape.handles.forEach((h, k) => { h.matrix = key[k].slice(); });
-    handlesMoved();
-    commit();
-  }, 'Go there')));
+  $('keys').replaceChildren(
+    ...keys.map((key, i) =>
+      button(
+        String(i + 1),
+        () => {
+          if (key.length !== shape.handles.length)
+            return say('This key frame is of other handles.', true);
+          shape.handles.forEach((h, k) => {
+            h.matrix = key[k].slice();
+          });
+          handlesMoved();
+          commit();
+        },
+        'Go there',
+      ),
+    ),
+  );
   $('play').textContent = playing ? 'Stop' : 'Play';
   view.isDirty = true;
 }
@@ -979,17 +1306,24 @@ function changeHandle(change) {
   const handle = shape?.handles[chosen];
   if (!handle) return;
   change(handle);
-  engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() }).then(() => {
-    handlesMoved();
-    placeGizmo();
-    return commit();
-  }).catch((error) => { complain(error); goTo(now); });
+  engine
+    .call('hold', { status: shape.status.slice(), handles: messageOfHandles() })
+    .then(() => {
+      handlesMoved();
+      placeGizmo();
+      return commit();
+    })
+    .catch((error) => {
+      complain(error);
+      goTo(now);
+    });
 }
 
 async function removeHandle() {
   const handle = shape?.handles[chosen];
   if (!handle) return;
-  for (let v = 0; v < shape.status.length; ++v) if (shape.status[v] === chosen + HANDLE) shape.status[v] = FREE;
+  for (let v = 0; v < shape.status.length; ++v)
+    if (shape.status[v] === chosen + HANDLE) shape.status[v] = FREE;
   handle.point = null;
   stroke = null;
   tool = 'grab';
@@ -999,7 +1333,9 @@ async function removeHandle() {
 async function reset() {
   stopPlaying();
   try {
-    shape.handles.forEach((h) => { h.matrix = identity(); });
+    shape.handles.forEach((h) => {
+      h.matrix = identity();
+    });
     const { points } = await engine.call('reset');
     spare = view.setPositions(points);
     isSettled = false;
@@ -1037,14 +1373,26 @@ async function restFromNow() {
 
 function closeHelp() {
   $('help').hidden = true;
-  try { localStorage.setItem('arap-help', 'seen'); } catch { /* not allowed for files */ }
+  try {
+    localStorage.setItem('arap-help', 'seen');
+  } catch {
+    /* not allowed for files */
+  }
 }
 
 function moveByKey(key, turns) {
-  const handle = shape?.handles[chosen], direction = { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0],
-    ArrowDown: [0, -1, 0], PageUp: [0, 0, -1], PageDown: [0, 0, 1] }[key];
+  const handle = shape?.handles[chosen],
+    direction = {
+      ArrowLeft: [-1, 0, 0],
+      ArrowRight: [1, 0, 0],
+      ArrowUp: [0, 1, 0],
+      ArrowDown: [0, -1, 0],
+      PageUp: [0, 0, -1],
+      PageDown: [0, 0, 1],
+    }[key];
   if (!handle || !direction) return false;
-  const { q, place } = rigidParts(handle), axis = new THREE.Vector3(...direction).transformDirection(view.camera.matrixWorld);
+  const { q, place } = rigidParts(handle),
+    axis = new THREE.Vector3(...direction).transformDirection(view.camera.matrixWorld);
   if (turns) q.premultiply(new THREE.Quaternion().setFromAxisAngle(axis, Math.PI / 36));
   else place.addScaledVector(axis, 0.01 * shape.diagonal);
   handle.matrix = matrixOf(handle.pivot, q, place);
@@ -1067,12 +1415,46 @@ $('model').lastChild.hidden = true;
 for (const [text, press] of Object.entries(saves)) $('saves').append(button(text, press));
 
 const actions = {
-  open: () => $('file').click(), undo, redo, reset, rest: restFromNow, begin: closeHelp, addkey: addKey, play: () => play(), film,
-  fit: () => view.fit(), remove: removeHandle, home: () => changeHandle((h) => { h.matrix = identity(); }),
-  moves: () => { view.gizmo.setMode('translate'); showPanel(); }, turns: () => { view.gizmo.setMode('rotate'); showPanel(); },
-  up: () => { view.up = view.up === 'z' ? 'y' : 'z'; view.makeOrbit(); view.fit(); showPanel(); },
-  how: () => { $('help').hidden = false; },
-  clear: () => { shape.status.fill(FREE); shape.handles = []; chosen = -1; paints = FIXED; tool = 'brush'; reset().then(painted); },
+  open: () => $('file').click(),
+  undo,
+  redo,
+  reset,
+  rest: restFromNow,
+  begin: closeHelp,
+  addkey: addKey,
+  play: () => play(),
+  film,
+  fit: () => view.fit(),
+  remove: removeHandle,
+  home: () =>
+    changeHandle((h) => {
+      h.matrix = identity();
+    }),
+  moves: () => {
+    view.gizmo.setMode('translate');
+    showPanel();
+  },
+  turns: () => {
+    view.gizmo.setMode('rotate');
+    showPanel();
+  },
+  up: () => {
+    view.up = view.up === 'z' ? 'y' : 'z';
+    view.makeOrbit();
+    view.fit();
+    showPanel();
+  },
+  how: () => {
+    $('help').hidden = false;
+  },
+  clear: () => {
+    shape.status.fill(FREE);
+    shape.handles = [];
+    chosen = -1;
+    paints = FIXED;
+    tool = 'brush';
+    reset().then(painted);
+  },
   more: () => {
     const closed = document.querySelector('main').classList.toggle('closed');
     $('more').setAttribute('aria-expanded', String(!closed));
@@ -1080,15 +1462,35 @@ const actions = {
 };
 for (const [id, act] of Object.entries(actions)) $(id).onclick = act;
 $('model').onchange = () => openModel($('model').value);
-$('file').onchange = () => { if ($('file').files[0]) openFile($('file').files[0]); $('file').value = ''; };
+$('file').onchange = () => {
+  if ($('file').files[0]) openFile($('file').files[0]);
+  $('file').value = '';
+};
 for (const id of ['cells', 'minimizer', 'bending']) $(id).onchange = optionsChanged;
 for (const id of ['bending', 'brush', 'stiffness']) $(id).oninput = showPanel;
 $('weights').onchange = weightsChanged;
-$('measure').onchange = () => { values = null; showMeasure(); drawColours(); };
-$('soft').onchange = () => changeHandle((h) => { h.weight = $('soft').checked ? 10 ** $('weight').value : null; });
-$('weight').onchange = () => changeHandle((h) => { h.weight = 10 ** $('weight').value; });
-$('weight').oninput = () => { $('weight').parentElement.querySelector('output').textContent = (10 ** $('weight').value).toPrecision(2); };
-$('frame').onchange = () => changeHandle((h) => { h.turns = $('frame').checked; });
+$('measure').onchange = () => {
+  values = null;
+  showMeasure();
+  drawColours();
+};
+$('soft').onchange = () =>
+  changeHandle((h) => {
+    h.weight = $('soft').checked ? 10 ** $('weight').value : null;
+  });
+$('weight').onchange = () =>
+  changeHandle((h) => {
+    h.weight = 10 ** $('weight').value;
+  });
+$('weight').oninput = () => {
+  $('weight').parentElement.querySelector('output').textContent = (
+    10 ** $('weight').value
+  ).toPrecision(2);
+};
+$('frame').onchange = () =>
+  changeHandle((h) => {
+    h.turns = $('frame').checked;
+  });
 
 addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -1100,17 +1502,47 @@ addEventListener('keydown', (event) => {
     else if (key === 'y') redo();
     else return;
   } else if (found) setTool(found);
-  else if (/^\d$/.test(key)) { paints = key === '0' ? FREE : key === '1' ? FIXED : Number(key); if (tool === 'grab') setTool('brush'); showPanel(); }
-  else if (key === 'Escape') { cancelStroke(); stopPlaying(); say(''); closeHelp(); }
-  else if (moveByKey(key, event.shiftKey)) closeHelp();
+  else if (/^\d$/.test(key)) {
+    paints = key === '0' ? FREE : key === '1' ? FIXED : Number(key);
+    if (tool === 'grab') setTool('brush');
+    showPanel();
+  } else if (key === 'Escape') {
+    cancelStroke();
+    stopPlaying();
+    say('');
+    closeHelp();
+  } else if (moveByKey(key, event.shiftKey)) closeHelp();
   else if (key === ' ' && event.target.closest?.('button')) return;
-  else ({ o: actions.open, r: reset, v: actions.fit, u: actions.up, w: actions.moves, e: actions.turns, k: addKey, ' ': () => play(),
-          h: actions.more, '?': actions.how, Delete: removeHandle }[key] ?? (() => { event.handled = true; }))();
+  else
+    (
+      ({
+        o: actions.open,
+        r: reset,
+        v: actions.fit,
+        u: actions.up,
+        w: actions.moves,
+        e: actions.turns,
+        k: addKey,
+        ' ': () => play(),
+        h: actions.more,
+        '?': actions.how,
+        Delete: removeHandle,
+      })[key] ??
+      (() => {
+        event.handled = true;
+      })
+    )();
   if (!event.handled) event.preventDefault();
 });
 
-addEventListener('dragover', (event) => { event.preventDefault(); document.body.classList.add('dropping'); });
-addEventListener('dragleave', (event) => !event.relatedTarget && document.body.classList.remove('dropping'));
+addEventListener('dragover', (event) => {
+  event.preventDefault();
+  document.body.classList.add('dropping');
+});
+addEventListener(
+  'dragleave',
+  (event) => !event.relatedTarget && document.body.classList.remove('dropping'),
+);
 addEventListener('drop', (event) => {
   event.preventDefault();
   document.body.classList.remove('dropping');
@@ -1122,7 +1554,10 @@ function frame(time) {
   requestAnimationFrame(frame);
   if (playing) playFrame(time);
   pump();
-  if (view.isDirty) { view.render(); ++measured.frames; }
+  if (view.isDirty) {
+    view.render();
+    ++measured.frames;
+  }
 }
 
 // ---- for tests and for tinkering
@@ -1130,36 +1565,75 @@ function frame(time) {
 window.arap = {
   ready: engine.ready.then(async () => {
     if (matchMedia('(max-width: 700px)').matches) actions.more();
-    try { $('help').hidden = localStorage.getItem('arap-help') === 'seen'; } catch { /* as above */ }
+    try {
+      $('help').hidden = localStorage.getItem('arap-help') === 'seen';
+    } catch {
+      /* as above */
+    }
     await openModel('cactus');
     requestAnimationFrame(frame);
   }),
-  state: () => shape && {
-    name: shape.name, vertices: shape.points.length / 3, simplices: shape.simplices.length / shape.corners,
-    volume: shape.volume, fixed: shape.fixed, inverted: shape.inverted ?? 0, tool, isSettled: isSettled && engine.isIdle,
-    ...measured, undo: now, redo: past.length - 1 - now, keys: keys.length, message: $('message').hidden ? '' : $('message').innerText,
-    handles: shape.handles.map((handle, k) => {
-      const place = rigidParts(handle).place.toArray(), box = view.canvas.getBoundingClientRect(), [x, y] = view.toScreen(...place);
-      return { number: k + 1, vertices: handle.size, point: !!handle.point, weight: handle.weight, matrix: handle.matrix.slice(),
-               space: place, screen: [x + box.left, y + box.top] };
-    }),
-  },
+  state: () =>
+    shape && {
+      name: shape.name,
+      vertices: shape.points.length / 3,
+      simplices: shape.simplices.length / shape.corners,
+      volume: shape.volume,
+      fixed: shape.fixed,
+      inverted: shape.inverted ?? 0,
+      tool,
+      isSettled: isSettled && engine.isIdle,
+      ...measured,
+      undo: now,
+      redo: past.length - 1 - now,
+      keys: keys.length,
+      message: $('message').hidden ? '' : $('message').innerText,
+      handles: shape.handles.map((handle, k) => {
+        const place = rigidParts(handle).place.toArray(),
+          box = view.canvas.getBoundingClientRect(),
+          [x, y] = view.toScreen(...place);
+        return {
+          number: k + 1,
+          vertices: handle.size,
+          point: !!handle.point,
+          weight: handle.weight,
+          matrix: handle.matrix.slice(),
+          space: place,
+          screen: [x + box.left, y + box.top],
+        };
+      }),
+    },
   // how far vertices of hard handles are from their targets, relative to the diagonal
   distanceToTargets() {
     let worst = 0;
-    const p = view.positions, r = shape.points;
+    const p = view.positions,
+      r = shape.points;
     for (let v = 0; v < shape.status.length; ++v) {
-      const s = shape.status[v], handle = shape.handles[s - HANDLE];
+      const s = shape.status[v],
+        handle = shape.handles[s - HANDLE];
       if (s === FREE || (handle && handle.weight !== null)) continue;
       const m = handle?.matrix ?? identity();
       for (let i = 0; i < 3; ++i) {
-        const target = m[4 * i] * r[3 * v] + m[4 * i + 1] * r[3 * v + 1] + m[4 * i + 2] * r[3 * v + 2] + m[4 * i + 3];
+        const target =
+          m[4 * i] * r[3 * v] +
+          m[4 * i + 1] * r[3 * v + 1] +
+          m[4 * i + 2] * r[3 * v + 2] +
+          m[4 * i + 3];
         worst = Math.max(worst, Math.abs(p[3 * v + i] - target) / shape.diagonal);
       }
     }
     return worst;
   },
-  positions: () => view.positions.slice(), status: () => shape.status.slice(), open, openModel, openFile, setTool, choose,
-  heap: async () => (await engine.call('heap')).bytes, commandLine, view, engine,
+  positions: () => view.positions.slice(),
+  status: () => shape.status.slice(),
+  open,
+  openModel,
+  openFile,
+  setTool,
+  choose,
+  heap: async () => (await engine.call('heap')).bytes,
+  commandLine,
+  view,
+  engine,
 };
 engine.ready.catch((error) => say(`The engine could not be started: ${error.message}.`, true));

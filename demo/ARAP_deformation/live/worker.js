@@ -2,8 +2,14 @@
 // then, so that no queue grows.
 import { load } from 'arap-deformation';
 
-let arap, session, shape, states = new Map(), statesMade = 0;
-let status = new Int32Array(0), vertices = [], pointHandles = [];
+let arap,
+  session,
+  shape,
+  states = new Map(),
+  statesMade = 0;
+let status = new Int32Array(0),
+  vertices = [],
+  pointHandles = [];
 
 const rotationOf = (m) => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -22,7 +28,11 @@ function disposeOfSession() {
 }
 
 function newSession(points, weights) {
-  const next = arap.session(points, shape.simplices, { corners: shape.corners, volume: shape.volume, weights });
+  const next = arap.session(points, shape.simplices, {
+    corners: shape.corners,
+    volume: shape.volume,
+    weights,
+  });
   disposeOfSession();
   session = next;
   status = new Int32Array(points.length / 3).fill(1);
@@ -32,7 +42,8 @@ function newSession(points, weights) {
 
 // the control vertices and points of the painted regions; only what has changed is told to the session
 function hold(next, handles) {
-  const erased = [], inserted = [];
+  const erased = [],
+    inserted = [];
   for (let v = 0; v < next.length; ++v)
     if ((next[v] === 1) !== (status[v] === 1)) (next[v] === 1 ? erased : inserted).push(v);
   session.eraseHandles(erased);
@@ -65,7 +76,9 @@ function move(handles) {
 const positions = () => session.points(new Float32Array(3 * session.numberOfVertices));
 
 const operations = {
-  async load({ wasm }) { arap = await load({ wasmBinary: wasm }); },
+  async load({ wasm }) {
+    arap = await load({ wasmBinary: wasm });
+  },
   open({ points, simplices, corners, volume, weights }) {
     const before = shape;
     shape = { simplices, corners, volume };
@@ -77,31 +90,71 @@ const operations = {
     }
   },
   weights({ weights, handles, options }) {
-    const kept = status, rest = session.restPoints();
+    const kept = status,
+      rest = session.restPoints();
     newSession(rest, weights);
     session.setOptions(options);
     hold(kept, handles);
   },
-  options({ options }) { session.setOptions(options); },
-  stiffness({ values }) { session.setStiffness(values); },
-  hold({ status: next, handles }) { hold(next, handles); },
+  options({ options }) {
+    session.setOptions(options);
+  },
+  stiffness({ values }) {
+    session.setStiffness(values);
+  },
+  hold({ status: next, handles }) {
+    hold(next, handles);
+  },
   step({ handles, iterations, tolerance, buffer }) {
     const start = performance.now();
     if (handles) move(handles);
-    const { status: result, energy, finalEnergy, estimatedRelativeGap, message, iterations: done,
-            unconstrainedComponents, freeVertices } = session.deform({ iterations, tolerance });
+    const {
+      status: result,
+      energy,
+      finalEnergy,
+      estimatedRelativeGap,
+      message,
+      iterations: done,
+      unconstrainedComponents,
+      freeVertices,
+    } = session.deform({ iterations, tolerance });
     const milliseconds = performance.now() - start;
     const points = session.points(buffer ?? new Float32Array(3 * session.numberOfVertices));
-    return { points, result, message, milliseconds, iterations: done, energy: finalEnergy, gap: estimatedRelativeGap,
-             firstEnergy: energy[0], unconstrained: unconstrainedComponents.length, freeVertices };
+    return {
+      points,
+      result,
+      message,
+      milliseconds,
+      iterations: done,
+      energy: finalEnergy,
+      gap: estimatedRelativeGap,
+      firstEnergy: energy[0],
+      unconstrained: unconstrainedComponents.length,
+      freeVertices,
+    };
   },
-  reset() { session.reset(); return { points: positions() }; },
-  rest() { session.makeRestShape(); return { rest: session.points() }; },
-  points() { return { points: session.points(), rest: session.restPoints() }; },
-  colours({ measure }) { return { values: session.qualityAtVertices(measure), quality: session.quality() }; },
-  locate({ point }) { return { place: session.locate(point) }; },
+  reset() {
+    session.reset();
+    return { points: positions() };
+  },
+  rest() {
+    session.makeRestShape();
+    return { rest: session.points() };
+  },
+  points() {
+    return { points: session.points(), rest: session.restPoints() };
+  },
+  colours({ measure }) {
+    return { values: session.qualityAtVertices(measure), quality: session.quality() };
+  },
+  locate({ point }) {
+    return { place: session.locate(point) };
+  },
   keep() {
-    states.set(++statesMade, Object.assign(session.state(), { held: { status, vertices, pointHandles } }));
+    states.set(
+      ++statesMade,
+      Object.assign(session.state(), { held: { status, vertices, pointHandles } }),
+    );
     return { state: statesMade };
   },
   restore({ state }) {
@@ -114,7 +167,9 @@ const operations = {
     states.get(state)?.dispose();
     states.delete(state);
   },
-  heap() { return { bytes: arap.heapBytes() }; },
+  heap() {
+    return { bytes: arap.heapBytes() };
+  },
 };
 
 onmessage = async ({ data }) => {

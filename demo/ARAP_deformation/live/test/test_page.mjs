@@ -2,16 +2,28 @@
 // usage: node test_page.mjs [PATTERN]   runs only the steps whose names match
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import {
+  existsSync,
+  mkdirSync,
+  readFileSync,
+  readdirSync,
+  rmSync,
+  statSync,
+  writeFileSync,
+} from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { models, sphere } from '../models.js';
 import { serve } from '../serve.mjs';
 
-const root = join(dirname(fileURLToPath(import.meta.url)), '../../../..'), live = join(root, 'build/live');
-const puppeteer = (await import(pathToFileURL(createRequire(join(live, 'x.js')).resolve('puppeteer-core')))).default;
-const shots = join(live, 'screenshots'), files = join(live, 'files');
+const root = join(dirname(fileURLToPath(import.meta.url)), '../../../..'),
+  live = join(root, 'build/live');
+const puppeteer = (
+  await import(pathToFileURL(createRequire(join(live, 'x.js')).resolve('puppeteer-core')))
+).default;
+const shots = join(live, 'screenshots'),
+  files = join(live, 'files');
 for (const folder of [shots, files]) {
   if (!process.argv[2]) rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
@@ -19,9 +31,20 @@ for (const folder of [shots, files]) {
 const pattern = new RegExp(process.argv[2] ?? '.');
 const { server, address } = await serve(join(live, 'page'));
 const browser = await puppeteer.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', headless: true, protocolTimeout: 600000,
-  args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-sync',
-         '--disable-background-networking', '--disable-component-update', '--enable-precise-memory-info'],
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  headless: true,
+  protocolTimeout: 600000,
+  args: [
+    '--no-sandbox',
+    '--disable-gpu',
+    '--enable-unsafe-swiftshader',
+    '--disable-quic',
+    '--no-first-run',
+    '--disable-sync',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--enable-precise-memory-info',
+  ],
 });
 const complaints = [];
 
@@ -31,7 +54,11 @@ async function newPage(options = {}, url = address) {
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   const session = await page.createCDPSession();
-  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: files, eventsEnabled: false });
+  await session.send('Browser.setDownloadBehavior', {
+    behavior: 'allow',
+    downloadPath: files,
+    eventsEnabled: false,
+  });
   await page.goto(url);
   await page.evaluate(() => window.arap.ready);
   return Object.assign(page, { cdp: session });
@@ -47,17 +74,25 @@ const settled = async (p = page, timeout = 120000) => {
 };
 const shot = (name, p = page) => p.screenshot({ path: join(shots, `${name}.png`) });
 const positions = () => page.evaluate(() => [...window.arap.positions()]);
-const largestDifference = (a, b) => a.reduce((worst, x, i) => Math.max(worst, Math.abs(x - b[i])), 0);
+const largestDifference = (a, b) =>
+  a.reduce((worst, x, i) => Math.max(worst, Math.abs(x - b[i])), 0);
 const message = () => page.$eval('#message', (m) => (m.hidden ? '' : m.innerText));
-const clickText = (text) => page.evaluate((t) => [...document.querySelectorAll('#panel button')].find((b) => b.textContent === t).click(), text);
+const clickText = (text) =>
+  page.evaluate(
+    (t) => [...document.querySelectorAll('#panel button')].find((b) => b.textContent === t).click(),
+    text,
+  );
 
 async function drag(from, to, steps = 12, p = page) {
   await p.mouse.move(...from);
   await p.mouse.down();
-  for (let i = 1; i <= steps; ++i) await p.mouse.move(...from.map((x, k) => x + (to[k] - x) * i / steps));
+  for (let i = 1; i <= steps; ++i)
+    await p.mouse.move(...from.map((x, k) => x + ((to[k] - x) * i) / steps));
 }
 async function dragHandle(dx, dy, number = 1) {
-  const { screen: [x, y] } = (await state()).handles[number - 1];
+  const {
+    screen: [x, y],
+  } = (await state()).handles[number - 1];
   await drag([x, y], [x + dx, y + dy]);
 }
 async function openFile(path, p = page) {
@@ -74,8 +109,11 @@ async function saved(press, name) {
   return readFileSync(path);
 }
 const rows = (array, columns, line) =>
-  Array.from({ length: array.length / columns }, (_, i) => line([...array.slice(columns * i, columns * (i + 1))])).join('\n');
-const off = ({ points, simplices }) => `OFF\n${points.length / 3} ${simplices.length / 3} 0\n` +
+  Array.from({ length: array.length / columns }, (_, i) =>
+    line([...array.slice(columns * i, columns * (i + 1))]),
+  ).join('\n');
+const off = ({ points, simplices }) =>
+  `OFF\n${points.length / 3} ${simplices.length / 3} 0\n` +
   `${rows(points, 3, (p) => p.join(' '))}\n${rows(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`;
 const pointsOf = (text) => {
   const [, n, , , ...numbers] = text.replace(/#.*/g, '').trim().split(/\s+/);
@@ -87,7 +125,10 @@ const openModel = async (id) => {
 };
 const garbage = async () => {
   for (let k = 0; k < 3; ++k) await page.cdp.send('HeapProfiler.collectGarbage');
-  return page.evaluate(async () => ({ script: performance.memory.usedJSHeapSize, engine: await window.arap.heap() }));
+  return page.evaluate(async () => ({
+    script: performance.memory.usedJSHeapSize,
+    engine: await window.arap.heap(),
+  }));
 };
 
 const steps = {
@@ -112,7 +153,10 @@ const steps = {
     await page.mouse.up();
     const after = await settled();
     assert(during.steps > 0 && after.energy > 0);
-    assert(await page.evaluate(() => window.arap.distanceToTargets()) < 1e-6, 'the handle is at its target');
+    assert(
+      (await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6,
+      'the handle is at its target',
+    );
     const moved = await positions();
     assert(largestDifference(before, moved) > 0.1);
     await shot('03_dragged');
@@ -130,7 +174,8 @@ const steps = {
   },
 
   async 'a file, painted'() {
-    const bar = models.bar[1](), path = join(files, 'my_bar.off');
+    const bar = models.bar[1](),
+      path = join(files, 'my_bar.off');
     writeFileSync(path, off(bar));
     await openFile(path);
     await page.waitForFunction(() => window.arap.state().name === 'my_bar');
@@ -141,7 +186,13 @@ const steps = {
     await rest(100);
     const ends = await page.evaluate(() => {
       const box = window.arap.view.canvas.getBoundingClientRect();
-      return [[0, 0, 0.2], [0, 0, 4.8]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+      return [
+        [0, 0, 0.2],
+        [0, 0, 4.8],
+      ].map((p) => {
+        const [x, y] = window.arap.view.toScreen(...p);
+        return [x + box.left, y + box.top];
+      });
     });
     await clickText('Fixed');
     await drag([ends[0][0] - 40, ends[0][1]], [ends[0][0] + 40, ends[0][1]]);
@@ -165,7 +216,13 @@ const steps = {
     const [x, y] = ends[0];
     await page.mouse.move(x - 90, y - 20);
     await page.mouse.down();
-    for (const [a, b] of [[-90, 90], [0, 120], [90, 90], [90, -20]]) await page.mouse.move(x + a, y + b, { steps: 5 });
+    for (const [a, b] of [
+      [-90, 90],
+      [0, 120],
+      [90, 90],
+      [90, -20],
+    ])
+      await page.mouse.move(x + a, y + b, { steps: 5 });
     await shot('06_lasso');
     await page.mouse.up();
     now = await settled();
@@ -179,7 +236,10 @@ const steps = {
     await page.keyboard.press('3');
     await page.mouse.click((ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2);
     now = await settled();
-    assert(now.handles[1].vertices + now.handles[0].vertices + now.fixed > 0.99 * now.vertices, 'the flood fills what is free');
+    assert(
+      now.handles[1].vertices + now.handles[0].vertices + now.fixed > 0.99 * now.vertices,
+      'the flood fills what is free',
+    );
     await page.keyboard.down('Control');
     await page.keyboard.press('z');
     await page.keyboard.up('Control');
@@ -191,16 +251,33 @@ const steps = {
     await dragHandle(110, 50);
     await page.mouse.up();
     await page.click('#turns');
-    for (let k = 0; k < 4; ++k) { await page.keyboard.down('Shift'); await page.keyboard.press('ArrowRight'); await page.keyboard.up('Shift'); }
+    for (let k = 0; k < 4; ++k) {
+      await page.keyboard.down('Shift');
+      await page.keyboard.press('ArrowRight');
+      await page.keyboard.up('Shift');
+    }
     await rest(600);
     await settled();
     await shot('07_turned');
     await page.click('#moves');
     const ours = pointsOf(String(await saved('Mesh .off', 'my_bar.off')));
-    for (const [press, name] of [['Rest shape', 'my_bar_rest.off'], ['Selection', 'my_bar.sel'], ['Transforms', 'my_bar.def'], ['.obj', 'my_bar.obj'], ['.mesh', 'my_bar.mesh']])
+    for (const [press, name] of [
+      ['Rest shape', 'my_bar_rest.off'],
+      ['Selection', 'my_bar.sel'],
+      ['Transforms', 'my_bar.def'],
+      ['.obj', 'my_bar.obj'],
+      ['.mesh', 'my_bar.mesh'],
+    ])
       assert((await saved(press, name)).length > 50, name);
-    const [, ...words] = readFileSync(join(files, 'my_bar.sel'), 'utf8').split('\n')[0].replace('# ', '').split(' ');
-    execFileSync(join(root, 'build/release/demo/ARAP_deformation/arap_deform'), [...words, '--iterations', '20000', '--tolerance', '1e-7', '--quiet'], { cwd: files });
+    const [, ...words] = readFileSync(join(files, 'my_bar.sel'), 'utf8')
+      .split('\n')[0]
+      .replace('# ', '')
+      .split(' ');
+    execFileSync(
+      join(root, 'build/release/demo/ARAP_deformation/arap_deform'),
+      [...words, '--iterations', '20000', '--tolerance', '1e-7', '--quiet'],
+      { cwd: files },
+    );
     const theirs = pointsOf(readFileSync(join(files, 'out.off'), 'utf8'));
     assert.equal(ours.length, theirs.length);
     const distance = largestDifference(ours, theirs) / 5.2;
@@ -209,19 +286,35 @@ const steps = {
     assert(String(await saved('Picture', 'my_bar.png')).length > 5000);
   },
 
-  async 'options'() {
+  async options() {
     await openModel('bar');
     await dragHandle(120, 90);
     await page.mouse.up();
     await settled();
     const energies = {};
-    for (const [id, value] of [['cells', 'spokes'], ['cells', 'elements'], ['cells', 'k_ring:2'], ['cells', 'spokes_and_rims'], ['minimizer', 'local_global'], ['weights', 'uniform'], ['weights', 'safe_cotangent']]) {
+    for (const [id, value] of [
+      ['cells', 'spokes'],
+      ['cells', 'elements'],
+      ['cells', 'k_ring:2'],
+      ['cells', 'spokes_and_rims'],
+      ['minimizer', 'local_global'],
+      ['weights', 'uniform'],
+      ['weights', 'safe_cotangent'],
+    ]) {
       await page.select(`#${id}`, value);
       energies[value] = (await settled()).energy;
       assert.equal(await message(), '', value);
     }
-    assert.equal(new Set(Object.values(energies).map((e) => e.toPrecision(3))).size >= 5, true, JSON.stringify(energies));
-    await page.$eval('#bending', (b) => { b.value = 5; b.dispatchEvent(new Event('input')); b.dispatchEvent(new Event('change')); });
+    assert.equal(
+      new Set(Object.values(energies).map((e) => e.toPrecision(3))).size >= 5,
+      true,
+      JSON.stringify(energies),
+    );
+    await page.$eval('#bending', (b) => {
+      b.value = 5;
+      b.dispatchEvent(new Event('input'));
+      b.dispatchEvent(new Event('change'));
+    });
     assert((await settled()).energy > energies.safe_cotangent, 'bending adds to the energy');
     await page.select('#measure', 'edge_length_error');
     await rest(800);
@@ -230,10 +323,16 @@ const steps = {
     assert(await page.$eval('#legend', (legend) => !legend.hidden));
     assert.match(await page.$eval('#quality', (q) => q.textContent), /Edges/);
     await page.select('#measure', '');
-    await page.$eval('#bending', (b) => { b.value = 0; b.dispatchEvent(new Event('change')); });
+    await page.$eval('#bending', (b) => {
+      b.value = 0;
+      b.dispatchEvent(new Event('change'));
+    });
     await settled();
     await page.click('#soft');
-    await page.$eval('#weight', (w) => { w.value = -3; w.dispatchEvent(new Event('change')); });
+    await page.$eval('#weight', (w) => {
+      w.value = -3;
+      w.dispatchEvent(new Event('change'));
+    });
     assert((await settled()).energy < energies.safe_cotangent, 'a soft handle gives way');
     await page.click('#soft');
     await settled();
@@ -244,7 +343,9 @@ const steps = {
     const soft = (await settled()).energy;
     await page.keyboard.press('s');
     const middle = await page.evaluate(() => {
-      const p = window.arap.positions(), box = window.arap.view.canvas.getBoundingClientRect(), n = p.length / 6 | 0;
+      const p = window.arap.positions(),
+        box = window.arap.view.canvas.getBoundingClientRect(),
+        n = (p.length / 6) | 0;
       const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
       return [x + box.left, y + box.top];
     });
@@ -256,11 +357,12 @@ const steps = {
     assert(Math.abs((await settled()).energy / soft - 1) < 1e-2, 'undo of stiffness');
   },
 
-  async 'points'() {
+  async points() {
     await openModel('sheet');
     await page.keyboard.press('p');
     const place = await page.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect(), [x, y] = window.arap.view.toScreen(0.503, 0.501, 0);
+      const box = window.arap.view.canvas.getBoundingClientRect(),
+        [x, y] = window.arap.view.toScreen(0.503, 0.501, 0);
       return [x + box.left, y + box.top];
     });
     await page.mouse.click(...place);
@@ -276,11 +378,16 @@ const steps = {
     now = await settled();
     assert.equal(now.handles.length, 1);
     // a handle of one vertex, which turns the cells around it
-    await page.$eval('#brush', (b) => { b.value = 1; b.dispatchEvent(new Event('input')); });
+    await page.$eval('#brush', (b) => {
+      b.value = 1;
+      b.dispatchEvent(new Event('input'));
+    });
     await page.keyboard.press('b');
     await page.keyboard.press('3');
     const [x, y] = await page.evaluate(() => {
-      const p = window.arap.positions(), v = 71 * 53 + 20, box = window.arap.view.canvas.getBoundingClientRect();
+      const p = window.arap.positions(),
+        v = 71 * 53 + 20,
+        box = window.arap.view.canvas.getBoundingClientRect();
       const at = window.arap.view.toScreen(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
       return [at[0] + box.left, at[1] + box.top];
     });
@@ -295,10 +402,13 @@ const steps = {
     await rest(600);
     assert((await settled()).energy > energy + 1e-3, 'one vertex turns its surroundings');
     await shot('10_one_vertex_turned');
-    await page.$eval('#brush', (b) => { b.value = 26; b.dispatchEvent(new Event('input')); });
+    await page.$eval('#brush', (b) => {
+      b.value = 26;
+      b.dispatchEvent(new Event('input'));
+    });
   },
 
-  async 'volume'() {
+  async volume() {
     await openModel('volume');
     await page.keyboard.press('e');
     await shot('11_volume_rings');
@@ -316,13 +426,16 @@ const steps = {
     await shot('13_inverted');
     console.log(`  ${now.inverted} inverted tetrahedra`);
     assert(now.volume && now.inverted > 0);
-    assert(await page.evaluate(() => window.arap.distanceToTargets()) < 1e-6);
+    assert((await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6);
     await page.keyboard.press('r');
     assert.equal((await settled()).inverted, 0);
     const { length } = await saved('.mesh', 'bar_of_tetrahedra.mesh');
     await openFile(join(files, 'bar_of_tetrahedra.mesh'));
     await page.waitForFunction(() => window.arap.state().undo === 0 && window.arap.state().volume);
-    assert(length > 1000 && (await settled()).simplices === models.volume[1]().simplices.length / 4, 'it reads what it writes');
+    assert(
+      length > 1000 && (await settled()).simplices === models.volume[1]().simplices.length / 4,
+      'it reads what it writes',
+    );
   },
 
   async 'key frames and a film'() {
@@ -373,7 +486,9 @@ const steps = {
     await page.keyboard.press('b');
     await page.keyboard.press('3');
     const middle = await page.evaluate(() => {
-      const p = window.arap.positions(), box = window.arap.view.canvas.getBoundingClientRect(), n = p.length / 6 | 0;
+      const p = window.arap.positions(),
+        box = window.arap.view.canvas.getBoundingClientRect(),
+        n = (p.length / 6) | 0;
       const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
       return [x + box.left, y + box.top];
     });
@@ -381,41 +496,71 @@ const steps = {
     const now = await settled();
     assert.equal(now.handles.length, 2);
     const moved = largestDifference(before, await positions());
-    assert(moved < 0.02 * 5.2, `a new handle stays where it is, up to its own deformation: ${moved}`);
+    assert(
+      moved < 0.02 * 5.2,
+      `a new handle stays where it is, up to its own deformation: ${moved}`,
+    );
     await shot('15_second_handle');
   },
 
-  async 'errors'() {
+  async errors() {
     await openModel('bar');
     const before = await state();
     const wrong = {
-      'empty.off': '', 'words.off': 'OFF\n3 1 0\n0 0 x\n1 0 0\n0 1 0\n3 0 1 2\n', 'index.off': 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n',
-      'short.off': 'OFF\n30 1 0\n0 0 0\n', 'faceless.obj': 'v 0 0 0\nv 1 0 0\n', 'picture.jpg': 'x', 'nothing.mesh': 'MeshVersionFormatted 2\nVertices\n1\n0 0 0 0\nEnd\n',
-      'noise.ply': 'ply\nformat ascii 1.0\nend_header\n', 'noise.stl': 'solid x\nendsolid x\n', 'huge.off': 'OFF\n1e9 1 0\n', 'nan.obj': 'v nan 0 0\nf 1 1 1\n',
+      'empty.off': '',
+      'words.off': 'OFF\n3 1 0\n0 0 x\n1 0 0\n0 1 0\n3 0 1 2\n',
+      'index.off': 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n',
+      'short.off': 'OFF\n30 1 0\n0 0 0\n',
+      'faceless.obj': 'v 0 0 0\nv 1 0 0\n',
+      'picture.jpg': 'x',
+      'nothing.mesh': 'MeshVersionFormatted 2\nVertices\n1\n0 0 0 0\nEnd\n',
+      'noise.ply': 'ply\nformat ascii 1.0\nend_header\n',
+      'noise.stl': 'solid x\nendsolid x\n',
+      'huge.off': 'OFF\n1e9 1 0\n',
+      'nan.obj': 'v nan 0 0\nf 1 1 1\n',
     };
     for (const [name, text] of Object.entries(wrong)) {
       writeFileSync(join(files, name), text);
       await page.click('#message button').catch(() => {});
-      await page.evaluate(() => { document.querySelector('#message').hidden = true; });
+      await page.evaluate(() => {
+        document.querySelector('#message').hidden = true;
+      });
       await openFile(join(files, name));
-      await page.waitForFunction(() => !document.querySelector('#message').hidden, { timeout: 20000 });
+      await page.waitForFunction(() => !document.querySelector('#message').hidden, {
+        timeout: 20000,
+      });
       const said = (await message()).replace(/\s*×\s*$/, '');
       console.log(`  ${said}`);
       assert(said.includes(name) && /\.$/.test(said));
     }
     await shot('16_error');
     const after = await state();
-    assert.deepEqual([after.name, after.vertices, after.energy], [before.name, before.vertices, before.energy], 'nothing is lost');
+    assert.deepEqual(
+      [after.name, after.vertices, after.energy],
+      [before.name, before.vertices, before.energy],
+      'nothing is lost',
+    );
     // two parts, of which one is held by nothing
-    const a = models.volume[1](), two = sphere(6);
-    const points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))], n = two.points.length / 3;
-    writeFileSync(join(files, 'two.off'), off({ points, simplices: [...two.simplices, ...two.simplices.map((v) => v + n)] }));
+    const a = models.volume[1](),
+      two = sphere(6);
+    const points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))],
+      n = two.points.length / 3;
+    writeFileSync(
+      join(files, 'two.off'),
+      off({ points, simplices: [...two.simplices, ...two.simplices.map((v) => v + n)] }),
+    );
     await openFile(join(files, 'two.off'));
     await page.waitForFunction(() => window.arap.state().name === 'two');
     await settled();
     const at = await page.evaluate(() => {
       const box = window.arap.view.canvas.getBoundingClientRect();
-      return [[0, 0, -0.7], [0, 0, 0.9]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+      return [
+        [0, 0, -0.7],
+        [0, 0, 0.9],
+      ].map((p) => {
+        const [x, y] = window.arap.view.toScreen(...p);
+        return [x + box.left, y + box.top];
+      });
     });
     await page.keyboard.press('1');
     await page.mouse.click(...at[0]);
@@ -432,11 +577,19 @@ const steps = {
   },
 
   async 'a phone'() {
-    const phone = await newPage({ width: 390, height: 844, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+    const phone = await newPage({
+      width: 390,
+      height: 844,
+      hasTouch: true,
+      isMobile: true,
+      deviceScaleFactor: 2,
+    });
     await settled(phone);
     await phone.evaluate(() => document.querySelector('#begin').click());
     await shot('17_phone', phone);
-    const { screen: [x, y] } = (await state(phone)).handles[0];
+    const {
+      screen: [x, y],
+    } = (await state(phone)).handles[0];
     const finger = await phone.touchscreen.touchStart(x, y);
     for (let k = 1; k <= 10; ++k) await finger.move(x + 6 * k, y + 9 * k);
     await finger.end();
@@ -446,15 +599,24 @@ const steps = {
     await phone.tap('#more');
     await rest(200);
     await shot('19_phone_panel', phone);
-    assert(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the screen');
+    assert(
+      await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth),
+      'nothing is wider than the screen',
+    );
     // painting by touch
     await phone.tap('#more');
     await phone.tap('[data-tool=brush]');
-    await phone.evaluate(() => [...document.querySelectorAll('#regions button')].find((b) => b.textContent === 'Fixed').click());
-    const fixed = (await state(phone)).fixed, [a, b] = await phone.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect(), [u, v] = window.arap.view.toScreen(0, 0, 0.4);
-      return [u + box.left, v + box.top];
-    });
+    await phone.evaluate(() =>
+      [...document.querySelectorAll('#regions button')]
+        .find((b) => b.textContent === 'Fixed')
+        .click(),
+    );
+    const fixed = (await state(phone)).fixed,
+      [a, b] = await phone.evaluate(() => {
+        const box = window.arap.view.canvas.getBoundingClientRect(),
+          [u, v] = window.arap.view.toScreen(0, 0, 0.4);
+        return [u + box.left, v + box.top];
+      });
     const stroke = await phone.touchscreen.touchStart(a - 8, b);
     for (let k = 1; k <= 8; ++k) await stroke.move(a - 8 + 2 * k, b);
     await stroke.end();
@@ -466,7 +628,9 @@ const steps = {
     const local = await newPage({}, pathToFileURL(join(live, 'arap_live.html')).href);
     await local.evaluate(() => document.querySelector('#begin').click());
     await settled(local);
-    const { screen: [x, y] } = (await state(local)).handles[0];
+    const {
+      screen: [x, y],
+    } = (await state(local)).handles[0];
     await drag([x, y], [x + 100, y + 40], 10, local);
     await local.mouse.up();
     assert((await settled(local)).energy > 1e-4);
@@ -476,39 +640,66 @@ const steps = {
   async '10,000 drag events'() {
     await page.setViewport({ width: 720, height: 400 }); // drawing is by software here
     await openModel('sphere');
-    const round = (count) => page.evaluate(async (events) => {
-      const { view } = window.arap, { screen: [x, y] } = window.arap.state().handles[0];
-      const fire = (type, a, b, target) => target.dispatchEvent(new PointerEvent(type, { clientX: a, clientY: b, pointerId: 7, button: type === 'pointermove' ? -1 : 0, buttons: 1, bubbles: true, pointerType: 'mouse', isPrimary: true }));
-      view.canvas.setPointerCapture = view.canvas.releasePointerCapture = () => {};
-      fire('pointermove', x, y, view.canvas);
-      fire('pointerdown', x, y, view.canvas);
-      for (let k = 0; k < events; ++k) {
-        fire('pointermove', x + 60 * Math.sin(k / 40), y - 40 * Math.sin(k / 90), view.canvas);
-        if (k % 20 === 19) await new Promise(requestAnimationFrame);
-      }
-      fire('pointermove', x, y, view.canvas);
-      fire('pointerup', x, y, view.canvas);
-    }, count);
+    const round = (count) =>
+      page.evaluate(async (events) => {
+        const { view } = window.arap,
+          {
+            screen: [x, y],
+          } = window.arap.state().handles[0];
+        const fire = (type, a, b, target) =>
+          target.dispatchEvent(
+            new PointerEvent(type, {
+              clientX: a,
+              clientY: b,
+              pointerId: 7,
+              button: type === 'pointermove' ? -1 : 0,
+              buttons: 1,
+              bubbles: true,
+              pointerType: 'mouse',
+              isPrimary: true,
+            }),
+          );
+        view.canvas.setPointerCapture = view.canvas.releasePointerCapture = () => {};
+        fire('pointermove', x, y, view.canvas);
+        fire('pointerdown', x, y, view.canvas);
+        for (let k = 0; k < events; ++k) {
+          fire('pointermove', x + 60 * Math.sin(k / 40), y - 40 * Math.sin(k / 90), view.canvas);
+          if (k % 20 === 19) await new Promise(requestAnimationFrame);
+        }
+        fire('pointermove', x, y, view.canvas);
+        fire('pointerup', x, y, view.canvas);
+      }, count);
     await round(1000);
     await settled();
-    const before = await garbage(), start = await state(), time = Date.now();
+    const before = await garbage(),
+      start = await state(),
+      time = Date.now();
     await round(10000);
-    const seconds = (Date.now() - time) / 1000, end = await state();
+    const seconds = (Date.now() - time) / 1000,
+      end = await state();
     await settled();
     const after = await garbage();
-    console.log(`  ${end.steps - start.steps} steps and ${end.frames - start.frames} frames in ${seconds.toFixed(1)} s; script heap ${(before.script / 1e6).toFixed(1)} to ${(after.script / 1e6).toFixed(1)} MB, engine ${before.engine / 1e6} to ${after.engine / 1e6} MB`);
+    console.log(
+      `  ${end.steps - start.steps} steps and ${end.frames - start.frames} frames in ${seconds.toFixed(1)} s; script heap ${(before.script / 1e6).toFixed(1)} to ${(after.script / 1e6).toFixed(1)} MB, engine ${before.engine / 1e6} to ${after.engine / 1e6} MB`,
+    );
     assert(end.steps > start.steps + 30, 'it follows');
     assert(after.script < before.script + 3e6 && after.engine === before.engine, 'nothing grows');
   },
 
   async 'fifty models'() {
-    const ids = Object.keys(models), sizes = [];
+    const ids = Object.keys(models),
+      sizes = [];
     for (let k = 0; k < 50; ++k) {
       await openModel(ids[k % ids.length]);
       if (k === 19 || k === 49) sizes.push(await garbage());
     }
-    console.log(`  script heap ${sizes.map((s) => (s.script / 1e6).toFixed(1)).join(' to ')} MB, engine ${sizes.map((s) => s.engine / 1e6).join(' to ')} MB`);
-    assert(sizes[1].script < sizes[0].script + 3e6 && sizes[1].engine === sizes[0].engine, 'nothing grows');
+    console.log(
+      `  script heap ${sizes.map((s) => (s.script / 1e6).toFixed(1)).join(' to ')} MB, engine ${sizes.map((s) => s.engine / 1e6).join(' to ')} MB`,
+    );
+    assert(
+      sizes[1].script < sizes[0].script + 3e6 && sizes[1].engine === sizes[0].engine,
+      'nothing grows',
+    );
   },
 
   async '400,000 vertices'() {
@@ -525,7 +716,13 @@ const steps = {
     // painted by hand: boxes at both ends
     const at = await page.evaluate(() => {
       const box = window.arap.view.canvas.getBoundingClientRect();
-      return [[0, 0, -1], [0, 0, 1]].map((p) => { const [x, y] = window.arap.view.toScreen(...p); return [x + box.left, y + box.top]; });
+      return [
+        [0, 0, -1],
+        [0, 0, 1],
+      ].map((p) => {
+        const [x, y] = window.arap.view.toScreen(...p);
+        return [x + box.left, y + box.top];
+      });
     });
     await page.keyboard.press('x');
     await clickText('Fixed');
@@ -545,7 +742,9 @@ const steps = {
     const during = await state();
     await shot('20_large');
     await page.mouse.up();
-    console.log(`  opened in ${opened} ms, ready in ${prepared} ms, then ${during.milliseconds.toFixed(0)} ms for ${during.iterations} iterations`);
+    console.log(
+      `  opened in ${opened} ms, ready in ${prepared} ms, then ${during.milliseconds.toFixed(0)} ms for ${during.iterations} iterations`,
+    );
     assert(during.energy > 0);
     await openModel('bar');
   },
@@ -555,18 +754,24 @@ const steps = {
     const film = join(shots, 'film');
     mkdirSync(film, { recursive: true });
     const small = await newPage({ width: 760, height: 460 });
-    await small.evaluate(() => { document.querySelector('#begin').click(); document.querySelector('#more').click(); });
+    await small.evaluate(() => {
+      document.querySelector('#begin').click();
+      document.querySelector('#more').click();
+    });
     await rest(100);
     await small.evaluate(() => window.arap.view.fit());
     await settled(small);
-    const { screen: [x, y] } = (await state(small)).handles[0];
+    const {
+      screen: [x, y],
+    } = (await state(small)).handles[0];
     let count = 0;
-    const take = () => small.screenshot({ path: join(film, `${String(count++).padStart(2, '0')}.png`) });
+    const take = () =>
+      small.screenshot({ path: join(film, `${String(count++).padStart(2, '0')}.png`) });
     await take();
     await small.mouse.move(x, y);
     await small.mouse.down();
     for (let k = 1; k <= 26; ++k) {
-      const t = 2 * Math.PI * k / 26;
+      const t = (2 * Math.PI * k) / 26;
       await small.mouse.move(x + 130 * Math.sin(t), y + 60 * (1 - Math.cos(t)));
       await rest(150);
       await take();
@@ -578,24 +783,55 @@ const steps = {
   // three iterations a frame, in turns with the same drag natively, in one thread; drawing is not in it
   async 'milliseconds in the worker'() {
     const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
-    for (const [f, frames] of [[32, 150], [101, 40]]) {
-      const shape = sphere(f), name = join(files, `sphere_${f}`);
+    for (const [f, frames] of [
+      [32, 150],
+      [101, 40],
+    ]) {
+      const shape = sphere(f),
+        name = join(files, `sphere_${f}`);
       writeFileSync(`${name}.off`, off(shape));
       writeFileSync(`${name}.sel`, `${shape.status.join('\n')}\n`);
-      await page.evaluate(async (points, simplices, status) => {
-        await window.arap.open({ points: Float64Array.from(points), simplices: Int32Array.from(simplices), corners: 3, volume: false, status: Int32Array.from(status) }, 'sphere');
-      }, [...shape.points], [...shape.simplices], [...shape.status]);
+      await page.evaluate(
+        async (points, simplices, status) => {
+          await window.arap.open(
+            {
+              points: Float64Array.from(points),
+              simplices: Int32Array.from(simplices),
+              corners: 3,
+              volume: false,
+              status: Int32Array.from(status),
+            },
+            'sphere',
+          );
+        },
+        [...shape.points],
+        [...shape.simplices],
+        [...shape.status],
+      );
       await settled();
-      const native = [], worker = [];
+      const native = [],
+        worker = [];
       for (let round = 0; round < 5; ++round) {
-        const output = execFileSync(join(live, 'frames'), [`${name}.off`, `${name}.sel`, String(frames)]).toString().trim().split('\n').map(Number);
+        const output = execFileSync(join(live, 'frames'), [
+          `${name}.off`,
+          `${name}.sel`,
+          String(frames),
+        ])
+          .toString()
+          .trim()
+          .split('\n')
+          .map(Number);
         const ours = await page.evaluate(async (count) => {
           const times = [];
           let energy = 0;
           await window.arap.engine.call('reset');
           for (let k = 0; k < count; ++k) {
             const matrix = [1, 0, 0, 0.3 * Math.sin(k / 10), 0, 1, 0, 0, 0, 0, 1, 0.3, 0, 0, 0, 1];
-            const step = await window.arap.engine.call('step', { handles: [{ matrix }], iterations: 3, tolerance: 0 });
+            const step = await window.arap.engine.call('step', {
+              handles: [{ matrix }],
+              iterations: 3,
+              tolerance: 0,
+            });
             times.push(step.milliseconds);
             ({ energy } = step);
           }
@@ -606,7 +842,9 @@ const steps = {
         worker.push(median(ours.times.slice(frames / 3)));
       }
       const ratio = median(worker) / median(native);
-      console.log(`  ${shape.points.length / 3} vertices: ${median(worker).toFixed(1)} ms in the worker, ${median(native).toFixed(1)} ms natively, ratio ${ratio.toFixed(2)}`);
+      console.log(
+        `  ${shape.points.length / 3} vertices: ${median(worker).toFixed(1)} ms in the worker, ${median(native).toFixed(1)} ms natively, ratio ${ratio.toFixed(2)}`,
+      );
       assert(ratio < 4);
     }
     await openModel('bar');
@@ -625,11 +863,17 @@ for (const [name, step] of Object.entries(steps)) {
   } catch (error) {
     ++failures;
     console.log(`  FAILED: ${error.stack}`);
-    console.log(`  the page says: ${await message().catch(() => '')} ${complaints.splice(0).join('; ')}`);
+    console.log(
+      `  the page says: ${await message().catch(() => '')} ${complaints.splice(0).join('; ')}`,
+    );
     await shot(`failed_${name.replace(/\W+/g, '_')}`).catch(() => {});
   }
 }
 await browser.close();
 server.close();
-console.log(failures ? `${failures} steps failed` : `The page: all is well; screenshots: ${readdirSync(shots).length} in build/live/screenshots`);
+console.log(
+  failures
+    ? `${failures} steps failed`
+    : `The page: all is well; screenshots: ${readdirSync(shots).length} in build/live/screenshots`,
+);
 process.exit(failures ? 1 : 0);
