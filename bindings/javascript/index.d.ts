@@ -85,7 +85,7 @@ export interface Report {
   invertedSimplices: number;
   /** the smallest vertex of each part that nothing holds; these stay where they are */
   unconstrainedComponents: Int32Array;
-  /** what had to be done again before the iterations */
+  /** what had to be done again since the last run, before the iterations */
   stages: { region: boolean; weights: boolean; order: boolean; factor: boolean; border: boolean };
   /** in seconds */
   seconds: {

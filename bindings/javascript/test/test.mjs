@@ -192,10 +192,11 @@ refuses(
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'stop' }).status, 'stopped');
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'cancel' }).status, 'cancelled');
 
-// what is prepared is not done again
+// what was prepared is reported once
 session.setTargets([0], [0, 0, 0.6]);
 session.setOption('cells', 'spokes');
 session.preprocess();
+assert.equal(session.deform().stages.factor, true);
 assert.equal(session.deform().stages.factor, false);
 
 // undo
