@@ -8,6 +8,14 @@ const fail = (sentence) => {
   throw new Error(sentence);
 };
 
+// of a tetrahedron, seen from outside
+const facesOfTetrahedron = [
+  [1, 2, 3],
+  [0, 3, 2],
+  [0, 1, 3],
+  [0, 2, 1],
+];
+
 // the words of a text without comments
 class Words {
   constructor(text) {
@@ -232,12 +240,7 @@ export function writeMesh(ending, { points, simplices, corners, volume }) {
 export function boundary(tetrahedra, points) {
   const faces = new Map();
   for (let t = 0; t < tetrahedra.length; t += 4)
-    for (const [i, j, k] of [
-      [1, 2, 3],
-      [0, 3, 2],
-      [0, 1, 3],
-      [0, 2, 1],
-    ]) {
+    for (const [i, j, k] of facesOfTetrahedron) {
       const face = [tetrahedra[t + i], tetrahedra[t + j], tetrahedra[t + k]];
       const key = [...face].sort((a, b) => a - b).join();
       if (!faces.delete(key)) faces.set(key, { face, t });
@@ -251,17 +254,32 @@ export function boundary(tetrahedra, points) {
 }
 
 // six times the volume of the tetrahedron whose corners begin at t
-export function volumeOf(p, tetrahedra, t) {
+function volumeOf(p, tetrahedra, t) {
   const a = 3 * tetrahedra[t],
-    [u, v, w] = [1, 2, 3].map((k) => {
-      const b = 3 * tetrahedra[t + k];
-      return [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    });
-  return (
-    u[0] * (v[1] * w[2] - v[2] * w[1]) +
-    u[1] * (v[2] * w[0] - v[0] * w[2]) +
-    u[2] * (v[0] * w[1] - v[1] * w[0])
-  );
+    b = 3 * tetrahedra[t + 1],
+    c = 3 * tetrahedra[t + 2],
+    d = 3 * tetrahedra[t + 3];
+  const ux = p[b] - p[a],
+    uy = p[b + 1] - p[a + 1],
+    uz = p[b + 2] - p[a + 2];
+  const vx = p[c] - p[a],
+    vy = p[c + 1] - p[a + 1],
+    vz = p[c + 2] - p[a + 2];
+  const wx = p[d] - p[a],
+    wy = p[d + 1] - p[a + 1],
+    wz = p[d + 2] - p[a + 2];
+  return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
+}
+
+// the corners of all faces of the tetrahedra that are inverted at these positions
+export function facesOfInverted({ points, simplices }, positions) {
+  const corners = [];
+  for (let t = 0; t < simplices.length; t += 4)
+    if (volumeOf(positions, simplices, t) * volumeOf(points, simplices, t) < 0)
+      for (const [i, j, k] of facesOfTetrahedron)
+        for (const c of [i, j, k])
+          for (let x = 0; x < 3; ++x) corners.push(positions[3 * simplices[t + c] + x]);
+  return corners;
 }
 
 export const writeSelection = (status, comment) => `# ${comment}\n${status.join('\n')}\n`;

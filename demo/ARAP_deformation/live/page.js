@@ -1,28 +1,21 @@
 // The page: what is open, painted and held, and what happened to it.
 import { Engine } from './engine.js';
+import { FIXED, FREE, HANDLE, colourOf, css, grey, ramp, rampColour, red } from './colours.js';
 import {
   boundary,
+  facesOfInverted,
   readMesh,
-  volumeOf,
   writeMesh,
   writeSelection,
   writeTransforms,
 } from './files.js';
 import { models } from './models.js';
+import { centre, fittedMotion, identity, matrixOf, rigidParts } from './motion.js';
+import { drawPlot } from './plot.js';
+import { brushed, flood, isInside, nearestSeen, ofSimplices } from './regions.js';
 import { THREE, View } from './view.js';
 
 const $ = (id) => document.getElementById(id);
-const FIXED = 0,
-  FREE = 1,
-  HANDLE = 2;
-const palette = [0xf6c415, 0x2f7fe0, 0x36a852, 0x9b51c9, 0xf08a24, 0x14b8b0, 0xe0569b, 0x8a6d3b];
-const grey = 0xc9ced6,
-  red = 0xd8302f;
-const colourOf = (status) =>
-  status === FIXED ? red : status === FREE ? grey : palette[(status - HANDLE) % palette.length];
-const identity = () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
-const css = (rgb) => `#${rgb.toString(16).padStart(6, '0')}`;
-
 const view = (() => {
   try {
     return new View($('view'));
@@ -97,67 +90,10 @@ async function busy(what, f) {
 // ---- handles
 
 // A handle is what is painted with one colour, or one point in a face: it moves with its matrix, from the rest shape.
-const rigidParts = (handle) => {
-  const m = new THREE.Matrix4().set(...handle.matrix),
-    p = new THREE.Vector3(),
-    q = new THREE.Quaternion();
-  m.decompose(p, q, new THREE.Vector3());
-  return { m, q, place: new THREE.Vector3(...handle.pivot).applyMatrix4(m) };
-};
-
-// the motion that turns by q and brings the pivot to a place
-function matrixOf(pivot, q, place) {
-  const m = new THREE.Matrix4().makeRotationFromQuaternion(q);
-  const moved = new THREE.Vector3(...pivot).applyMatrix4(m);
-  m.setPosition(place.clone().sub(moved));
-  return m.transpose().toArray(); // row by row
-}
-
 function membersOf(k) {
   const list = [];
   for (let v = 0; v < shape.status.length; ++v) if (shape.status[v] === k + HANDLE) list.push(v);
   return list;
-}
-
-function centre(points, list) {
-  const c = [0, 0, 0];
-  for (const v of list) for (let i = 0; i < 3; ++i) c[i] += points[3 * v + i] / list.length;
-  return c;
-}
-
-// The rigid motion that takes vertices from their rest shape to where they are, by Horn's quaternion: what
-// is painted in a deformed shape stays where it is.
-function fittedMotion(list) {
-  const p = shape.points,
-    q = view.positions,
-    a = centre(p, list),
-    b = centre(q, list),
-    s = Array(9).fill(0);
-  let size = 0;
-  for (const v of list)
-    for (let i = 0; i < 3; ++i)
-      for (let j = 0; j < 3; ++j) {
-        const product = (p[3 * v + i] - a[i]) * (q[3 * v + j] - b[j]);
-        s[3 * i + j] += product;
-        size += Math.abs(product);
-      }
-  const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = s,
-    shift = 2 * size || 1;
-  const n = [
-    [xx + yy + zz, yz - zy, zx - xz, xy - yx],
-    [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-    [zx - xz, xy + yx, yy - xx - zz, yz + zy],
-    [xy - yx, zx + xz, yz + zy, zz - xx - yy],
-  ];
-  let e = [1, 0.01, 0.02, 0.03];
-  for (let k = 0; k < 300; ++k) {
-    const f = n.map((row, i) => row.reduce((sum, x, j) => sum + x * e[j], shift * e[i])),
-      l = Math.hypot(...f);
-    e = f.map((x) => x / l);
-  }
-  const turn =
-    list.length > 2 ? new THREE.Quaternion(e[1], e[2], e[3], e[0]) : new THREE.Quaternion();
-  return matrixOf(a, turn, new THREE.Vector3(...b));
 }
 
 const isDeformed = () =>
@@ -199,7 +135,7 @@ function recountHandles(fits) {
     if (size && (size !== handle.size || fits)) {
       const list = membersOf(k),
         isNew = !handle.size;
-      if (isNew && fits) handle.matrix = fittedMotion(list);
+      if (isNew && fits) handle.matrix = fittedMotion(list, shape.points, view.positions);
       if (isNew) handle.turns = size === 1;
       handle.pivot = centre(shape.points, list);
     }
@@ -309,7 +245,7 @@ function pump() {
           step.result === 'converged' ||
           (!fast && step.firstEnergy - step.energy <= 1e-12 * step.energy);
         if (done && !hasNewTargets && !dragging && !playing) settle(step);
-        drawPlot();
+        drawPlot($('plot'), history, measured);
         drawInverted();
         drawMarks();
         placeGizmo();
@@ -429,7 +365,6 @@ async function open(mesh, name, note) {
       stiffness: null,
       diagonal: box.getSize(new THREE.Vector3()).length(),
     };
-    neighbours = null;
     past = [];
     now = -1;
     keys = [];
@@ -548,40 +483,6 @@ async function weightsChanged() {
 
 // ---- painting
 
-let neighbours = null;
-function neighbourLists() {
-  // compressed rows
-  if (neighbours) return neighbours;
-  const n = shape.status.length,
-    s = shape.simplices,
-    c = shape.corners,
-    starts = new Uint32Array(n + 1);
-  for (const v of s) starts[v + 1] += c - 1;
-  for (let v = 0; v < n; ++v) starts[v + 1] += starts[v];
-  const list = new Uint32Array(starts[n]),
-    next = starts.slice();
-  for (let i = 0; i < s.length; i += c)
-    for (let a = 0; a < c; ++a)
-      for (let b = 0; b < c; ++b) if (a !== b) list[next[s[i + a]]++] = s[i + b];
-  return (neighbours = { starts, list });
-}
-
-// what is connected to a vertex by vertices of its status
-function flood(seed) {
-  const { starts, list } = neighbourLists(),
-    wanted = shape.status[seed],
-    reached = new Uint8Array(shape.status.length),
-    queue = [seed];
-  reached[seed] = 1;
-  for (let i = 0; i < queue.length; ++i)
-    for (let k = starts[queue[i]]; k < starts[queue[i] + 1]; ++k)
-      if (!reached[list[k]] && shape.status[list[k]] === wanted) {
-        reached[list[k]] = 1;
-        queue.push(list[k]);
-      }
-  return queue;
-}
-
 function stiffnessOfVertices() {
   if (!shape.stiffness) shape.stiffness = new Float64Array(shape.status.length).fill(1);
   return shape.stiffness;
@@ -597,46 +498,10 @@ function paint(vertices) {
   if (vertices.length) drawColours();
 }
 
-const isInside = (polygon, x, y) => {
-  let inside = false;
-  for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {
-    const [a, b] = polygon[i],
-      [c, d] = polygon[j];
-    if (b > y !== d > y && x < ((c - a) * (y - b)) / (d - b) + a) inside = !inside;
-  }
-  return inside;
-};
-
-function nearestSeen(screen, x, y, within, accepts = () => true) {
-  let best = -1,
-    least = within * within;
-  for (let v = 0; v < screen.xs.length; ++v) {
-    if (!screen.seen[v]) continue;
-    const d = (screen.xs[v] - x) ** 2 + (screen.ys[v] - y) ** 2;
-    if (d < least && accepts(v)) {
-      least = d;
-      best = v;
-    }
-  }
-  return best;
-}
-
 function brushAt(x, y) {
-  const { xs, ys, seen } = stroke.screen,
-    radius = Number($('brush').value),
-    [x0, y0] = stroke.last ?? [x, y];
-  const dx = x - x0,
-    dy = y - y0,
-    l = dx * dx + dy * dy,
-    list = [];
-  for (let v = 0; v < xs.length; ++v) {
-    // along the way from the last place
-    if (!seen[v]) continue;
-    const t = l ? Math.max(0, Math.min(1, ((xs[v] - x0) * dx + (ys[v] - y0) * dy) / l)) : 0;
-    if ((xs[v] - x0 - t * dx) ** 2 + (ys[v] - y0 - t * dy) ** 2 < radius * radius) list.push(v);
-  }
+  const list = brushed(stroke.screen, stroke.last ?? [x, y], [x, y], Number($('brush').value));
   if (!list.length && !stroke.last) {
-    // coarser than the brush
+    // the shape is coarser than the brush
     const v = nearestSeen(stroke.screen, x, y, 40);
     if (v >= 0) list.push(v);
   }
@@ -663,7 +528,7 @@ async function painted() {
   try {
     if (tool === 'stiffness') {
       let values = shape.stiffness;
-      if ($('cells').value === 'elements') values = ofSimplices(values);
+      if ($('cells').value === 'elements') values = ofSimplices(shape, values);
       $('measure').value = 'stiffness';
       await engine.call('stiffness', { values });
     } else {
@@ -684,14 +549,6 @@ async function painted() {
     await goTo(now);
   }
 }
-
-const ofSimplices = (values) =>
-  Float64Array.from({ length: shape.simplices.length / shape.corners }, (_, s) => {
-    let sum = 0;
-    for (let k = 0; k < shape.corners; ++k)
-      sum += values[shape.simplices[s * shape.corners + k]] / shape.corners;
-    return sum;
-  });
 
 // a handle in a face, or at a vertex if that is clicked
 async function placePoint(x, y) {
@@ -800,7 +657,7 @@ function pressed(event) {
   view.canvas.setPointerCapture(event.pointerId);
   if (tool === 'flood') {
     const seed = nearestSeen(screen, x, y, 60);
-    if (seed >= 0) paint(flood(seed));
+    if (seed >= 0) paint(flood(shape, seed));
   } else if (tool === 'box' || tool === 'lasso') stroke.path = [[x, y]];
   else brushAt(x, y);
   drawStroke(x, y);
@@ -898,22 +755,6 @@ $('view').addEventListener('contextmenu', (event) => event.preventDefault());
 
 // ---- drawing
 
-const ramp = [
-  [0x30, 0x4f, 0x9e],
-  [0x4f, 0xb0, 0xc6],
-  [0xf2, 0xf0, 0xd0],
-  [0xf2, 0x9a, 0x3c],
-  [0xb3, 0x13, 0x2b],
-];
-function rampColour(t) {
-  const x = Math.max(0, Math.min(1, t || 0)) * (ramp.length - 1),
-    i = Math.min(ramp.length - 2, Math.floor(x));
-  return ramp[i].reduce(
-    (rgb, c, k) => (rgb << 8) | Math.round(c + (x - i) * (ramp[i + 1][k] - c)),
-    0,
-  );
-}
-
 let values = null,
   range = [0, 1];
 function drawColours() {
@@ -967,23 +808,8 @@ async function showMeasure() {
 }
 
 function drawInverted() {
-  if (!shape.volume) return view.setInverted([]);
-  const p = view.positions,
-    s = shape.simplices,
-    corners = [];
-  shape.inverted = 0;
-  for (let t = 0; t < s.length; t += 4) {
-    if (volumeOf(p, s, t) * volumeOf(shape.points, s, t) >= 0) continue;
-    ++shape.inverted;
-    for (const [i, j, k] of [
-      [1, 2, 3],
-      [0, 3, 2],
-      [0, 1, 3],
-      [0, 2, 1],
-    ])
-      for (const c of [i, j, k])
-        corners.push(p[3 * s[t + c]], p[3 * s[t + c] + 1], p[3 * s[t + c] + 2]);
-  }
+  const corners = shape.volume ? facesOfInverted(shape, view.positions) : [];
+  shape.inverted = corners.length / 36;
   view.setInverted(corners);
 }
 
@@ -1005,50 +831,11 @@ function drawMarks() {
   view.setMarks(points, colours);
 }
 
-function drawPlot() {
-  const canvas = $('plot'),
-    c = canvas.getContext('2d'),
-    { width: w, height: h } = canvas;
-  c.clearRect(0, 0, w, h);
-  c.font = '22px system-ui, sans-serif';
-  const line = (list, colour, low, high) => {
-    c.beginPath();
-    list.forEach((x, i) =>
-      c.lineTo(8 + (i * (w - 16)) / 109, h - 8 - ((h - 48) * (x - low)) / (high - low || 1)),
-    );
-    c.strokeStyle = colour;
-    c.lineWidth = 3;
-    c.stroke();
-  };
-  const logs = history.energy.map((e) => Math.log10(Math.max(e, 1e-300))),
-    top = Math.max(...logs),
-    bottom = Math.max(Math.min(...logs), top - 6);
-  line(
-    logs.map((x) => Math.max(x, bottom)),
-    '#1f6fd6',
-    bottom,
-    top,
-  );
-  line(history.milliseconds, '#d97706', 0, Math.max(...history.milliseconds));
-  c.fillStyle = '#1f6fd6';
-  c.fillText(
-    `energy ${Number.isFinite(measured.energy) ? measured.energy.toPrecision(4) : '–'}`,
-    8,
-    26,
-  );
-  c.fillStyle = '#b45309';
-  c.fillText(
-    `${Number.isFinite(measured.milliseconds) ? (measured.milliseconds / Math.max(1, measured.iterations)).toFixed(1) : '–'} ms/iteration`,
-    w - 210,
-    26,
-  );
-}
-
 function draw() {
   drawColours();
   drawMarks();
   drawInverted();
-  drawPlot();
+  drawPlot($('plot'), history, measured);
   placeGizmo();
   showPanel();
 }

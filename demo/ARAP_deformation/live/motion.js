@@ -1,0 +1,59 @@
+// Rigid motions as matrices of four rows, row by row, as in transform files.
+import * as THREE from 'three';
+
+export const identity = () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+export const rigidParts = (handle) => {
+  const m = new THREE.Matrix4().set(...handle.matrix),
+    p = new THREE.Vector3(),
+    q = new THREE.Quaternion();
+  m.decompose(p, q, new THREE.Vector3());
+  return { m, q, place: new THREE.Vector3(...handle.pivot).applyMatrix4(m) };
+};
+
+// the motion that turns by q and brings the pivot to a place
+export function matrixOf(pivot, q, place) {
+  const m = new THREE.Matrix4().makeRotationFromQuaternion(q);
+  const moved = new THREE.Vector3(...pivot).applyMatrix4(m);
+  m.setPosition(place.clone().sub(moved));
+  return m.transpose().toArray(); // row by row
+}
+
+export function centre(points, list) {
+  const c = [0, 0, 0];
+  for (const v of list) for (let i = 0; i < 3; ++i) c[i] += points[3 * v + i] / list.length;
+  return c;
+}
+
+// The rigid motion that takes vertices from their rest shape to where they are, by Horn's quaternion: what
+// is painted in a deformed shape stays where it is.
+export function fittedMotion(list, p, q) {
+  const a = centre(p, list),
+    b = centre(q, list),
+    s = Array(9).fill(0);
+  let size = 0;
+  for (const v of list)
+    for (let i = 0; i < 3; ++i)
+      for (let j = 0; j < 3; ++j) {
+        const product = (p[3 * v + i] - a[i]) * (q[3 * v + j] - b[j]);
+        s[3 * i + j] += product;
+        size += Math.abs(product);
+      }
+  const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = s,
+    shift = 2 * size || 1;
+  const n = [
+    [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+    [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+    [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+    [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+  ];
+  let e = [1, 0.01, 0.02, 0.03];
+  for (let k = 0; k < 300; ++k) {
+    const f = n.map((row, i) => row.reduce((sum, x, j) => sum + x * e[j], shift * e[i])),
+      l = Math.hypot(...f);
+    e = f.map((x) => x / l);
+  }
+  const turn =
+    list.length > 2 ? new THREE.Quaternion(e[1], e[2], e[3], e[0]) : new THREE.Quaternion();
+  return matrixOf(a, turn, new THREE.Vector3(...b));
+}
