@@ -9,9 +9,9 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// The flat interface for JavaScript, by way of WebAssembly: index.js calls these functions and nothing
-// else does. Arrays are pointers into the heap. Each function returns whether it succeeded; then
-// there are numbers, else a sentence.
+// The flat interface for JavaScript, by way of WebAssembly: index.js calls these functions and
+// nothing else does. Arrays are pointers into the heap. Each function returns whether it succeeded;
+// then there are numbers, else a sentence.
 
 #include "../Array_deformation.h"
 

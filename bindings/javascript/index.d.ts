@@ -1,11 +1,17 @@
-/** As-rigid-as-possible deformation of surfaces and tetrahedral volumes (Sorkine and Alexa 2007). */
+/**
+ * As-rigid-as-possible deformation of surfaces and tetrahedral volumes (Sorkine and Alexa 2007).
+ */
 
-/** Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row. */
+/**
+ * Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row.
+ */
 export type Numbers = Float64Array | Float32Array | readonly number[];
 /** Indices of vertices, simplices or handles, from 0; one number stands for a list of one. */
 export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
 
-/** `misuse` is a wrong index, name or shape of an array; the others are those of the C++ library. */
+/**
+ * `misuse` is a wrong index, name or shape of an array; the others are those of the C++ library.
+ */
 export type Status =
   | 'success'
   | 'converged'
@@ -36,8 +42,8 @@ export type Status =
   | 'out_of_memory'
   | 'misuse';
 
-/** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a TypeError, of other lengths
- *  a RangeError. */
+/** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a
+ *  TypeError, of other lengths a RangeError. */
 export class ArapError extends Error {
   status: Status;
 }
@@ -64,9 +70,15 @@ export interface Shape {
 export interface Run {
   /** at most so many; default 1000 */
   iterations?: number;
-  /** stop where the estimated relative gap to the minimum is at most this; default 0.001; 0 runs all iterations */
+  /**
+   * stop where the estimated relative gap to the minimum is at most this; default 0.001; 0 runs all
+   * iterations
+   */
   tolerance?: number;
-  /** called after each iteration; may end the run, or cancel it, which leaves all as it was. What it throws is thrown. */
+  /**
+   * called after each iteration; may end the run, or cancel it, which leaves all as it was. What it
+   * throws is thrown.
+   */
   visitor?: (iteration: number, energy: number) => 'stop' | 'cancel' | void;
 }
 
@@ -123,7 +135,8 @@ export interface State {
 }
 
 /**
- * A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a control point inside a simplex.
+ * A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a
+ * control point inside a simplex.
  * Its memory is outside of what JavaScript collects at once: call `dispose()` at the end.
  */
 export interface Session {
@@ -162,7 +175,9 @@ export interface Session {
 
   setTargets(handles: Indices | number, targets: Numbers): void;
   target(handle: number): Float64Array;
-  /** moves targets by a matrix of 3 x 4 or 4 x 4; those of the rest shape, or else the present ones */
+  /**
+   * moves targets by a matrix of 3 x 4 or 4 x 4; those of the rest shape, or else the present ones
+   */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
   /** Infinity: a hard target, which is met exactly */
   setWeight(handles: Indices | number, weight: number): void;

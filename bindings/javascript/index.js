@@ -61,8 +61,8 @@ export async function load({ wasmBinary } = {}) {
     throw new ArapError(text(module._arap_status()), text(module._arap_message()));
   };
 
-  // Calls f with pointers to copies of the arrays in the heap. A view of the heap is made anew for each
-  // use: the heap may have grown.
+  // Calls f with pointers to copies of the arrays in the heap. A view of the heap is made anew for
+  // each use: the heap may have grown.
   function withCopies(arrays, f) {
     const pointers = [];
     try {

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Drags a handle over FRAMES frames of three iterations, as test_page.mjs does in WebAssembly, natively
-// with one thread. Prints the milliseconds of each frame, then the last energy.
+// Drags a handle over FRAMES frames of three iterations, as test_page.mjs does in WebAssembly,
+// natively with one thread. Prints the milliseconds of each frame, then the last energy.
 // usage: frames MESH.off SELECTION FRAMES
 
 #include "../../Array_deformation.h"

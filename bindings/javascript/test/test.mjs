@@ -1,4 +1,5 @@
-// What an installed package does: energies as those of the command, to 1e-9, and errors with a sentence.
+// What an installed package does: energies as those of the command, to 1e-9, and errors with a
+// sentence.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -82,9 +83,11 @@ for (const name of ['bar', 'cactus', 'volume']) {
   writeFileSync(
     file,
     volume
-      ? `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${lines(points, 3, (p) => `${p.join(' ')} 0`)}\nTetrahedra\n${m}\n` +
+      ? `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n` +
+          `${lines(points, 3, (p) => `${p.join(' ')} 0`)}\nTetrahedra\n${m}\n` +
           `${lines(simplices, 4, (s) => `${s.map((v) => v + 1).join(' ')} 0`)}\nEnd\n`
-      : `OFF\n${n} ${m} 0\n${lines(points, 3, (p) => p.join(' '))}\n${lines(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`,
+      : `OFF\n${n} ${m} 0\n${lines(points, 3, (p) => p.join(' '))}\n` +
+          `${lines(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`,
   );
   writeFileSync(`${name}.sel`, `${status.join('\n')}\n`);
   writeFileSync(
@@ -97,7 +100,8 @@ for (const name of ['bar', 'cactus', 'volume']) {
     { cells: 'spokes', minimizer: 'quasi_newton' },
   ])
     console.log(
-      `${name}, ${Object.values(options).join(', ')}: energies differ by ${compare(name, file, shape, [...status], matrices, options).toExponential(1)}`,
+      `${name}, ${Object.values(options).join(', ')}: energies differ by ` +
+        compare(name, file, shape, [...status], matrices, options).toExponential(1),
     );
 }
 const folder = process.argv[2];
@@ -115,7 +119,10 @@ for (const file of folder && existsSync(folder)
   );
   for (const cells of ['spokes', 'spokes_and_rims'])
     console.log(
-      `${file}, ${cells}: energies differ by ${compare(name, `${folder}/${file}`, readOff(`${folder}/${file}`), status, matrices, { cells }).toExponential(1)}`,
+      `${file}, ${cells}: energies differ by ` +
+        compare(name, `${folder}/${file}`, readOff(`${folder}/${file}`), status, matrices, {
+          cells,
+        }).toExponential(1),
     );
 }
 

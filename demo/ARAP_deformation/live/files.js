@@ -1,5 +1,5 @@
-// Mesh files, and those that arap_deform reads: text or bytes to arrays and back. What is wrong with a file
-// is an Error with a sentence.
+// Mesh files, and those that arap_deform reads: text or bytes to arrays and back. What is wrong
+// with a file is an Error with a sentence.
 import { PLYLoader } from 'three/examples/jsm/loaders/PLYLoader.js';
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
@@ -221,19 +221,27 @@ function rows(array, columns, line) {
   return lines.join('\n');
 }
 
+// indices that count from 1
+const from1 = (row) => Array.from(row, (v) => v + 1).join(' ');
+
 export function writeMesh(ending, { points, simplices, corners, volume }) {
   const n = points.length / 3,
     m = simplices.length / corners,
     faces = volume ? boundary(simplices) : simplices;
   if (ending === 'obj')
-    return `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n${rows(faces, 3, (f) => `f ${Array.from(f, (v) => v + 1).join(' ')}`)}\n`;
+    return (
+      `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n` +
+      `${rows(faces, 3, (f) => `f ${from1(f)}`)}\n`
+    );
   if (ending === 'mesh')
     return (
-      `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n${rows(points, 3, (p) => `${p.join(' ')} 0`)}\n` +
+      `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n` +
+      `${rows(points, 3, (p) => `${p.join(' ')} 0`)}\n` +
       `${volume ? 'Tetrahedra' : 'Triangles'}\n${m}\n` +
-      `${rows(simplices, corners, (s) => `${Array.from(s, (v) => v + 1).join(' ')} 0`)}\nEnd\n`
+      `${rows(simplices, corners, (s) => `${from1(s)} 0`)}\nEnd\n`
     );
-  return `OFF\n${n} ${faces.length / 3} 0\n${rows(points, 3, (p) => p.join(' '))}\n${rows(faces, 3, (f) => `3 ${f.join(' ')}`)}\n`;
+  const corners3 = rows(faces, 3, (f) => `3 ${f.join(' ')}`);
+  return `OFF\n${n} ${faces.length / 3} 0\n${rows(points, 3, (p) => p.join(' '))}\n${corners3}\n`;
 }
 
 // the faces of tetrahedra that belong to one of them only, seen from outside

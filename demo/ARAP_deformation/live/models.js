@@ -1,5 +1,5 @@
-// Shapes made in code, each with regions to start with: a status of each vertex as in selection files,
-// 0 fixed, 1 free, k >= 2 the k-2nd handle.
+// Shapes made in code, each with regions to start with: a status of each vertex as in selection
+// files, 0 fixed, 1 free, k >= 2 the k-2nd handle.
 
 const shape = (points, simplices, status, rest = {}) => {
   const p = Float64Array.from(points);

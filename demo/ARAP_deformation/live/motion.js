@@ -25,8 +25,8 @@ export function centre(points, list) {
   return c;
 }
 
-// The rigid motion that takes vertices from their rest shape to where they are, by Horn's quaternion: what
-// is painted in a deformed shape stays where it is.
+// The rigid motion that takes vertices from their rest shape to where they are, by Horn's
+// quaternion: what is painted in a deformed shape stays where it is.
 export function fittedMotion(list, p, q) {
   const a = centre(p, list),
     b = centre(q, list),

@@ -30,7 +30,8 @@ const view = (() => {
 const engine = new Engine(...window.arapParts());
 
 // what is open: points are those of the rest shape
-let shape = null; // { name, points, simplices, corners, volume, faces, diagonal, status, handles, stiffness }
+// { name, points, simplices, corners, volume, faces, diagonal, status, handles, stiffness }
+let shape = null;
 let tool = 'grab',
   paints = FIXED,
   chosen = -1; // the handle with the gizmo
@@ -69,7 +70,9 @@ function say(sentence, isError = false) {
 $('message').lastElementChild.onclick = () => say('');
 const sentence = ({ message }) =>
   // names of files keep their letters
-  `${/^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() : message[0]}${message.slice(1)}${/[.!?]$/.test(message) ? '' : '.'}`;
+  (/^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() : message[0]) +
+  message.slice(1) +
+  (/[.!?]$/.test(message) ? '' : '.');
 const complain = (error) => say(sentence(error), true);
 
 let work = 0;
@@ -89,7 +92,8 @@ async function busy(what, f) {
 
 // ---- handles
 
-// A handle is what is painted with one colour, or one point in a face: it moves with its matrix, from the rest shape.
+// A handle is what is painted with one colour, or one point in a face: it moves with its matrix,
+// from the rest shape.
 function membersOf(k) {
   const list = [];
   for (let v = 0; v < shape.status.length; ++v) if (shape.status[v] === k + HANDLE) list.push(v);
@@ -265,7 +269,9 @@ function settle(step) {
   isSettled = true;
   if (step.unconstrained)
     say(
-      `${step.unconstrained} ${step.unconstrained === 1 ? 'part of the shape is' : 'parts of the shape are'} held by nothing and stay${step.unconstrained === 1 ? 's' : ''}.`,
+      step.unconstrained === 1
+        ? '1 part of the shape is held by nothing and stays.'
+        : `${step.unconstrained} parts of the shape are held by nothing and stay.`,
     );
   showMeasure();
 }
@@ -645,7 +651,7 @@ function pressed(event) {
     return;
   }
   const screen = view.screen();
-  if (tool !== 'box' && tool !== 'lasso' && !screen.isOn(x, y)) return; // beside the shape the view turns
+  if (tool !== 'box' && tool !== 'lasso' && !screen.isOn(x, y)) return; // the view turns
   view.letTurn(false);
   if (tool === 'point') return void placePoint(x, y);
   stroke = {
@@ -767,6 +773,7 @@ function drawColours() {
 }
 
 // the measure at the vertices, where the shape has come to rest or now and then
+const percent = (x) => `${(100 * x).toPrecision(3)}%`;
 let isMeasuring = false;
 async function showMeasure() {
   const measure = $('measure').value,
@@ -786,8 +793,7 @@ async function showMeasure() {
     const sizes = Float64Array.from(values, Math.abs).sort(),
       top = sizes[Math.floor(0.995 * (sizes.length - 1))] || 1e-3;
     range = measure === 'size_change' ? [-top, top] : [0, top];
-    const unit = (x) =>
-      measure === 'angle_change' ? `${x.toPrecision(3)}°` : `${(100 * x).toPrecision(3)}%`;
+    const unit = (x) => (measure === 'angle_change' ? `${x.toPrecision(3)}°` : percent(x));
     $('legend').hidden = false;
     $('legend').firstElementChild.style.background =
       `linear-gradient(90deg, ${ramp.map((c) => `rgb(${c})`).join()})`;
@@ -796,8 +802,8 @@ async function showMeasure() {
     );
     const { edgeLengthError, areaChange, volumeChange, invertedSimplices } = answer.quality;
     $('quality').textContent =
-      `Edges ${(100 * edgeLengthError).toPrecision(3)}%, area ${(100 * areaChange).toPrecision(3)}%` +
-      (Number.isFinite(volumeChange) ? `, volume ${(100 * volumeChange).toPrecision(3)}%` : '') +
+      `Edges ${percent(edgeLengthError)}, area ${percent(areaChange)}` +
+      (Number.isFinite(volumeChange) ? `, volume ${percent(volumeChange)}` : '') +
       (shape.volume ? `, ${invertedSimplices} inverted` : '');
     drawColours();
   } catch (error) {
@@ -988,7 +994,8 @@ async function saveMesh(ending, which, suffix) {
 // ---- the panel
 
 const icon = (path) =>
-  `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" stroke-width="1.8" aria-hidden="true">${path}</svg>`;
+  `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" ` +
+  `stroke-width="1.8" aria-hidden="true">${path}</svg>`;
 const tools = {
   grab: ['M12 3v18M3 12h18M9 6l3-3 3 3M9 18l3 3 3-3M6 9l-3 3 3 3M18 9l3 3-3 3', 'Grab', 'g'],
   brush: ['M20 4l-9 9M11 12c-3-1-5 1-5 4 0 2-1 3-3 3 4 3 10 1 10-5z', 'Brush', 'b'],
@@ -1058,7 +1065,8 @@ function showPanel() {
   $('redo').disabled = now >= past.length - 1;
   $('name').textContent =
     `${shape.name}: ${(shape.points.length / 3).toLocaleString('en')} vertices, ` +
-    `${(shape.simplices.length / shape.corners).toLocaleString('en')} ${shape.volume ? 'tetrahedra' : 'triangles'}`;
+    `${(shape.simplices.length / shape.corners).toLocaleString('en')} ` +
+    (shape.volume ? 'tetrahedra' : 'triangles');
   const shown = (id, text) => {
     $(id).parentElement.querySelector('output').textContent = text;
   };

@@ -30,8 +30,9 @@ export function drawPlot(canvas, history, measured) {
     26,
   );
   c.fillStyle = '#b45309';
+  const perIteration = measured.milliseconds / Math.max(1, measured.iterations);
   c.fillText(
-    `${Number.isFinite(measured.milliseconds) ? (measured.milliseconds / Math.max(1, measured.iterations)).toFixed(1) : '–'} ms/iteration`,
+    `${Number.isFinite(perIteration) ? perIteration.toFixed(1) : '–'} ms/iteration`,
     w - 210,
     26,
   );

@@ -1,4 +1,5 @@
-// What is drawn: the shape in the colours of its regions, marks, the gizmo; and what is where on the screen.
+// What is drawn: the shape in the colours of its regions, marks, the gizmo; and what is where on
+// the screen.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
@@ -10,9 +11,17 @@ const distanceMaterial = new THREE.ShaderMaterial({
   side: THREE.DoubleSide,
   uniforms: { far: { value: 1 } },
   vertexShader: `varying float depth; uniform float far;
-    void main() { vec4 p = modelViewMatrix * vec4(position, 1.); depth = -p.z / far; gl_Position = projectionMatrix * p; }`,
+    void main() {
+      vec4 p = modelViewMatrix * vec4(position, 1.);
+      depth = -p.z / far;
+      gl_Position = projectionMatrix * p;
+    }`,
   fragmentShader: `varying float depth;
-    void main() { vec3 e = fract(depth * vec3(1., 255., 65025.)); e.xy -= e.yz / 255.; gl_FragColor = vec4(e, 1.); }`,
+    void main() {
+      vec3 e = fract(depth * vec3(1., 255., 65025.));
+      e.xy -= e.yz / 255.;
+      gl_FragColor = vec4(e, 1.);
+    }`,
 });
 
 function disc() {

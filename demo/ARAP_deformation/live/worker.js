@@ -1,5 +1,5 @@
-// The engine, in a thread of its own. It answers each message once; the page sends the next one only
-// then, so that no queue grows.
+// The engine, in a thread of its own. It answers each message once; the page sends the next one
+// only then, so that no queue grows.
 import { load } from 'arap-deformation';
 
 let arap,
@@ -40,7 +40,8 @@ function newSession(points, weights) {
   pointHandles = [];
 }
 
-// the control vertices and points of the painted regions; only what has changed is told to the session
+// the control vertices and points of the painted regions; only what has changed is told to the
+// session
 function hold(next, handles) {
   const erased = [],
     inserted = [];
