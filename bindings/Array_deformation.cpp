@@ -323,9 +323,14 @@ private:
 
   std::vector<std::size_t> vertices_of(Indices vertices) const
   {
-    std::vector<std::size_t> result(vertices.data, vertices[vertices.rows]);
-    for(std::size_t v : result)
-      domain().index(v); // throws if there is none
+    std::vector<std::size_t> result;
+    for(std::size_t k = 0; k < vertices.rows; ++k)
+    {
+      const std::int32_t v = *vertices[k];
+      if(v < 0) // converted, it would be named by another number
+        throw std::out_of_range("there is no vertex " + std::to_string(v));
+      result.push_back(domain().index(static_cast<std::size_t>(v))); // throws if there is none
+    }
     return result;
   }
   std::vector<std::size_t> control_vertices_of(Indices vertices) const
