@@ -1208,11 +1208,14 @@ void test_bridge(const std::string& solver)
           d.translate(1, Eigen::Vector3d(0.3, 0, 0));
           const Report report = d.deform(iterations, 0);
           CHECK(report);
-          CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-          // in a larger cell the rounding errors of a flat tetrahedron, whose weights are huge, are
-          // more than what ties it to the others
+          // In a larger cell the rounding errors of a flat tetrahedron, whose weights are huge, are
+          // more than what ties it to the others. Where that is, and with it how large rounding
+          // errors are, changes during the run.
           if(height > 0 || options.cells.rings() == 0)
+          {
+            CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
             CHECK_AT_MOST(largest_distance(points, points_of(rest)), 10.0);
+          }
         }
       });
 }
