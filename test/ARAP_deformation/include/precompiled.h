@@ -13,8 +13,10 @@
 #define CGAL_ARAP_DEFORMATION_TEST_PRECOMPILED_H
 
 // What most tests and examples include, compiled once for all of them: headers of CGAL, Eigen, the
-// standard library and the public ones of this package, none of the tests' own. Each program
-// includes what it uses itself, and so compiles without this header.
+// standard library and the public ones of this package. Each program includes what it uses itself,
+// and so compiles without this header.
+
+#include "compiled_sessions.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
