@@ -123,7 +123,7 @@ using Soup_of =
 // against a fact that it does not use. Neither minimizer goes upwards, nor quasi-Newton less far.
 void test_balance_of_forces()
 {
-  Every_nth is_run(5);
+  Every_nth is_run(9);
   for_each_shape([&](const std::string& name, const auto& rest, const auto& simplices,
                      double diameter) {
     const Scenario s = scenario(Shape{"", rest, {}}, 0.7);
@@ -245,7 +245,7 @@ void test_rigid_motion()
 // minimum. Weak pulls take longest: the whole has to turn, which costs nothing but iterations.
 void test_tolerance()
 {
-  Every_nth is_run(5);
+  Every_nth is_run(9);
   for(const Shape& shape : shapes())
     for(double weight : {1e-3, 1e-2, 1.0, 1e2})
     {
@@ -1184,7 +1184,7 @@ void test_bridge(const std::string& solver)
   using Tetrahedra = std::vector<std::array<int, 4>>;
   using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>;
   const Tetrahedra tetrahedra = {{0, 1, 2, 3}, {4, 5, 6, 7}, {3, 4, 8, 9}};
-  Every_nth is_run(5);
+  Every_nth is_run(9);
   for(double height : {0.0, 1.0})
     for(double size = 1e-4; size > 1e-16; size /= 5)
       for_all_options([&](const Options& options) {
@@ -1224,7 +1224,7 @@ void test_bridge(const std::string& solver)
 // the sheet follows them.
 void test_pulls()
 {
-  Every_nth is_run(5);
+  Every_nth is_run(9);
   for(double height : {0.0, 0.3})
     for(double weight = 1; weight > 1e-30; weight /= 30)
       for_all_options([&](const Options& options) {

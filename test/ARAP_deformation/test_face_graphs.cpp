@@ -427,11 +427,11 @@ int main()
   test_mesh_type<Mesh>("Simple_cartesian<double>");
   test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
     "Simple_cartesian<float>", 2e-5);
-  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>>(
-    "EPICK");
   test_mesh_type<Polyhedron>("Polyhedron_3");
 #ifdef CGAL_ARAP_TEST_ALL // dear to compile
   test_mesh_type<Derived_mesh>("a derived class");
+  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>>(
+    "EPICK");
   test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>>(
     "EPECK");
   test_mesh_type<CGAL::Polyhedron_3<Kernel, CGAL::Polyhedron_items_with_id_3>>(

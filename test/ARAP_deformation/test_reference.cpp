@@ -180,7 +180,7 @@ void test()
 {
   using Deformation =
     CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>>;
-  static Every_nth is_run(5);
+  static Every_nth is_run(7);
   for(const Shape& shape : shapes())
     for(Cell_scheme cells : all_cell_schemes)
     {

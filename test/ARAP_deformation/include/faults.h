@@ -149,7 +149,7 @@ private:
   std::size_t m_exceptions = 0, m_refusals = 0, m_survived = 0;
 };
 
-// Makes each call of a kind (in a short run every fifth) fail in each step of a story, from step
+// Makes each call of a kind (in a short run every seventh) fail in each step of a story, from step
 // `first_step` on.
 template <typename Session>
 class Fault_test
@@ -270,7 +270,7 @@ private:
   Faults& m_faults;
   Fault_statistics& m_statistics;
   bool m_is_mesh_written_whole;
-  std::size_t m_stride = is_long_run() ? 1 : 5;
+  std::size_t m_stride = is_long_run() ? 1 : 7;
 };
 
 inline int faults_result()
