@@ -236,14 +236,13 @@ public:
   }
   Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) override
   {
-    if(forces.rows == 0)
-      return checked(m_deformation.advance(dynamics, std::vector<Point>(number_of_vertices()),
-                                           visitor_of(visitor)));
-    require(forces.rows == number_of_vertices() && forces.columns == 3,
+    require(forces.rows == 0 || (forces.rows == number_of_vertices() && forces.columns == 3),
             "forces have three coordinates for each of the " +
             std::to_string(number_of_vertices()) + " vertices");
-    return checked(m_deformation.advance(
-      dynamics, [&](std::size_t v) { return point_at(forces[v]); }, visitor_of(visitor)));
+    const auto force_at = [&](std::size_t v) {
+      return forces.rows == 0 ? Point{0, 0, 0} : point_at(forces[v]);
+    };
+    return checked(m_deformation.advance(dynamics, force_at, visitor_of(visitor)));
   }
 
   void reset() override { m_deformation.reset(); }
