@@ -11,6 +11,7 @@
 
 // The solvers: conformance, and one deformation with each of them and with each rotation fitting.
 
+#include "include/compiled_solvers.h"
 #include "include/domains.h"
 #include "include/Single_precision_solver.h"
 #include "include/term_runs.h"
@@ -515,10 +516,19 @@ private:
   std::vector<std::vector<Point>> m_default; // for each case
 };
 
-template <typename Solver>
-CGAL::ARAP_deformation_traits<Solver> with_solver(const Solver& solver = Solver())
+// A solver of any type. One type for all: a deformation takes longest to compile.
+struct Any_solver : Compiled_solver
 {
-  return CGAL::ARAP_deformation_traits<Solver>(solver);
+  template <typename Solver>
+  explicit Any_solver(const Solver& solver)
+    : Compiled_solver(std::make_unique<internal::Linear_solver_of<Solver>>(solver))
+  {}
+};
+
+template <typename Solver>
+CGAL::ARAP_deformation_traits<Any_solver> with_solver(const Solver& solver = Solver())
+{
+  return CGAL::ARAP_deformation_traits<Any_solver>(Any_solver(solver));
 }
 
 template <typename Rotation>
@@ -538,7 +548,7 @@ void test_all()
         with_solver<Eigen_sparse_solver<Eigen::SimplicialLLT<Sparse_matrix>>>(), direct);
   swaps("Eigen_LDLT_solver", with_solver<Eigen_LDLT_solver>(), direct);
 #ifdef CGAL_LINKED_WITH_CHOLMOD
-  swaps("Cholmod_solver", with_solver<Cholmod_solver>(), direct);
+  swaps("Cholmod_solver", CGAL::ARAP_deformation_traits<Cholmod_solver>(), direct);
 #endif
   swaps("CGAL::Eigen_solver_traits<Eigen::SparseLU>",
         with_solver<Sparse_linear_algebra_adaptor<CGAL_LU>>(), direct);
@@ -546,8 +556,8 @@ void test_all()
         with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>(), direct);
 
   // the errors of these are corrections that come an iteration later
-  swaps("Multifrontal_cholesky_solver, single precision", with_solver<Single_precision_solver>(),
-        1e-6);
+  swaps("Multifrontal_cholesky_solver, single precision",
+        CGAL::ARAP_deformation_traits<Single_precision_solver>(), 1e-6);
   swaps("Eigen_conjugate_gradient_solver", with_solver<Eigen_conjugate_gradient_solver>(), 1e-8);
   for(double tolerance : {1e-8, 1e-4})
   {
@@ -569,15 +579,15 @@ void test_all()
 class Terms
 {
 public:
-  template <typename Solver>
-  void compare_with_default(const char* name)
+  template <typename Traits>
+  void compare_with_default(const char* name, const Traits& traits)
   {
     const std::vector<Term_run> runs = term_runs(m_shape.diameter());
     for(std::size_t k = 0; k < runs.size(); ++k)
     {
       test_case() = name + (", " + runs[k].name);
       Mesh mesh = make_mesh<Mesh>(m_shape);
-      CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> deformation(mesh);
+      CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
       const Result result = deform_with(deformation, all_vertices(mesh), m_scenario, runs[k]);
       if(k == m_default.size()) // of the first solver, which is the default
         m_default.push_back(result);
@@ -595,16 +605,19 @@ private:
 void test_terms()
 {
   Terms terms;
-  terms.compare_with_default<CGAL::Default>("default");
+  terms.compare_with_default("default", CGAL::ARAP_deformation_traits<>());
   using LLT = Eigen::SimplicialLLT<Sparse_matrix>;
-  terms.compare_with_default<Eigen_sparse_solver<LLT>>("Eigen_sparse_solver<SimplicialLLT>");
-  terms.compare_with_default<Eigen_LDLT_solver>("Eigen_LDLT_solver");
+  terms.compare_with_default("Eigen_sparse_solver<SimplicialLLT>",
+                             with_solver<Eigen_sparse_solver<LLT>>());
+  terms.compare_with_default("Eigen_LDLT_solver", with_solver<Eigen_LDLT_solver>());
 #ifdef CGAL_LINKED_WITH_CHOLMOD
-  terms.compare_with_default<Cholmod_solver>("Cholmod_solver");
+  terms.compare_with_default("Cholmod_solver", CGAL::ARAP_deformation_traits<Cholmod_solver>());
 #endif
-  terms.compare_with_default<Sparse_linear_algebra_adaptor<CGAL_LU>>("CGAL's SparseLU");
-  terms.compare_with_default<Sparse_linear_algebra_adaptor<CGAL_LDLT>>("CGAL's SimplicialLDLT");
-  terms.compare_with_default<Eigen_conjugate_gradient_solver>("Eigen_conjugate_gradient_solver");
+  terms.compare_with_default("CGAL's SparseLU", with_solver<Sparse_linear_algebra_adaptor<CGAL_LU>>());
+  terms.compare_with_default("CGAL's SimplicialLDLT",
+                             with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>());
+  terms.compare_with_default("Eigen_conjugate_gradient_solver",
+                             with_solver<Eigen_conjugate_gradient_solver>());
 }
 
 } // namespace swaps
