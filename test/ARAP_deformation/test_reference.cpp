@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation_traits.h>
 
 #include <Eigen/Dense>
@@ -434,8 +435,97 @@ void test_all()
 
 } // namespace tetrahedra
 
+// Energy and forces of several blocks of simplices, with three, four or mixed numbers of corners in
+// any order, against the sums that they are; with all cells and with some.
+namespace blocks {
+
+using namespace CGAL::ARAP::internal;
+using CGAL::ARAP::Coordinates;
+using CGAL::ARAP::Matrix_3x3;
+
+void test(int fewest_corners, int most_corners)
+{
+  test_case() = std::to_string(fewest_corners) + " to " + std::to_string(most_corners) + " corners";
+  const int n = 1500, number_of_simplices = 3000, number_of_movable = 1400;
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::uniform_int_distribution<int> corners_of_one(fewest_corners, most_corners), vertex(0, n - 1);
+  CGAL::ARAP::internal::Simplices simplices;
+  for(int s = 0; s < number_of_simplices; ++s)
+  {
+    std::set<int> corners;
+    for(const int k = corners_of_one(engine); static_cast<int>(corners.size()) < k;)
+      corners.insert(vertex(engine));
+    Array<int>& items = simplices.corners.items;
+    items.insert(items.end(), corners.begin(), corners.end());
+    std::shuffle(items.end() - static_cast<int>(corners.size()), items.end(), engine);
+    simplices.corners.begin.push_back(static_cast<int>(items.size()));
+    simplices.first_weight.push_back(static_cast<int>(simplices.weights.size()));
+    for(std::size_t k = 0; k < corners.size() * (corners.size() - 1) / 2; ++k)
+      simplices.weights.push_back(number(engine));
+  }
+  Cells cells = vertex_cells(simplices.corners, n);
+  for(double& stiffness : cells.stiffness)
+    stiffness = 2 + number(engine);
+  std::vector<Matrix_3x3> rotations(n);
+  for(Matrix_3x3& rotation : rotations)
+    for(double& entry : rotation)
+      entry = number(engine);
+  std::vector<Double4> rest, x;
+  for(int v = 0; v < n; ++v)
+    for(std::vector<Double4>* points : {&rest, &x})
+      points->push_back(Double4::of(number(engine), number(engine), number(engine)));
+
+  Simplex_energy energy(simplices, cells, number_of_movable);
+  std::vector<Coordinates> forces(number_of_movable);
+  for(bool do_all_count : {true, false, true})
+  {
+    Array<char> is_chosen(n, true);
+    for(int c = 0; c < n && !do_all_count; c += 3)
+      is_chosen[c] = false;
+    energy.choose_cells(is_chosen);
+    double result = 0;
+    for(int k = 0; k < 2; ++k) // nothing is left over from one to the next
+      result = energy.evaluate(rest.data(), x.data(), rotations.data(), forces.data());
+
+    double sum = 0, size = 0;
+    std::vector<Eigen::Vector3d> expected(n, Eigen::Vector3d::Zero());
+    simplices.for_each_edge([&](int s, int i, int j, double w) {
+      const auto difference = [&](const std::vector<Double4>& points) {
+        const Double4 d = points[std::size_t(i)] - points[std::size_t(j)];
+        return Eigen::Vector3d(d[0], d[1], d[2]);
+      };
+      for(int k = simplices.corners.begin[s]; k < simplices.corners.begin[s + 1]; ++k)
+        if(const int c = simplices.corners.items[k]; is_chosen[c])
+        {
+          const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>
+            rotation(rotations[std::size_t(c)].data());
+          const Eigen::Vector3d residual = difference(x) - rotation * difference(rest);
+          sum += cells.stiffness[c] * w * residual.squaredNorm();
+          size += cells.stiffness[c] * std::abs(w) * residual.squaredNorm();
+          expected[std::size_t(i)] -= cells.stiffness[c] * w * residual;
+          expected[std::size_t(j)] += cells.stiffness[c] * w * residual;
+        }
+    });
+    CHECK_AT_MOST(std::abs(result - sum), 1e-13 * size);
+    for(std::size_t v = 0; v < number_of_movable; ++v)
+      for(int k = 0; k < 3; ++k)
+        CHECK_AT_MOST(std::abs(forces[v][std::size_t(k)] - expected[v][k]), 1e-11);
+  }
+}
+
+void test_all()
+{
+  test(3, 3);
+  test(4, 4);
+  test(3, 5);
+}
+
+} // namespace blocks
+
 int main()
 {
+  blocks::test_all();
   iterates::test_all();
   initial_guess::test_all();
   tetrahedra::test_all();

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
 #include <CGAL/assertions.h>
 
@@ -221,20 +222,35 @@ inline Cells ring_cells(const Index_lists& neighbours, int number_of_cells, unsi
 
 // Sums the covariances of the edge sets of each cell in [begin, end), times the stiffness of the
 // cell.
+struct Sum_of_covariances_kernel
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Cells& cells, const Matrix_3x3* of_sets, int begin,
+                                          int end, Matrix_3x3* covariances)
+  {
+    for(int c = begin; c < end; ++c)
+    {
+      Double4 first = Double4::zero(), second = first; // four entries each
+      double last = 0;
+      for(int k = cells.sets.begin[c]; k < cells.sets.begin[c + 1]; ++k)
+      {
+        const double* entries = of_sets[cells.sets.items[k]].data();
+        first = first + Double4::load(entries);
+        second = second + Double4::load(entries + 4);
+        last += entries[8];
+      }
+      const Double4 stiffness = Double4::all(cells.stiffness[c]);
+      double* sum = covariances[c - begin].data();
+      (stiffness * first).store(sum);
+      (stiffness * second).store(sum + 4);
+      sum[8] = cells.stiffness[c] * last;
+    }
+  }
+};
+
 inline void add_up_covariances(const Cells& cells, const Array<Matrix_3x3>& of_sets, int begin,
                                int end, Matrix_3x3* covariances)
 {
-  for(int c = begin; c < end; ++c)
-  {
-    Matrix_3x3& sum = covariances[c - begin];
-    sum.fill(0);
-    for(int k = cells.sets.begin[c]; k < cells.sets.begin[c + 1]; ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        sum[entry] += of_sets[cells.sets.items[k]][entry];
-    if(cells.stiffness[c] != 1)
-      for(double& entry : sum)
-        entry *= cells.stiffness[c];
-  }
+  run_kernel<Sum_of_covariances_kernel>(cells, of_sets.data(), begin, end, covariances);
 }
 
 } // namespace internal

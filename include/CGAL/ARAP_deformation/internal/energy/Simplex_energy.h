@@ -16,9 +16,9 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Block_forces.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
-#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
@@ -28,7 +28,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -71,33 +70,29 @@ struct Simplex_covariances_kernel
   }
 };
 
-// The energies of simplices in all cells that they are in, and the forces on their corners: minus
-// the sum of k w r over the edges there and these cells, with r the residuals.
+// The energies of simplices in all cells that they are in. Adds to the forces at the places of
+// their corners minus the sum of k w r over the edges there and these cells, with r the residuals.
 template <int N>
 struct Simplex_residuals_kernel
 {
   CGAL_ARAP_ALWAYS_INLINE static void run(const Simplex_view& simplices, int begin, int end,
                                           const Index_lists& cells, const double* stiffness,
-                                          const Matrix_3x3* rotations, Double4* corner_forces,
-                                          double* energy)
+                                          const Matrix_3x3* rotations, const int* places,
+                                          Double4* forces, double* energy)
   {
     Double4 energies = Double4::zero();
     for(int s = begin; s < end; ++s)
     {
-      const int first = simplices.first_corner[s];
-      const int n = N > 0 ? N : simplices.first_corner[s + 1] - first;
-      const int* corners = simplices.corners + first;
-      Double4 few_forces[std::size_t(N > 0 ? N : 1)]; // in registers
-      Double4* forces = N > 0 ? few_forces : corner_forces + first;
+      const int* corners = simplices.corners + simplices.first_corner[s];
+      const int* place = places + simplices.first_corner[s];
+      const double* weight = simplices.weights + simplices.first_weight[s];
       Double4 simplex_energy = Double4::zero();
-      for(int a = 0; a < n; ++a)
-        forces[a] = Double4::zero();
       if constexpr(N == 0)
       {
+        const int n = simplices.first_corner[s + 1] - simplices.first_corner[s];
         const Joint_cell cell(cells, s, stiffness, rotations);
         const Matrix_columns mean = Matrix_columns::of(cell.mean);
         const Matrix_columns spread = Matrix_columns::of(cell.spread);
-        const double* weight = simplices.weights + simplices.first_weight[s];
         for(int a = 0; a < n; ++a)
           for(int b = a + 1; b < n; ++b, ++weight)
           {
@@ -108,53 +103,49 @@ struct Simplex_residuals_kernel
             const Double4 spread_edge = subtract_product(Double4::zero(), spread, edge);
             simplex_energy = multiply_add(weighted, residual, simplex_energy) -
                              Double4::all(*weight) * edge * spread_edge;
-            forces[a] = forces[a] - weighted;
-            forces[b] = forces[b] + weighted;
+            forces[place[a]] = forces[place[a]] - weighted;
+            forces[place[b]] = forces[place[b]] + weighted;
           }
       }
-      else for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+      else
       {
-        const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
-        const double* weight = simplices.weights + simplices.first_weight[s];
-        for(int a = 0; a < n; ++a)
-          for(int b = a + 1; b < n; ++b, ++weight)
+        Double4 few_forces[N]; // in registers
+        for(int a = 0; a < N; ++a)
+          few_forces[a] = Double4::zero();
+        for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
+        {
+          const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
+          const Double4 factor = Double4::all(stiffness[cells.items[k]]);
+          Double4 residuals[N]; // of the edges from the first corner: others are their differences
+          const int o = corners[0];
+          residuals[0] = Double4::zero();
+          for(int a = 1; a < N; ++a)
           {
-            const int i = corners[a], j = corners[b];
-            const Double4 residual = subtract_product(simplices.x[i] - simplices.x[j], rotation,
-                                                      simplices.rest[i] - simplices.rest[j]);
-            const Double4 weighted = Double4::all(stiffness[cells.items[k]] * *weight) * residual;
-            simplex_energy = multiply_add(weighted, residual, simplex_energy);
-            forces[a] = forces[a] - weighted;
-            forces[b] = forces[b] + weighted;
+            const int i = corners[a];
+            residuals[a] = subtract_product(simplices.x[o] - simplices.x[i], rotation,
+                                            simplices.rest[o] - simplices.rest[i]);
           }
+          const double* w = weight;
+          for(int a = 0; a < N; ++a)
+            for(int b = a + 1; b < N; ++b, ++w)
+            {
+              const Double4 residual = a == 0 ? residuals[b] : residuals[b] - residuals[a];
+              const Double4 weighted = factor * Double4::all(*w) * residual;
+              simplex_energy = multiply_add(weighted, residual, simplex_energy);
+              few_forces[a] = few_forces[a] - weighted;
+              few_forces[b] = few_forces[b] + weighted;
+            }
+        }
+        for(int a = 0; a < N; ++a)
+          forces[place[a]] = forces[place[a]] + few_forces[a];
       }
       energies = energies + simplex_energy; // sums of sums: less is lost in rounding
-      if(N > 0)
-        for(int a = 0; a < n; ++a)
-          corner_forces[first + a] = forces[a];
     }
     *energy = energies[0] + energies[1] + energies[2];
   }
 };
 
-// Adds up for each vertex the forces on the corners that it is.
-struct Gather_kernel
-{
-  CGAL_ARAP_ALWAYS_INLINE static void run(const Index_lists& corners, int begin, int end,
-                                          const Double4* corner_forces, Coordinates* force)
-  {
-    for(int v = begin; v < end; ++v)
-    {
-      Double4 sum = Double4::zero();
-      for(int k = corners.begin[v]; k < corners.begin[v + 1]; ++k)
-        sum = sum + corner_forces[corners.items[k]];
-      force[v] = {sum[0], sum[1], sum[2]};
-    }
-  }
-};
-
-// The energy of cells that consist of simplices. The force of each simplex on each of its corners
-// has a place of its own, from where the vertices gather theirs: no two write to one place.
+// The energy of cells that consist of simplices.
 class Simplex_energy
 {
 public:
@@ -163,8 +154,7 @@ public:
   Simplex_energy(Simplices simplices, Cells cells, int number_of_movable_vertices)
     : m_simplices(std::move(simplices)), m_cells(std::move(cells)),
       m_cells_of_simplices(lists_with(m_cells.sets, m_simplices.size())),
-      m_corners_of_vertices(places_of(m_simplices.corners, number_of_movable_vertices)),
-      m_corner_forces(m_simplices.corners.items.size())
+      m_forces(m_simplices.corners, number_of_movable_vertices)
   {
     for(int n : {3, 4})
     {
@@ -261,7 +251,8 @@ public:
       return std::any_of(cells + m_cells_of_simplices.begin[s],
                          cells + m_cells_of_simplices.begin[s + 1],
                          [&](int c) { return is_chosen[c] != 0; });
-    }, static_cast<int>(default_block_size));
+    }, m_forces.block_size());
+    m_forces.clear();
   }
 
   // to be called once before compute_covariances() is called for the same positions
@@ -295,15 +286,11 @@ public:
     const double energy = m_chosen.sum([&](int begin, int end) {
       double range_energy;
       run<Simplex_residuals_kernel>(view(rest, x), begin, end, m_cells_of_simplices,
-                                    m_stiffness.data(), rotations, m_corner_forces.data(),
-                                    &range_energy);
+                                    m_stiffness.data(), rotations, m_forces.places(),
+                                    m_forces.data(), &range_energy);
       return range_energy;
-    });
-    const auto number_of_vertices = static_cast<std::size_t>(m_corners_of_vertices.size());
-    for_each_block(number_of_vertices, [&](std::size_t begin, std::size_t end) {
-      run_kernel<Gather_kernel>(m_corners_of_vertices, static_cast<int>(begin),
-                                static_cast<int>(end), m_corner_forces.data(), force);
-    });
+    }, [&](int begin) { m_forces.clear_block_of(begin); });
+    m_forces.gather(force);
     return energy;
   }
 
@@ -337,10 +324,9 @@ private:
   Simplices m_simplices;
   Cells m_cells;
   Index_lists m_cells_of_simplices;
-  Index_lists m_corners_of_vertices; // places in the list of all corners, for each movable vertex
-  Array<double> m_stiffness;         // of the cells, 0 for those that do not count
-  Index_ranges m_chosen;             // the simplices of the other cells
-  std::vector<Double4> m_corner_forces;
+  Block_forces m_forces;
+  Array<double> m_stiffness; // of the cells, 0 for those that do not count
+  Index_ranges m_chosen;     // the simplices of the other cells
   Array<Matrix_3x3> m_covariances; // of the simplices; empty if each is a cell
   int m_number_of_corners = 0; // of each simplex, 0 if they differ
   bool m_is_each_a_cell = true;

@@ -64,18 +64,22 @@ public:
   }
 
   // the sum of f(begin, end) over all ranges, added up in their order; f returns numbers, or what
-  // can be added like numbers
-  template <typename Function>
-  auto sum(const Function& f) const
+  // can be added like numbers. Calls start(begin) before the first range of each block.
+  template <typename Function, typename Start>
+  auto sum(const Function& f, const Start& start) const
   {
     using Value = decltype(f(0, 0));
     std::vector<Value> sums(m_first_range.size() - 1);
     for_each_task(sums.size(), [&](std::size_t task) {
+      start(m_ranges[m_first_range[task]].begin);
       for(std::size_t r = m_first_range[task]; r < m_first_range[task + 1]; ++r)
         sums[task] = sums[task] + f(m_ranges[r].begin, m_ranges[r].end);
     });
     return std::accumulate(sums.begin(), sums.end(), Value());
   }
+
+  template <typename Function>
+  auto sum(const Function& f) const { return sum(f, [](int) {}); }
 
 private:
   struct Range
