@@ -32,6 +32,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
+#include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
@@ -261,17 +262,19 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   return given;
 }
 
-// the rotations of cells, from those of their vertices
+// the rotations of cells, from the rotation vectors of vertices
 CGAL_ARAP_INLINE_FUNCTION
 Array<Matrix_3x3>
-Deformation_core::rotations_of_cells(const Array<Matrix_3x3>& of_vertices) const
+Deformation_core::rotations_of_cells(const Array<Coordinates>& vectors) const
 {
-  if(m_energy_model.cells.has_vertex_cells())
-  {
-    const auto end = of_vertices.begin() + static_cast<std::ptrdiff_t>(m_rotations.size());
-    return Array<Matrix_3x3>(of_vertices.begin(), end);
-  }
+  const bool are_at_vertices = m_energy_model.cells.has_vertex_cells();
+  Array<Matrix_3x3> of_vertices(are_at_vertices ? m_rotations.size() : vectors.size());
+  for(std::size_t v = 0; v < of_vertices.size(); ++v)
+    of_vertices[v] = rotation_of_vector(vectors[v]);
+  if(are_at_vertices)
+    return of_vertices;
   Array<Matrix_3x3> rotations;
+  rotations.reserve(m_rotations.size());
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
     rotations.push_back(*mean_at_corners(s, [&](int v) { return &of_vertices[v]; }));
   return rotations;
@@ -362,13 +365,13 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                  }));
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
-    const Array<Matrix_3x3> of_vertices = [&] {
+    const Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
       return Harmonic_rotations(m_region, m_constraints, m_is_near, targets, x)(m_state->energy,
                                                                      m_state->system);
     }();
-    if(!of_vertices.empty() &&
-       !minimization.start_with(rotations_of_cells(of_vertices), is_placed, is_tried))
+    if(!vectors.empty() &&
+       !minimization.start_with(rotations_of_cells(vectors), is_placed, is_tried))
       return {Status::solver_failed};
   }
   if(m_order == Minimization_order::global_first)

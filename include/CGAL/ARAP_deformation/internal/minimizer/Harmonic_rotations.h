@@ -181,20 +181,16 @@ public:
           m_unknown.append(*rows, r);
   }
 
-  // the rotation of each vertex, or nothing if no handle has one, or if the solver fails
-  Array<Matrix_3x3> operator()(const Deformation_energy& energy, Constrained_system& system) const
+  // the rotation vector of each vertex, or nothing if no handle has one, or if the solver fails
+  Array<Coordinates> operator()(const Deformation_energy& energy, Constrained_system& system) const
   {
-    Array<Matrix_3x3> rotations;
     if(std::find(m_is_known.begin(), m_is_known.end(), 1) == m_is_known.end())
-      return rotations;
+      return {};
     Array<Coordinates> vectors = m_known;
     if(!extend(energy, system, vectors) ||
        (m_unknown.size() > 0 && !hold_unknown(energy, system, vectors)))
-      return rotations;
-    rotations.reserve(vectors.size());
-    for(const Coordinates& vector : vectors)
-      rotations.push_back(rotation_of_vector(vector));
-    return rotations;
+      return {};
+    return vectors;
   }
 
 private:

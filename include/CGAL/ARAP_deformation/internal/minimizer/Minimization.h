@@ -108,8 +108,7 @@ public:
   {
     std::vector<Coordinates> before = x, step;
     const double energy = is_tried ? evaluate() : 0;
-    std::vector<Matrix_3x3> fitted = m_rotations;
-    m_rotations.swap(rotations);
+    m_rotations.swap(rotations); // which keeps those fitted
     m_energy.clear_others(m_rotations);
     evaluate_without_fit();
     {
@@ -120,12 +119,12 @@ public:
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(!is_placed[v])
         add(x[v], 1, step[v]);
-    m_last_rotations = m_rotations;
+    keep_rotations();
     if(is_tried && !(evaluate() < energy))
     {
       x.swap(before);
-      m_rotations.swap(fitted);
-      m_last_rotations = m_rotations;
+      m_rotations.swap(rotations);
+      keep_rotations();
     }
     return true;
   }
@@ -138,12 +137,12 @@ public:
     std::vector<Matrix_3x3> fitted = m_rotations;
     x.swap(other);
     m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force, false);
-    m_last_rotations = m_rotations;
+    keep_rotations();
     if(evaluate_without_fit() < energy)
       return true;
     x.swap(other);
     m_rotations.swap(fitted);
-    m_last_rotations = m_rotations;
+    keep_rotations();
     return false;
   }
 
@@ -249,8 +248,7 @@ public:
       m_gap.add(decrease, report);
     }
     report.energy.push_back(m_value);
-    if(m_energy.are_rotations_state())
-      m_last_rotations = m_rotations;
+    keep_rotations();
     if(!std::isfinite(m_value))
       return Status::non_finite_energy;
     estimate_gap();
@@ -302,6 +300,13 @@ public:
   }
 
 private:
+  // as those of the last iterate
+  void keep_rotations()
+  {
+    if(m_energy.are_rotations_state())
+      m_last_rotations = m_rotations;
+  }
+
   std::optional<Status> observe()
   {
     const Visitor_action action = [this] {
