@@ -35,6 +35,7 @@
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
+#include <CGAL/Random.h>
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/subdivision_method_3.h>
 
@@ -50,6 +51,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -209,6 +211,16 @@ void draw_weights(const fs::path& folder)
        sheet.view, folder / "weights.png");
 }
 
+// Draws points without a vertex as balls.
+void add_balls(Panel& panel, const std::vector<Point>& points)
+{
+  for(const Point& p : points)
+  {
+    panel.points.push_back({p.x(), p.y(), p.z()});
+    panel.selection.push_back(HANDLE);
+  }
+}
+
 // A pulled vertex is a spike without bending, and with smooth rotations, too.
 void draw_bending(const fs::path& folder)
 {
@@ -286,9 +298,7 @@ void draw_control_point(const fs::path& folder)
   expect_success(handle);
   const auto panel_with_handle = [&](const std::string& caption) {
     Panel result = panel(mesh, selection, caption);
-    const Point p = deformation.control_point_position(handle.point);
-    result.points.push_back({p.x(), p.y(), p.z()});
-    result.selection.push_back(HANDLE);
+    add_balls(result, {deformation.control_point_position(handle.point)});
     return result;
   };
   std::vector<Panel> panels = {panel_with_handle("original")};
@@ -300,6 +310,75 @@ void draw_control_point(const fs::path& folder)
   panels.push_back(panel_with_handle("soft"));
   draw(panels, View{Vector(-0.3, -1, 0.5), Vector(0, 0, 1), 360, 300, true},
        folder / "control_point.png");
+}
+
+// A sheet whose sides are pushed together arches, or folds if its cells are single triangles.
+void draw_membrane(const fs::path& folder)
+{
+  const Mesh mesh = make_sheet(40, 20, [](const std::array<int, 3>& n) {
+    return Point(0.05 * n[0], 0.05 * n[1], 0);
+  });
+  const Demo_shape sheet{"sheet", mesh,
+                         select(mesh, [](const Point& p) { return p.x() < 0.01; },
+                                [](const Point& p) { return p.x() > 0.99; }),
+                         translation(Vector(-0.5, 0, 0)),
+                         View{Vector(-0.35, -1, 0.5), Vector(0, 0, 1), 360, 260, true}};
+  CGAL::ARAP::Options elements;
+  elements.cells = CGAL::ARAP::Cell_scheme::elements();
+  draw({panel(sheet.mesh, sheet.selection, "original"),
+        deformed_panel(sheet, "spokes and rims", {}), deformed_panel(sheet, "elements", elements)},
+       sheet.view, folder / "membrane.png");
+}
+
+// A sheet that is pulled to noisy points of a cylinder, which are drawn as balls, by hard targets
+// and by soft ones of two weights.
+void draw_soft_targets(const fs::path& folder)
+{
+  const Demo_shape sheet{"sheet", make_sheet(40, 20, [](const std::array<int, 3>& n) {
+                           return Point(0.1 * n[0], 0.1 * n[1], 0);
+                         }),
+                         {}, {}, View{Vector(0.3, -1, 0.6), Vector(0, 0, 1), 350, 250, true}};
+  std::vector<Panel> panels;
+  for(const auto& [caption, weight] :
+      {std::pair{"hard", std::numeric_limits<double>::infinity()}, {"weight 0.1", 0.1},
+       {"weight 0.001", 0.001}})
+  {
+    Mesh mesh = sheet.mesh;
+    CGAL::ARAP_deformation<Mesh> deformation(mesh);
+    deformation.insert_roi_vertices(mesh.vertices());
+    CGAL::Random random(1);
+    const auto noise = [&random] { return random.get_double(-0.1, 0.1); };
+    std::vector<Point> targets;
+    for(Mesh::Vertex_index v : mesh.vertices())
+      if(const Point& p = sheet.mesh.point(v); v.idx() % 7 == 0)
+      {
+        const double x = 2 * std::sin((p.x() - 2) / 2), z = 2 * std::cos((p.x() - 2) / 2);
+        targets.emplace_back(x + noise(), p.y() + noise(), z + noise());
+        deformation.insert_control_vertex(v, targets.back());
+      }
+    expect_success(deformation.set_target_weight(deformation.control_vertices(), weight));
+    expect_success(deformation.deform());
+    panels.push_back(panel(mesh, std::vector<int>(mesh.num_vertices(), FREE), caption));
+    add_balls(panels.back(), targets);
+  }
+  draw(panels, sheet.view, folder / "soft.png");
+}
+
+// A bar that is hollow, and one that is filled with tetrahedra, are bent.
+void draw_volume(const fs::path& folder)
+{
+  Demo_shape hollow = make_bar(1.5);
+  hollow.transform = motion(0, 120, Point(0, 0, 71), Vector(0, -38, -24));
+  Demo_volume filled = make_filled_bar();
+  using Domain =
+    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
+  CGAL::ARAP_deformation<Domain> deformation(Domain(filled.mesh.points, filled.mesh.tetrahedra));
+  insert_selection(deformation, filled.selection, hollow.transform);
+  expect_success(deformation.deform());
+  draw({panel(hollow.mesh, hollow.selection, "original"),
+        deformed_panel(hollow, "a surface", {}),
+        panel(filled.mesh, filled.selection, "tetrahedra")},
+       View{Vector(1, -0.25, 0.2), Vector(0, 0, 1), 300, 420}, folder / "volume.png");
 }
 
 // A bar of soft rubber, in centimeters, that is held in its middle and falls in the direction -x.
@@ -347,11 +426,7 @@ void draw_registration(const fs::path& folder)
   }
   const auto panel_with_scan = [&](const std::string& caption) {
     Panel result = panel(mesh, std::vector<int>(mesh.num_vertices(), FREE), caption);
-    for(const Point& p : scan)
-    {
-      result.points.push_back({p.x(), p.y(), p.z()});
-      result.selection.push_back(HANDLE);
-    }
+    add_balls(result, scan);
     return result;
   };
   const Panel before = panel_with_scan("a sphere and a scan");
@@ -532,6 +607,9 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
   draw_frame(folder);
   draw_stiffness(folder);
   draw_control_point(folder);
+  draw_membrane(folder);
+  draw_soft_targets(folder);
+  draw_volume(folder);
   draw_fall(folder);
   draw_registration(folder);
 

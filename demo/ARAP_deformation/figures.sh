@@ -4,11 +4,10 @@
 # for each argument and an empty one at the end, from which arap_demo draws them side by side.
 # usage: figures.sh ARAP_DEFORM FOLDER [ITERATIONS]   at most so many ITERATIONS
 set -euo pipefail
-manual=$(dirname "$0")/../../doc/ARAP_deformation/ARAP_deformation.txt
+manual=$(dirname "$0")/../../doc/ARAP_deformation/Command.txt
 program=$1 iterations=${3:-}
 # indented lines are commands
-commands=$(sed -n '/^\\section ARAPDeformation_Figures /,/^\\section ARAPDeformation_History /s/^    //p' \
-               "$manual")
+commands=$(sed -n '/^\\section ARAPDeformation_Figures /,$s/^    //p' "$manual")
 [ -n "$commands" ] || { echo "figures.sh: $manual has no commands" >&2; exit 1; }
 cd "$2"
 : >figures.txt
