@@ -511,9 +511,10 @@ public:
   /// `ARAP::Status::undeclared_map`.
   /// @{
 
-  /// sets the stiffness \f$k_c \geq 0\f$ of cells, the weights \f$w_i\f$ of Equation (3) of the
-  /// paper; where the map has no value it is 1. Costs one numeric factorization.
-  /// `ARAP::Status::invalid_stiffness` is what a run returns if a value is negative or not finite.
+  /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
+  /// Equation (3) of the paper; where the map has no value it is 1. Costs one numeric
+  /// factorization. `ARAP::Status::invalid_stiffness` is what a run returns if a value is negative
+  /// or not finite.
   template <typename StiffnessMap>
   ARAP::Outcome set_stiffness(StiffnessMap stiffness)
   {

@@ -181,7 +181,7 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///
-/// \returns a report. If the call fails, the shape is unchanged.
+/// \returns a report. If the call fails, the shape is unchanged; `ARAP::Status` lists the failures.
 template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const CGAL_NP_CLASS& np = parameters::default_values())

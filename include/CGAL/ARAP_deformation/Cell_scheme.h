@@ -31,12 +31,15 @@ enum class Edge_set
 /// \brief defines which edges share a rotation. Chosen at run time.
 ///
 /// A *cell* is a group of edge sets that share one rotation. The schemes differ in the kind of edge
-/// set, and in whether a cell is a single edge set or all edge sets at a vertex.
+/// set, and in whether a cell is a single edge set or all edge sets at a vertex. Each cell \f$c\f$
+/// adds to the energy \f$\sum_{(i,j) \in c} w_{ij} \|(p'_i - p'_j) - R_c (p_i - p_j)\|^2\f$, with
+/// the points \f$p\f$ of the rest shape: see \ref ARAPDeformation_Energy, and
+/// \ref ARAPDeformation_Cells for which to choose.
 class Cell_scheme
 {
 public:
-  /// the cells of Sorkine and Alexa \cgalCite{Sorkine2007AsRigidAs}: one for each vertex, with the
-  /// edges to its neighbours.
+  /// the cells of Sorkine and Alexa \cgalCite{Sorkine2007AsRigidAs}, Equation (3): one for each
+  /// vertex, with the edges to its neighbours.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
   /// one cell for each vertex, with the stars of all vertices within `k` rings around it: the

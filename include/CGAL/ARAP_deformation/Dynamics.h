@@ -27,7 +27,8 @@ namespace ARAP {
 
 /// \ingroup PkgARAPDeformationOptions
 /// \brief what a time step of `CGAL::ARAP_deformation::advance()` needs, in any consistent units:
-/// with kilograms, meters and seconds, the modulus is in Pascal for tetrahedra.
+/// with kilograms, meters and seconds, the modulus is in Pascal for tetrahedra. See
+/// \ref ARAPDeformation_DynamicsTheory for the equations.
 struct Dynamics
 {
   /// \f$h\f$, positive and finite. Another one requires a factorization.

@@ -49,10 +49,12 @@ enum class Initial_guess
 enum class Minimizer
 {
   automatic,    ///< `quasi_newton` if `Options::tolerance` is positive, else `local_global`
-  local_global, ///< the iteration of the paper: gains the most in the first few iterations, and
-                ///< needs the least memory
+  local_global, ///< the iteration of the paper \cgalCite{Sorkine2007AsRigidAs}: gains the most in
+                ///< the first few iterations, and needs the least memory; see
+                ///< \ref ARAPDeformation_LocalGlobal
   quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs many times fewer iterations to the
-                ///< minimum, and about 200 bytes more for each vertex of the region
+                ///< minimum, and about 200 bytes more for each vertex of the region; see
+                ///< \ref ARAPDeformation_QuasiNewton
 };
 
 /// \ingroup PkgARAPDeformationOptions
@@ -63,14 +65,18 @@ struct Options
   Cell_scheme cells = Cell_scheme::spokes_and_rims();
 
   /// \f$b\f$, the length over which a sharp bend is spread, in the unit of the points; 0 for none,
-  /// else positive and finite. See \ref ARAPDeformation_Bending for which to choose. Needs cells at
+  /// else positive and finite. The energy gains \f$b^2 m_i \|f_i(p') - R_i f_i(p)\|^2\f$ at each
+  /// vertex, as \cgalCite{Oehri2025HigherOrder} proposes, see \ref ARAPDeformation_BendingTheory;
+  /// \ref ARAPDeformation_Bending says which to choose. Needs cells at
   /// vertices. A new value requires a factorization. More than a million times the size of what can
   /// move is refused.
   double bending_length = 0;
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
-  /// none, else positive and finite, with the same largest value. With it rotations are part of the
-  /// state, and the energy is minimized over positions and rotations in turns: see
+  /// none, else positive and finite, with the same largest value. The energy gains
+  /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighbouring cells, after \cgalCite{Levi2015Smooth},
+  /// see \ref ARAPDeformation_SmoothRotationsTheory. Rotations are then part of the state, and the
+  /// energy is minimized over positions and rotations in turns: see
   /// \ref ARAPDeformation_SmoothRotations.
   double smoothing_length = 0;
 

@@ -22,7 +22,7 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationRun
-/// the result of a call.
+/// the result of a call. \ref ARAPDeformation_Errors tells what to do about each of them.
 enum class Status
 {
   not_run,              ///< the call was not made yet
