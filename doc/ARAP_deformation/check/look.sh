@@ -15,12 +15,9 @@ function text_of(page) { // without what is code
   text.querySelectorAll('pre, code, div.fragment, script').forEach(element => element.remove());
   return text.textContent;
 }
-function formulas_are_set(window) { // MathJax is loaded after the page
-  return new Promise(done => {
-    const wait = () => window.MathJax?.isReady ? window.MathJax.Hub.Queue(done) : setTimeout(wait, 20);
-    setTimeout(done, 60000); // of Chromium's virtual time
-    wait();
-  });
+function number_of(page, what) { return page.querySelectorAll(what).length; }
+function all_are_set(page) {
+  return !/\\[(\[]/.test(text_of(page)) && number_of(page, '.MathJax_SVG') === number_of(page, 'script[type^="math/tex"]');
 }
 async function look(name) {
   const frame = document.createElement('iframe');
@@ -28,15 +25,18 @@ async function look(name) {
   document.body.append(frame);
   await new Promise(done => frame.onload = done);
   const page = frame.contentDocument;
-  if(/\\[(\[]/.test(text_of(page))) await formulas_are_set(frame.contentWindow);
-  if(/\\[(\[]/.test(text_of(page))) found.push(name + ': a formula is raw');
+  for(let k = 0; k < 10000 && !all_are_set(page); ++k) // MathJax comes after the page; this time is virtual
+    await new Promise(done => setTimeout(done, 50));
+  if(!all_are_set(page)) found.push(name + ': a formula is raw');
   if(page.querySelector('.MathJax_Error, .MathJax_SVG [fill="rgb(204, 0, 0)"]')) // in its red frame
     found.push(name + ': MathJax does not understand a formula');
   for(const image of page.images)
     if(image.naturalWidth === 0) found.push(name + ': does not show ' + image.src);
+  for(const drawing of page.querySelectorAll('object')) // SVG
+    if(!drawing.contentDocument?.querySelector('svg')) found.push(name + ': does not show ' + drawing.data);
   ++pages;
-  formulas += page.querySelectorAll('.MathJax_SVG').length;
-  pictures += page.images.length;
+  formulas += number_of(page, '.MathJax_SVG');
+  pictures += page.images.length + number_of(page, 'object');
   frame.remove();
 }
 async function look_at_all(names) {
@@ -47,7 +47,7 @@ async function look_at_all(names) {
 END
 { printf "addEventListener('load', () => look_at_all(["; printf "'%s'," *.html; echo "].filter(name => name != 'look.html')));</script>"; } >>look.html
 found=$(chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files \
-          --host-resolver-rules="MAP * ~NOTFOUND" --virtual-time-budget=3600000 --dump-dom \
+          --host-resolver-rules="MAP * ~NOTFOUND" --virtual-time-budget=100000000 --dump-dom \
           "file://$PWD/look.html" 2>/dev/null | grep -v '^<')
 echo "$found"
 [[ $found == "looked at "* ]]
