@@ -111,8 +111,10 @@ public:
   using simplex_descriptor = typename Domain_::simplex_descriptor; ///< a face or tetrahedron.
 #ifdef DOXYGEN_RUNNING
   using Iterate = unspecified_type; ///< the argument of a visitor, a model of `ARAPIterate`.
+  using State = unspecified_type; ///< what `state()` returns: a value, which can be copied.
 #else
   using Iterate = typename ARAP::internal::Session<Domain_>::Iterate;
+  using State = typename ARAP::internal::Session<Domain_>::State;
 #endif
   /// @}
 
@@ -645,12 +647,6 @@ public:
   /// makes the current shape the rest shape. Keeps the targets and their weights, and no rotation
   /// that a control vertex prescribes.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
-
-#ifdef DOXYGEN_RUNNING
-  using State = unspecified_type; ///< what `state()` returns: a value, which can be copied.
-#else
-  using State = typename ARAP::internal::Session<Domain_>::State;
-#endif
 
   /// returns the region of interest, the control vertices and control points, their targets and
   /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and

@@ -21,8 +21,10 @@
 
 namespace CGAL {
 
+#ifndef DOXYGEN_RUNNING
 template <typename AABBTraits>
 class AABB_tree; // programs that have one include its header
+#endif
 
 namespace ARAP {
 
