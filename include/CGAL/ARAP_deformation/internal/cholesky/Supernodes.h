@@ -75,7 +75,7 @@ private:
   // the share of zeros in a supernode of that many columns
   static double largest_share_of_zeros(double width)
   {
-    return width <= 4 ? 1 : width <= 16 ? 0.8 : width <= 48 ? 0.1 : 0.05;
+    return width <= 4 ? 1 : width <= 8 ? 0.8 : width <= 48 ? 0.1 : 0.05;
   }
 
   // Supernodes that follow each other and are child and parent, the last ones first.

@@ -108,7 +108,8 @@ public:
   {
     std::vector<Coordinates> before = x, step;
     const double energy = is_tried ? evaluate() : 0;
-    m_rotations.swap(rotations); // which keeps those fitted
+    const std::vector<Matrix_3x3> last = m_last_rotations;
+    m_rotations = std::move(rotations); // others are fitted anew
     m_energy.clear_others(m_rotations);
     evaluate_without_fit();
     {
@@ -123,8 +124,7 @@ public:
     if(is_tried && !(evaluate() < energy))
     {
       x.swap(before);
-      m_rotations.swap(rotations);
-      keep_rotations();
+      m_last_rotations = last;
     }
     return true;
   }
