@@ -613,7 +613,8 @@ void test_terms()
 #ifdef CGAL_LINKED_WITH_CHOLMOD
   terms.compare_with_default("Cholmod_solver", CGAL::ARAP_deformation_traits<Cholmod_solver>());
 #endif
-  terms.compare_with_default("CGAL's SparseLU", with_solver<Sparse_linear_algebra_adaptor<CGAL_LU>>());
+  terms.compare_with_default("CGAL's SparseLU",
+                             with_solver<Sparse_linear_algebra_adaptor<CGAL_LU>>());
   terms.compare_with_default("CGAL's SimplicialLDLT",
                              with_solver<Sparse_linear_algebra_adaptor<CGAL_LDLT>>());
   terms.compare_with_default("Eigen_conjugate_gradient_solver",
