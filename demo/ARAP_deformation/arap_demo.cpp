@@ -17,8 +17,10 @@
 //                                      data folder MESHES if it is given
 //   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
 //                                      pictures of the manual; prints a table
-//   arap_demo figures FOLDER           draws the figures of the manual from what figures.sh has
-//                                      computed; prints a table
+//   arap_demo figures FOLDER           draws Figure 2 of the paper, and the figures of the manual from
+//                                      what figures.sh has computed; prints a table
+//   arap_demo table FOLDER             prints Table 1 of the paper beside our errors; reads lines of
+//                                      FIGURE MODEL ERROR
 
 #include "Command_line.h"
 #include "Task.h"
@@ -456,11 +458,16 @@ void print_title()
                "   seconds\n";
 }
 
+nlohmann::json report_of(const fs::path& folder, const std::string& name)
+{
+  std::ifstream in(folder / (name + ".json"));
+  return nlohmann::json::parse(in);
+}
+
 // a row of the table, from the report of the command
 void print_row(const fs::path& folder, const std::string& name)
 {
-  std::ifstream in(folder / (name + ".json"));
-  const auto report = nlohmann::json::parse(in);
+  const nlohmann::json report = report_of(folder, name);
   std::cout << std::left << std::setw(25) << name << std::right << std::setw(9)
             << report["vertices"].get<int>() << std::setw(7)
             << report["free_vertices"].get<int>() << std::setw(12)
@@ -472,7 +479,7 @@ void print_row(const fs::path& folder, const std::string& name)
 
 // The sizes of the pictures that figures.sh computes, in pixels for each panel.
 const std::map<std::string, std::array<int, 2>> figure_sizes = {
-  {"figure_1", {320, 340}},        {"figure_3", {185, 290}},        {"figure_4", {340, 280}},
+  {"figure_1", {320, 340}},        {"figure_3", {220, 290}},        {"figure_4", {340, 280}},
   {"figure_5_sheet", {280, 230}},  {"figure_5_cactus", {280, 280}}, {"figure_6", {270, 330}},
   {"figure_7", {220, 290}},        {"figure_7_side", {270, 290}},   {"figure_8_front", {330, 320}},
   {"figure_8_back", {330, 320}},   {"terms", {250, 330}},           {"quality", {280, 330}},
@@ -520,6 +527,8 @@ Panel result_panel(const Command_line& line, const Mesh& rest, const std::string
 // PICTURE.png, after the original; each of several frames is one.
 void draw_figures(const fs::path& folder)
 {
+  check_renderer();
+  draw_weights(folder);
   fs::current_path(folder); // where the commands were run
   const std::vector<Command_line> commands = read_commands("figures.txt");
   const auto name = [](const Command_line& line) { return fs::path(line.output).stem().string(); };
@@ -559,6 +568,23 @@ void draw_figures(const fs::path& folder)
   print_title();
   for(const std::string& result : results)
     print_row("", result);
+}
+
+// Table 1 of the paper, in Markdown. The reports are those at the minimum and after dragging.
+void print_table(const fs::path& folder, std::istream& rows)
+{
+  std::cout << "\n| figure | model | vertices | the paper's error | ours, dragged | ours, at the minimum "
+               "| one of 3 iterations [ms] |\n|:--|:--|--:|--:|--:|--:|--:|\n" << std::setprecision(2) << std::showpoint;
+  std::string figure, model, error;
+  while(rows >> figure >> model >> error)
+    if(fs::exists(folder / ("dragged_" + figure + ".json"))) // else the model is missing
+    {
+      const auto dragged = report_of(folder, "dragged_" + figure);
+      std::cout << "| " << figure << " | " << model << " | " << dragged["vertices"].get<int>() << " | "
+                << error << " | " << dragged["edge_length_error"].get<double>() << " | "
+                << report_of(folder, "figure_" + figure)["edge_length_error"].get<double>() << " | "
+                << 1000 * dragged["seconds"]["deform"].get<double>() / 3 << " |\n";
+    }
 }
 
 // Section 5 of the paper: a surface in many pieces follows a coarse volume around it.
@@ -601,7 +627,6 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
   for(const Demo_shape& model : all)
     draw_model(folder, model);
   draw_model(folder, volume);
-  draw_weights(folder);
   draw_embedding(folder);
   draw_bending(folder);
   draw_frame(folder);
@@ -624,9 +649,10 @@ void draw_pictures(const fs::path& folder, const fs::path& meshes)
 int main(int argc, char** argv)
 {
   const std::string action = argc > 1 ? argv[1] : "";
-  if(argc < 3 || argc > 4 || (action != "models" && action != "pictures" && action != "figures"))
+  if(argc < 3 || argc > 4 ||
+     (action != "models" && action != "pictures" && action != "figures" && action != "table"))
   {
-    std::cerr << "usage: arap_demo models|pictures|figures FOLDER [MESHES]\n";
+    std::cerr << "usage: arap_demo models|pictures|figures|table FOLDER [MESHES]\n";
     return 2;
   }
   try
@@ -636,6 +662,8 @@ int main(int argc, char** argv)
       write_models(folder, meshes);
     else if(action == "figures")
       draw_figures(folder);
+    else if(action == "table")
+      print_table(folder, std::cin);
     else
       draw_pictures(folder, meshes);
     return EXIT_SUCCESS;
