@@ -17,10 +17,10 @@
 //                                      data folder MESHES if it is given
 //   arap_demo pictures FOLDER [MESHES] draws NAME.png from NAME_deformed.off or .mesh, and the
 //                                      pictures of the manual; prints a table
-//   arap_demo figures FOLDER           draws Figure 2 of the paper, and the figures of the manual from
-//                                      what figures.sh has computed; prints a table
-//   arap_demo table FOLDER             prints Table 1 of the paper beside our errors; reads lines of
-//                                      FIGURE MODEL ERROR
+//   arap_demo figures FOLDER           draws Figure 2 of the paper, and the figures of the manual
+//                                      from what figures.sh has computed; prints a table
+//   arap_demo table FOLDER             prints Table 1 of the paper beside our errors; reads lines
+//                                      of FIGURE MODEL ERROR
 
 #include "Command_line.h"
 #include "Task.h"
@@ -573,16 +573,18 @@ void draw_figures(const fs::path& folder)
 // Table 1 of the paper, in Markdown. The reports are those at the minimum and after dragging.
 void print_table(const fs::path& folder, std::istream& rows)
 {
-  std::cout << "\n| figure | model | vertices | the paper's error | ours, dragged | ours, at the minimum "
-               "| one of 3 iterations [ms] |\n|:--|:--|--:|--:|--:|--:|--:|\n" << std::setprecision(2) << std::showpoint;
+  std::cout << "\n| figure | model | vertices | the paper's error | ours, dragged "
+            << "| ours, at the minimum | one of 3 iterations [ms] |\n"
+            << "|:--|:--|--:|--:|--:|--:|--:|\n" << std::setprecision(2) << std::showpoint;
   std::string figure, model, error;
   while(rows >> figure >> model >> error)
     if(fs::exists(folder / ("dragged_" + figure + ".json"))) // else the model is missing
     {
       const auto dragged = report_of(folder, "dragged_" + figure);
-      std::cout << "| " << figure << " | " << model << " | " << dragged["vertices"].get<int>() << " | "
-                << error << " | " << dragged["edge_length_error"].get<double>() << " | "
-                << report_of(folder, "figure_" + figure)["edge_length_error"].get<double>() << " | "
+      const auto at_minimum = report_of(folder, "figure_" + figure);
+      std::cout << "| " << figure << " | " << model << " | " << dragged["vertices"].get<int>()
+                << " | " << error << " | " << dragged["edge_length_error"].get<double>() << " | "
+                << at_minimum["edge_length_error"].get<double>() << " | "
                 << 1000 * dragged["seconds"]["deform"].get<double>() / 3 << " |\n";
     }
 }
