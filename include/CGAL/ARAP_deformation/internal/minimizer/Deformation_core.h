@@ -132,7 +132,8 @@ private:
                          Report& report);
   template <typename Function>
   std::optional<Matrix_3x3> mean_at_corners(int s, const Function& rotation_at) const;
-  Array<Matrix_3x3> rotations_of_cells(const Array<Coordinates>& vectors) const;
+  void set_rotations_of_cells(const Array<Coordinates>& vectors,
+                              std::vector<Matrix_3x3>& rotations) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;
   void include_near(const std::vector<Coordinates>& points, Bounding_box& box) const;

@@ -262,22 +262,24 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   return given;
 }
 
-// the rotations of cells, from the rotation vectors of vertices
+// sets the rotations of cells, from the rotation vectors of vertices
 CGAL_ARAP_INLINE_FUNCTION
-Array<Matrix_3x3>
-Deformation_core::rotations_of_cells(const Array<Coordinates>& vectors) const
+void Deformation_core::set_rotations_of_cells(const Array<Coordinates>& vectors,
+                                              std::vector<Matrix_3x3>& rotations) const
 {
-  const bool are_at_vertices = m_energy_model.cells.has_vertex_cells();
-  Array<Matrix_3x3> of_vertices(are_at_vertices ? m_rotations.size() : vectors.size());
-  for(std::size_t v = 0; v < of_vertices.size(); ++v)
-    of_vertices[v] = rotation_of_vector(vectors[v]);
-  if(are_at_vertices)
-    return of_vertices;
-  Array<Matrix_3x3> rotations;
-  rotations.reserve(m_rotations.size());
+  if(m_energy_model.cells.has_vertex_cells())
+  {
+    for(std::size_t v = 0; v < rotations.size(); ++v)
+      rotations[v] = rotation_of_vector(vectors[v]);
+    return;
+  }
+  Array<Matrix_3x3> of_vertices;
+  of_vertices.reserve(vectors.size());
+  for(const Coordinates& vector : vectors)
+    of_vertices.push_back(rotation_of_vector(vector));
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-    rotations.push_back(*mean_at_corners(s, [&](int v) { return &of_vertices[v]; }));
-  return rotations;
+    rotations[static_cast<std::size_t>(s)] =
+      *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -365,13 +367,16 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                  }));
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
-    const Array<Coordinates> vectors = [&] {
+    Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
       return Harmonic_rotations(m_region, m_constraints, m_is_near, targets, x)(m_state->energy,
                                                                      m_state->system);
     }();
-    if(!vectors.empty() &&
-       !minimization.start_with(rotations_of_cells(vectors), is_placed, is_tried))
+    const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
+      set_rotations_of_cells(vectors, to_set);
+      Array<Coordinates>().swap(vectors); // memory is at its peak from now on
+    };
+    if(!vectors.empty() && !minimization.start_with(set_rotations, is_placed, is_tried))
       return {Status::solver_failed};
   }
   if(m_order == Minimization_order::global_first)

@@ -101,15 +101,16 @@ public:
     return complete(m_energy.evaluate(x, m_rotations, m_force));
   }
 
-  // Replaces x by the solution of the global step with these rotations, but for vertices that are
-  // placed; if `is_tried` only where that lowers the energy. False if the solver fails.
-  bool start_with(std::vector<Matrix_3x3> rotations, const std::vector<char>& is_placed,
-                  bool is_tried)
+  // Replaces x by the solution of the global step with the rotations that a function sets, but for
+  // vertices that are placed; if `is_tried` only where that lowers the energy. False if the solver
+  // fails.
+  template <typename Function>
+  bool start_with(const Function& set_rotations, const std::vector<char>& is_placed, bool is_tried)
   {
     std::vector<Coordinates> before = x, step;
     const double energy = is_tried ? evaluate() : 0;
     const std::vector<Matrix_3x3> last = m_last_rotations;
-    m_rotations = std::move(rotations); // others are fitted anew
+    set_rotations(m_rotations); // others are fitted anew
     m_energy.clear_others(m_rotations);
     evaluate_without_fit();
     {
