@@ -267,6 +267,26 @@ void plot_energy(std::ostream& out, const Json& results, const std::string& fold
   plot.print(out);
 }
 
+// of the armadillo, for each size that runs from both starts were made with
+void plot_starts(std::ostream& out, const Json& results, const std::string& folder)
+{
+  if(!results.contains("starts"))
+    return;
+  Plot plot(folder + "/arap_starts.png", "seconds", "relative gap to the lowest energy known");
+  plot.set("logscale xy").set("format y '10^{%L}'").set("format x '%g'").set("yrange [1e-4:100]");
+  const std::string colours[] = {our_colour, other_colour, cgal_colour, libigl_colour};
+  std::size_t number_of_sizes = 0;
+  for(const auto& [name, curves] : results["starts"]["curves"].items())
+    if(const std::string shape = "armadillo, spokes, "; name.rfind(shape, 0) == 0)
+    {
+      const std::string vertices = name.substr(shape.size()) + " vertices, from the ";
+      const std::string& colour = colours[number_of_sizes++ % std::size(colours)];
+      plot.add(vertices + "rotations", "lines " + colour, curves["default"]);
+      plot.add(vertices + "rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+    }
+  plot.print(out);
+}
+
 void plot_roofline(std::ostream& out, const Json& results, const std::string& folder)
 {
   if(!results.contains("global_step"))
@@ -323,6 +343,7 @@ void report(const std::vector<std::string>& arguments)
   {
     plot_iteration_time(std::cout, results, arguments[2]);
     plot_energy(std::cout, results, arguments[2]);
+    plot_starts(std::cout, results, arguments[2]);
     plot_roofline(std::cout, results, arguments[2]);
     return;
   }

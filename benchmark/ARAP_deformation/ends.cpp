@@ -15,8 +15,8 @@
 
 #include "include/deformations.h"
 #include "include/run_benchmark.h"
+#include "include/shapes.h"
 
-#include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 
 #include <Eigen/Geometry>
@@ -37,81 +37,13 @@ namespace {
 using namespace benchmark;
 using Vector = Eigen::Vector3d;
 
-template <std::size_t N> // corners of a simplex
-struct Shape
-{
-  std::string name;
-  std::vector<Point> points;
-  std::vector<std::array<int, N>> simplices;
-};
-
-// a sheet of nu x nv quads, each cut in two, at the points f(u, v); closed in u if `is_closed`
-template <typename Function>
-Shape<3> sheet(const std::string& name, int nu, int nv, bool is_closed, const Function& f)
-{
-  Shape<3> shape{name, {}, {}};
-  const int columns = is_closed ? nu : nu + 1;
-  for(int i = 0; i < columns; ++i)
-    for(int j = 0; j <= nv; ++j)
-      shape.points.push_back(to_point(f(double(i) / nu, double(j) / nv)));
-  const auto vertex = [&](int i, int j) { return (i % columns) * (nv + 1) + j; };
-  for(int i = 0; i < nu; ++i)
-    for(int j = 0; j < nv; ++j)
-    {
-      const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-                d = vertex(i, j + 1);
-      const int e = (i + j) % 2 == 0 ? c : d; // the end of the diagonal from a, or from b
-      shape.simplices.push_back({a, b, e});
-      shape.simplices.push_back({e == c ? a : b, c, d});
-    }
-  return shape;
-}
-
-// cubes, each cut in the six tetrahedra of the ways from a corner to the opposite one
-Shape<4> block(const std::string& name, int nx, int ny, int nz)
-{
-  Shape<4> shape{name, {}, {}};
-  const auto vertex = [=](const std::array<int, 3>& p) {
-    return (p[0] * (ny + 1) + p[1]) * (nz + 1) + p[2];
-  };
-  for(int x = 0; x <= nx; ++x)
-    for(int y = 0; y <= ny; ++y)
-      for(int z = 0; z <= nz; ++z)
-      {
-        shape.points.emplace_back(x, y, z);
-        std::array<std::size_t, 3> way = {0, 1, 2};
-        do
-        {
-          std::array<int, 3> p = {x, y, z};
-          std::array<int, 4> corners = {vertex(p)};
-          for(std::size_t k = 0; k < 3; ++k)
-          {
-            ++p[way[k]];
-            corners[k + 1] = vertex(p);
-          }
-          if(x < nx && y < ny && z < nz)
-            shape.simplices.push_back(corners);
-        } while(std::next_permutation(way.begin(), way.end()));
-      }
-  return shape;
-}
-
 // the largest connected component
 Shape<3> read_shape(const std::string& name)
 {
   Mesh mesh = read_mesh(CGAL::data_file_path("meshes/" + name));
   CGAL::Polygon_mesh_processing::keep_largest_connected_components(mesh, 1);
   mesh.collect_garbage();
-  Shape<3> shape{name, {mesh.points().begin(), mesh.points().end()}, {}};
-  for(auto f : faces(mesh))
-  {
-    std::array<int, 3> corners;
-    auto corner = corners.begin();
-    for(auto v : vertices_around_face(mesh.halfedge(f), mesh))
-      *corner++ = static_cast<int>(v.idx());
-    shape.simplices.push_back(corners);
-  }
-  return shape;
+  return surface(name, mesh);
 }
 
 // What is counted over runs with or without a look.
@@ -129,18 +61,13 @@ using Table = std::map<std::pair<std::string, bool>, Counts>;
 template <std::size_t N>
 class Problem
 {
-  using Simplices = std::vector<std::array<int, N>>;
-  using Domain = ARAP::Simplex_soup_domain<static_cast<int>(N) - 1, std::vector<Point>, Simplices>;
-
 public:
   static constexpr int number_of_poses = 5;
 
   Problem(const Shape<N>& shape, int pose, const ARAP::Options& options)
-    : m_points(shape.points), m_deformation(Domain(m_points, shape.simplices))
+    : m_points(shape.points), m_deformation(typename Shape<N>::Domain(m_points, shape.simplices))
   {
-    Eigen::AlignedBox3d box;
-    for(const Point& p : m_points)
-      box.extend(to_vector(p));
+    const Eigen::AlignedBox3d box = bounding_box(shape);
     int axis;
     const double length = box.sizes().maxCoeff(&axis);
     m_diagonal = box.diagonal().norm();
@@ -212,7 +139,7 @@ public:
 
 private:
   std::vector<Point> m_points;
-  CGAL::ARAP_deformation<Domain> m_deformation;
+  CGAL::ARAP_deformation<typename Shape<N>::Domain> m_deformation;
   std::vector<std::pair<std::size_t, Point>> m_targets;
   std::vector<char> m_is_free;
   double m_diagonal = 0;

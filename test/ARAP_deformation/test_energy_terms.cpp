@@ -1347,8 +1347,15 @@ void test_all()
       }
       else
         CHECK(points == before);
-      for(Cell_scheme cells : {Cell_scheme::elements(), Cell_scheme::k_ring(1)})
-        CHECK(run(shape, s, Initial_guess::rotations, cells, 300, points));
+      // by which no run ends higher than it does without
+      for(Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(),
+                               Cell_scheme::elements(), Cell_scheme::k_ring(1)})
+      {
+        const Report with = run(shape, s, Initial_guess::automatic, cells, 300, points);
+        const Report without = run(shape, s, Initial_guess::previous, cells, 300, points);
+        CHECK(with && without);
+        CHECK_AT_MOST(with.final_energy() / without.final_energy(), 1 + 1e-4);
+      }
     }
   }
   CHECK(number_of_lower > 3);

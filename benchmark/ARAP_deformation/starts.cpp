@@ -1,0 +1,213 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+// How low runs end from the rest shape, whose handles are then torn away, and how soon they are
+// there: with the default initial guess, and from the rest shape itself.
+
+#include "include/deformations.h"
+#include "include/run_benchmark.h"
+#include "include/shapes.h"
+
+#include <CGAL/Side_of_triangle_mesh.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace benchmark;
+
+struct Sample
+{
+  unsigned int iteration;
+  double seconds, energy;
+};
+
+// A shape whose ends are fixed and turned; in its middle all is free.
+template <std::size_t N>
+class Twisted
+{
+public:
+  Twisted(const Shape<N>& shape, const ARAP::Options& options, bool is_soft)
+    : m_points(shape.points), m_deformation(typename Shape<N>::Domain(m_points, shape.simplices))
+  {
+    const Twist twist(bounding_box(shape));
+    expect_success(m_deformation.set_options(options));
+    for(std::size_t v = 0; v < m_points.size(); ++v)
+    {
+      m_deformation.insert_roi_vertex(v);
+      if(const auto p = to_vector(m_points[v]); twist.is_fixed(p) || twist.is_handle(p))
+        m_targets.emplace_back(v, to_point(twist.target(p)));
+    }
+    for(const auto& target : m_targets)
+    {
+      m_deformation.insert_control_vertex(target.first);
+      if(is_soft)
+        expect_success(m_deformation.set_target_weight(target.first, 10));
+    }
+    expect_success(m_deformation.preprocess());
+    m_preprocess_seconds = m_stopwatch.seconds();
+  }
+
+  double preprocess_seconds() const { return m_preprocess_seconds; }
+
+  // a run from the rest shape, and its iterates
+  std::pair<ARAP::Report, std::vector<Sample>> run(ARAP::Initial_guess guess, double tolerance,
+                                                   unsigned int iterations)
+  {
+    m_deformation.reset();
+    for(const auto& [v, target] : m_targets)
+      m_deformation.set_target_position(v, target);
+    ARAP::Options options = m_deformation.options();
+    options.initial_guess = guess;
+    expect_success(m_deformation.set_options(options));
+    std::vector<Sample> samples;
+    const Stopwatch stopwatch;
+    ARAP::Report report = m_deformation.deform(iterations, tolerance, [&](const auto& iterate) {
+      samples.push_back({iterate.iteration(), stopwatch.seconds(), iterate.energy()});
+      return ARAP::Visitor_action::proceed;
+    });
+    expect_success(report);
+    return {std::move(report), std::move(samples)};
+  }
+
+private:
+  Stopwatch m_stopwatch;
+  std::vector<Point> m_points;
+  CGAL::ARAP_deformation<typename Shape<N>::Domain> m_deformation;
+  std::vector<std::pair<std::size_t, Point>> m_targets;
+  double m_preprocess_seconds = 0;
+};
+
+struct Kind
+{
+  std::string name = "spokes";
+  ARAP::Cell_scheme cells = ARAP::Cell_scheme::spokes();
+  bool is_soft = false;
+  double bending = 0; // of the diagonal of the bounding box
+};
+
+template <std::size_t N>
+void measure(const Shape<N>& shape, const Kind& kind, Json& section)
+{
+  ARAP::Options options;
+  options.cells = kind.cells;
+  options.bending_length = kind.bending * bounding_box(shape).diagonal().norm();
+  Twisted<N> twisted(shape, options, kind.is_soft);
+
+  const std::pair<std::string, ARAP::Initial_guess> guesses[] = {
+    {"default", ARAP::Initial_guess::automatic}, {"rest shape", ARAP::Initial_guess::previous}};
+  std::vector<std::vector<Sample>> samples;
+  double lowest = std::numeric_limits<double>::infinity();
+  for(const auto& guess : guesses)
+  {
+    samples.push_back(twisted.run(guess.second, 1e-6, 2000).second);
+    lowest = (std::min)(lowest, samples.back().back().energy);
+  }
+  for(std::size_t k = 0; k < samples.size(); ++k)
+  {
+    const ARAP::Report report = twisted.run(guesses[k].second, options.tolerance, 2000).first;
+    Json row = {{"shape", shape.name}, {"kind", kind.name}, {"vertices", shape.points.size()},
+                {"start", guesses[k].first}, {"preprocess", twisted.preprocess_seconds()},
+                {"energy", samples[k].back().energy}, {"lowest", lowest},
+                {"tolerance_iterations", report.iterations},
+                {"tolerance_seconds", report.seconds.total},
+                {"estimated_gap", report.estimated_relative_gap},
+                {"true_gap", report.final_energy() / lowest - 1}};
+    for(const Sample& s : samples[k])
+      if(s.energy <= (1 + 1e-3) * lowest)
+      {
+        row["iterations"] = s.iteration;
+        row["seconds"] = s.seconds;
+        break;
+      }
+    section["rows"].push_back(row);
+    Json curve = Json::array();
+    for(const Sample& s : samples[k])
+      curve.push_back({s.seconds, s.energy / lowest - 1});
+    section["curves"][shape.name + ", " + kind.name + ", " +
+                      std::to_string(shape.points.size())][guesses[k].first] = curve;
+  }
+  std::cerr << shape.name << ", " << kind.name << ", " << shape.points.size() << std::endl;
+}
+
+// cubes inside a surface: so many along the longest side of its bounding box
+Shape<4> volume(const std::string& name, const Mesh& mesh, int cubes)
+{
+  const Eigen::AlignedBox3d box = bounding_box(mesh);
+  const double size = box.sizes().maxCoeff() / cubes;
+  const Eigen::Vector3i n = (box.sizes() / size).array().ceil().cast<int>();
+  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(mesh);
+  return block(name, n[0], n[1], n[2], [&](int x, int y, int z) {
+    const Eigen::Vector3d middle = box.min() + size * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+    return side(to_point(middle)) == CGAL::ON_BOUNDED_SIDE;
+  });
+}
+
+Json run(const Settings& settings)
+{
+  Json section = make_section(
+    "Where runs from the rest shape end",
+    "The ends of each shape are fixed and turned by 1.5 rad. Iterations and seconds until the "
+    "energy is within 1e-3 of the lowest that any run with a tolerance of 1e-6 found, if it comes "
+    "there; then a run with the default tolerance of 1e-3: its length, and the gap that it "
+    "estimates beside the true one. All times without preprocessing.",
+    {{"shape", "shape"}, {"kind", "energy"}, {"vertices", "vertices"}, {"start", "from"},
+     {"preprocess", "preprocessing [s]"}, {"lowest", "lowest energy"}, {"energy", "energy"},
+     {"iterations", "iterations to 1e-3"}, {"seconds", "seconds"},
+     {"tolerance_iterations", "iterations of the run"}, {"tolerance_seconds", "seconds of the run"},
+     {"estimated_gap", "estimated gap"}, {"true_gap", "true gap"}});
+  const Kind spokes, rims = {"spokes and rims", ARAP::Cell_scheme::spokes_and_rims()},
+             elements = {"elements", ARAP::Cell_scheme::elements()};
+  const Kind soft = {"spokes, soft targets", spokes.cells, true},
+             bending = {"spokes, bending", spokes.cells, false, 0.01};
+  const double pi = std::acos(-1.0);
+  const auto bar = [=](double u, double v) {
+    return Eigen::Vector3d(std::cos(2 * pi * u), std::sin(2 * pi * u), 10 * v);
+  };
+
+  measure(sheet("tube", 40, 60, true, bar), spokes, section);
+  measure(block("bar of tetrahedra", 30, 6, 6), elements, section);
+  if(settings.quick)
+    return section;
+  const Mesh armadillo = read_mesh(CGAL::data_file_path("meshes/armadillo.off"));
+  for(std::size_t parts : {1u, 2u, 4u, 6u})
+    measure(surface("armadillo", subdivided(armadillo, parts)), spokes, section);
+  for(const Kind& kind : {rims, elements, soft, bending})
+    measure(surface("armadillo", armadillo), kind, section);
+  for(const Kind& kind : {spokes, rims})
+  {
+    measure(surface("cactus", read_mesh(CGAL::data_file_path("meshes/cactus.off"))), kind, section);
+    measure(sheet("tube", 160, 240, true, bar), kind, section);
+  }
+  for(const Kind& kind : {spokes, elements})
+  {
+    measure(block("bar of tetrahedra", 60, 15, 15), kind, section);
+    measure(volume("armadillo of tetrahedra", armadillo, 60), kind, section);
+  }
+  return section;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  return run_benchmark(argc, argv, "starts",
+                       "usage: starts [options]\n\n"
+                       "Measures how low runs end from the rest shape, and how soon. Takes some\n"
+                       "minutes, or with --quick, on two small shapes, some seconds.", run);
+}
