@@ -9,6 +9,7 @@ set(version_of_list 6.2)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 set(file ${root}/package_info/ARAP_deformation/dependencies)
 file(GLOB_RECURSE headers RELATIVE ${root}/include ${root}/include/CGAL/*.h)
+list(FILTER headers INCLUDE REGEX "ARAP_deformation|arap_deform") # a release has all headers in one folder
 list(TRANSFORM headers PREPEND "-include;")
 list(REMOVE_ITEM INCLUDE_DIRS "")
 list(TRANSFORM INCLUDE_DIRS PREPEND "-I")
