@@ -1,16 +1,27 @@
-# The library ARAP_deformation_core: the parts of the package that are not templates, compiled once.
-# Programs linked with it compile faster; without it the package is header-only.
+# The library ARAP_deformation::core: the parts of the package that are not templates, compiled once.
+# Programs linked with it compile faster than with ARAP_deformation::headers, which is header-only.
 if(NOT TARGET ARAP_deformation_core)
   include(${CMAKE_CURRENT_LIST_DIR}/ARAP_deformation_accelerators.cmake)
+  set(ARAP_deformation_libraries CGAL::CGAL CGAL::Eigen3_support ARAP_deformation_accelerators)
+  get_filename_component(ARAP_deformation_include ${CMAKE_CURRENT_LIST_DIR}/../include ABSOLUTE)
+
+  add_library(ARAP_deformation_headers INTERFACE)
+  target_compile_features(ARAP_deformation_headers INTERFACE cxx_std_17)
+  target_include_directories(ARAP_deformation_headers SYSTEM INTERFACE # no warnings of any kind
+                             $<BUILD_INTERFACE:${ARAP_deformation_include}>)
+  target_link_libraries(ARAP_deformation_headers INTERFACE ${ARAP_deformation_libraries})
+
   add_library(ARAP_deformation_core STATIC EXCLUDE_FROM_ALL
               ${CMAKE_CURRENT_LIST_DIR}/../src/ARAP_deformation/core.cpp)
-  target_compile_features(ARAP_deformation_core PUBLIC cxx_std_17)
+  target_compile_features(ARAP_deformation_core PRIVATE cxx_std_17)
   target_compile_definitions(ARAP_deformation_core PUBLIC CGAL_ARAP_DEFORMATION_COMPILED)
-  target_include_directories(ARAP_deformation_core PRIVATE ${CMAKE_CURRENT_LIST_DIR}/../include)
-  target_include_directories(ARAP_deformation_core SYSTEM INTERFACE # no warnings of any kind
-                             ${CMAKE_CURRENT_LIST_DIR}/../include)
-  target_link_libraries(ARAP_deformation_core PUBLIC CGAL::CGAL CGAL::Eigen3_support
-                                                     ARAP_deformation_accelerators)
+  target_include_directories(ARAP_deformation_core PRIVATE ${ARAP_deformation_include})
+  target_link_libraries(ARAP_deformation_core PRIVATE ${ARAP_deformation_libraries}
+                                              INTERFACE ARAP_deformation_headers)
+  foreach(name headers core)
+    add_library(ARAP_deformation::${name} ALIAS ARAP_deformation_${name})
+    set_property(TARGET ARAP_deformation_${name} PROPERTY EXPORT_NAME ${name})
+  endforeach()
   # optimized too where nothing says how
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES
      AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_FLAGS MATCHES "-O")

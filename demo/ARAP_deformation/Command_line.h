@@ -206,7 +206,7 @@ inline void print_help(std::ostream& out)
          "keep of MESH.\n\n"
          "WHAT picks vertices; later options win. It is one of\n"
          "  z:90%..  y:..0.2  x:-1..1          between two x, y or z, or beyond one\n"
-         "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R\n"
+         "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R  inside a box, inside a ball\n"
          "  plane:X,Y,Z,NX,NY,NZ               the side to which the normal N points\n"
          "  near:X,Y,Z                         the nearest vertex\n"
          "  point:X,Y,Z                        for --fix and --handle: no vertex, but the\n"
