@@ -69,5 +69,5 @@ cmake -DCMD=BUILD -DPORT=arap-deformation -DVERSION="$version" "-DFEATURES=core;
   -DDOWNLOADS="$work/vcpkg/downloads" -DBUILDTREES_DIR="$work/vcpkg/buildtrees" \
   -DPACKAGES_DIR="$work/vcpkg/packages" -DCURRENT_PORT_DIR="$work/vcpkg/port" \
   "-DVCPKG_PORT_CONFIGS=$helpers/vcpkg-cmake/vcpkg-port-config.cmake;$helpers/vcpkg-cmake-config/vcpkg-port-config.cmake" \
-  -D_VCPKG_NO_DOWNLOADS=ON -DNINJA="$(command -v ninja)" -P "$vcpkg/scripts/ports.cmake"
+  -D_VCPKG_NO_DOWNLOADS=ON -DVCPKG_FIXUP_ELF_RPATH=OFF -DNINJA="$(command -v ninja)" -P "$vcpkg/scripts/ports.cmake"
 (cd "$work/vcpkg/packages/arap-deformation_x64-linux" && find . -type f | grep -v '^./include/')
