@@ -16,6 +16,7 @@
 #include "include/section.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
@@ -274,15 +275,17 @@ void plot_starts(std::ostream& out, const Json& results, const std::string& fold
     return;
   Plot plot(folder + "/arap_starts.png", "seconds", "relative gap to the lowest energy known");
   plot.set("logscale xy").set("format y '10^{%L}'").set("format x '%g'").set("yrange [1e-4:100]");
+  plot.set("key maxcols 2");
   const std::string colours[] = {our_colour, other_colour, cgal_colour, libigl_colour};
   std::size_t number_of_sizes = 0;
   for(const auto& [name, curves] : results["starts"]["curves"].items())
-    if(const std::string shape = "armadillo, spokes, "; name.rfind(shape, 0) == 0)
+    if(const std::string shape = "armadillo, spokes, ";
+       name.rfind(shape, 0) == 0 && std::isdigit(name[shape.size()]))
     {
-      const std::string vertices = name.substr(shape.size()) + " vertices, from the ";
+      const std::string size = format_number(std::stod(name.substr(shape.size())));
       const std::string& colour = colours[number_of_sizes++ % std::size(colours)];
-      plot.add(vertices + "rotations", "lines " + colour, curves["default"]);
-      plot.add(vertices + "rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+      plot.add(size + ", guess", "lines " + colour, curves["default"]);
+      plot.add(size + ", rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
     }
   plot.print(out);
 }
