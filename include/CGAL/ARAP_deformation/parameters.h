@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_PARAMETERS_H
 #define CGAL_ARAP_DEFORMATION_PARAMETERS_H
 
+#include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Options.h>

@@ -23,4 +23,8 @@
 #error "CGAL/ARAP_deformation: the macro ARAP is defined; undefine it, it is a namespace here."
 #endif
 
+#if !defined(CGAL_EIGEN3_ENABLED) && !__has_include(<Eigen/Core>)
+#error "CGAL/ARAP_deformation needs Eigen: link with CGAL::Eigen3_support."
+#endif
+
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_CONFIG_H
