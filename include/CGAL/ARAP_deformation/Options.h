@@ -74,7 +74,7 @@ struct Options
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
   /// none, else positive and finite, with the same largest value. The energy gains
-  /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighbouring cells, after \cgalCite{Levi2015Smooth},
+  /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighbouring cells, after \cgalCite{levismooth},
   /// see \ref ARAPDeformation_SmoothRotationsTheory. Rotations are then part of the state, and the
   /// energy is minimized over positions and rotations in turns: see
   /// \ref ARAPDeformation_SmoothRotations.

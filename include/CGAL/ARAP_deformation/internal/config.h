@@ -23,7 +23,7 @@
 #error "CGAL/ARAP_deformation: the macro ARAP is defined; undefine it, it is a namespace here."
 #endif
 
-#if !defined(CGAL_EIGEN3_ENABLED) && !__has_include(<Eigen/Core>)
+#if !defined(CGAL_ARAP_DEFORMATION_COMPILED) && !__has_include(<Eigen/Core>)
 #error "CGAL/ARAP_deformation needs Eigen: link with CGAL::Eigen3_support."
 #endif
 
