@@ -190,7 +190,7 @@ public:
 
   /// \name Region of Interest and Control Vertices
   /// Inserting or erasing a vertex takes constant time, amortized. After a change the next
-  /// `deform()` preprocesses again.
+  /// `deform()` does what it costs and no more, see \ref ARAPDeformation_Session.
   /// @{
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
@@ -439,10 +439,11 @@ public:
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
   /// \f$m\f$ has the unit of the edge weights. Cotangent weights are dimensionless on a surface,
   /// where 1 is about as strong as one edge, and lengths in a solid. Weights below about
-  /// \f$10^{-15}\f$ times the edge weights are lost to rounding.
+  /// \f$10^{-14}\f$ times the edge weights are lost to rounding.
   ///
-  /// A new weight requires preprocessing again, a new target does not. Returns
-  /// `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative or not a number.
+  /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
+  /// nothing. Returns `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative
+  /// or not a number.
   template <typename Handles>
   [[nodiscard]] ARAP::Outcome set_target_weight(const Handles& handles, double weight)
   {
