@@ -101,6 +101,7 @@ public:
   {
     ARAP::Options options;
     options.cells = ARAP::Cell_scheme::elements();
+    options.initial_guess = ARAP::Initial_guess::previous; // as libigl
     expect_success(m_deformation.set_options(options));
     for(std::size_t v = 0; v < bar.points.size(); ++v)
       m_deformation.insert_roi_vertex(v);
