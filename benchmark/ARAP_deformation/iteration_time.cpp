@@ -33,8 +33,8 @@ namespace {
 using namespace benchmark;
 
 #ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
-// libigl's weights are raw cotangents of stars, and it starts from the rest shape. It fits rotations
-// in single precision with few steps, so that only the first iterates are comparable.
+// libigl's weights are raw cotangents of stars, and it starts from the rest shape. It fits
+// rotations in single precision with few steps, so that only the first iterates are comparable.
 void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
 {
   Our_deformation<CGAL::ARAP_deformation_traits<CGAL::Default, ARAP::Cotangent_weight>>

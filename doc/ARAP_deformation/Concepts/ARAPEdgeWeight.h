@@ -25,6 +25,10 @@ matrix is positive definite, which the factorization checks.
 Weights in stars are needed for the cells `CGAL::ARAP::Cell_scheme::spokes()`, and for
 `CGAL::ARAP::Initial_guess::laplacian` with any cells.
 
+What a weight depends on besides the shape of a simplex, such as data at faces, has to come by way
+of the indices \f$i\f$ and \f$j\f$, or of the stiffness of cells
+(`CGAL::ARAP_deformation::set_stiffness()`).
+
 A model may have state. `CGAL::ARAP_deformation` works on a copy of the object that its traits
 provide. If copies share their state, and it may change, the model tells so by `version()`. In
 programs linked with TBB several threads call it concurrently: a call must not change

@@ -15,6 +15,8 @@ different threads one after the other.
 `CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each matrix that it
 factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
 need not have it too. A move, on the other hand, keeps the factor and its border, and does not throw.
+Eigen's solvers can be neither copied nor moved; `CGAL::ARAP::Eigen_sparse_solver` makes a model of
+any of them.
 
 The function `CGAL::ARAP::check_sparse_solver()` tells which of these identities a model violates.
 

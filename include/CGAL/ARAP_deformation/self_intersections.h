@@ -37,8 +37,8 @@ namespace ARAP {
 /// intersect other than in a common corner or side, by the exact predicates of
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
-/// Polygons are cut from one of their corners. Triangles without area do not count. This header
-/// includes a part of CGAL's package Polygon Mesh Processing, which no other one needs.
+/// Polygons are cut from one of their corners. Triangles without area do not count. No other
+/// header needs CGAL's package Polygon Mesh Processing.
 ///
 /// \param domain a model of `ARAPDomain`, with the points of the deformed shape
 template <typename Domain>
