@@ -189,8 +189,8 @@ public:
   /// @}
 
   /// \name Region of Interest and Control Vertices
-  /// Inserting or erasing a vertex takes constant time, amortized. After a change the next
-  /// `deform()` does what it costs and no more, see \ref ARAPDeformation_Session.
+  /// Inserting or erasing a vertex takes constant time, amortized. After changes the next
+  /// `deform()` does only what they need, see \ref ARAPDeformation_Session.
   /// @{
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
