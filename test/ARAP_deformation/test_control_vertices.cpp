@@ -786,6 +786,35 @@ void test_stages()
   check_stages(true, true, true, false);
 }
 
+// The first order is that of the free vertices. Where others are to be free it becomes that of the
+// region, and serves whatever is fixed.
+void test_order_of_free_vertices()
+{
+  test_case() = "order of free vertices";
+  const Shape shape = large_sheet();
+  Pair<2, Triangles, Solver> pair(shape.points, shape.triangles, Cell_scheme::spokes());
+  pair.with_both([&](auto& d) {
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+      d.insert_roi_vertex(v);
+  });
+  const auto move_others = [&](std::size_t first) {
+    pair.with_both([&](auto& d) {
+      d.clear_control_vertices();
+      for(std::size_t v = first; v < first + 300; ++v)
+        d.insert_control_vertex(v);
+      CHECK(d.translate(first, Kernel::Vector_3(0, 0.1, 0.2)));
+    });
+    CHECK(CGAL::ARAP::succeeded(pair.deform_and_compare()));
+  };
+  int factorizations = 0;
+  for(std::size_t first : {0u, 400u, 0u, 400u, 700u})
+  {
+    move_others(first);
+    CHECK(pair.factorizations() == ++factorizations);
+    CHECK(pair.analyses() == (std::min)(factorizations, 2));
+  }
+}
+
 // After a thousand changes of all kinds a session does what a new one in the same state does.
 void test_history()
 {
@@ -1035,6 +1064,7 @@ void test_all()
   test_failure();
   test_changed_matrix();
   test_stages();
+  test_order_of_free_vertices();
   test_history();
   test_indefinite_matrix();
   test_exception();

@@ -35,9 +35,10 @@ namespace internal {
 // The linear system of the global step, for all movable vertices of a region: its matrix is the
 // Laplacian L with the rows B of the constraints and their weights M,
 //   A = L + B^T M B,
-// in which the rows and columns of fixed vertices are replaced by those of the identity. So its
-// order and pattern are those of the region, whatever is fixed, and the right-hand side of a fixed
-// vertex is zero.
+// in which the rows and columns of fixed vertices are replaced by diagonal entries, and the
+// right-hand side of a fixed vertex is zero. The first order and pattern are those of the free
+// vertices, which makes the factor small. Where others are free later, and a border does not
+// suffice, they become those of the region, whatever is fixed, and serve from then on.
 //
 // The factor serves for other constraints too, if they differ at few vertices: these become a
 // border of the matrix A' of the factor,
@@ -107,7 +108,9 @@ private:
   std::unique_ptr<Linear_solver> m_solver;    // has an order, if there is one
   bool m_has_factor = false;
   Constraints m_factorized;                   // the constraints of the factor, without hard rows
-  Eigen::Index m_analyzed_nonzeros = 0;       // of the pattern that the solver knows
+  // the vertices with entries beside the diagonal in the pattern that the solver knows; empty if it
+  // serves only once
+  Array<char> m_is_coupled;
   // the vertices whose unknowns are in the border, and those that it keeps where they are
   Array<int> m_further_unknowns, m_multipliers;
   Hard_rows m_hard_rows;

@@ -140,31 +140,41 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
 {
   Sparse_matrix matrix = with_rows(constraints.rows);
   const auto& is_fixed = constraints.is_fixed;
+  const bool has_pattern_of_laplacian = matrix.nonZeros() == m_laplacian.matrix.nonZeros();
+  bool is_analyzed = m_solver && has_pattern_of_laplacian && !m_is_coupled.empty();
+  for(int v = 0; v < matrix.cols(); ++v)
+    is_analyzed = is_analyzed && (is_fixed[v] || m_is_coupled[v]);
+  if(!is_analyzed)
+  {
+    const bool is_first = !m_solver || m_is_coupled.empty();
+    m_is_coupled.assign(is_fixed.size(), true);
+    for(std::size_t v = 0; v < is_fixed.size() && is_first; ++v)
+      m_is_coupled[v] = !is_fixed[v];
+  }
   for(int v = 0; v < matrix.cols(); ++v)
   {
     double& diagonal = diagonal_entry(matrix, v);
     if(is_fixed[v] && (!(diagonal > 0) || !std::isfinite(diagonal)))
       diagonal = 1;
+    diagonal *= diagonal_factor(m_laplacian);
     for(Sparse_matrix::InnerIterator entry(matrix, v); entry; ++entry)
       if(entry.row() != v && (is_fixed[v] || is_fixed[entry.row()]))
         entry.valueRef() = 0;
   }
-  for(int v = 0; v < matrix.cols(); ++v)
-    diagonal_entry(matrix, v) *= diagonal_factor(m_laplacian);
+  matrix.prune([&](int row, int column, double) {
+    return row == column || (m_is_coupled[row] && m_is_coupled[column]);
+  });
 
   m_further_unknowns.clear();
   m_multipliers.clear();
   // no factor where something fails, and never two
   std::unique_ptr<Linear_solver> solver = std::move(m_solver);
   m_has_factor = false;
-  const bool is_analyzed = solver && matrix.nonZeros() == m_analyzed_nonzeros &&
-                           matrix.nonZeros() == m_laplacian.matrix.nonZeros();
   if(!is_analyzed)
   {
     solver.reset();
     solver = m_prototype->copy();
     work.order = true;
-    m_analyzed_nonzeros = matrix.nonZeros();
   }
   work.factor = true;
   if(!(is_analyzed || solver->analyze(matrix)) || !solver->factorize(matrix))
@@ -172,6 +182,8 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
   m_factorized = constraints;
   m_solver = std::move(solver);
   m_has_factor = true;
+  if(!has_pattern_of_laplacian)
+    m_is_coupled.clear();
   return true;
 }
 
