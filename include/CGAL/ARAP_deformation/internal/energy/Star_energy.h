@@ -289,14 +289,14 @@ private:
   Array<double> opposite_weights(const Array<double>& weights) const
   {
     Array<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
-    bool is_symmetric = true;
-    for(int i = 0; i < m_number_of_movable_vertices; ++i)
-      for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-      {
-        opposite[e] = weights[m_stars.find(m_stars.neighbours.items[e], i)];
-        is_symmetric &= opposite[e] == weights[e];
-      }
-    return is_symmetric ? Array<double>() : opposite;
+    for_each_block(static_cast<std::size_t>(m_number_of_movable_vertices),
+                   [&](std::size_t begin, std::size_t end) {
+      for(int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+        for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+          opposite[e] = weights[m_stars.find(m_stars.neighbours.items[e], i)];
+    });
+    return std::equal(opposite.begin(), opposite.end(), weights.begin()) ? Array<double>()
+                                                                         : opposite;
   }
 
   Star_view view(const Double4* rest, const Double4* x) const

@@ -156,6 +156,7 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     constraints.is_fixed[v] |= components.is_unconstrained(v);
 
   m_is_near = find_vertices_near_free_ones(m_region, constraints.is_fixed);
+  m_ties = find_ties(m_region, constraints.is_fixed);
   Bounding_box box;
   include_near(m_region.rest, box);
   m_squared_size = box.squared_length();
@@ -359,7 +360,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
-                        (is_torn(m_region, m_constraints, m_squared_size, x) ||
+                        (is_torn(m_ties, m_region.rest, m_squared_size, x) ||
                          is_torn(m_constraints, m_squared_size, targets, x,
                                  [&]() -> const std::vector<Coordinates>& {
                                    minimization.evaluate();

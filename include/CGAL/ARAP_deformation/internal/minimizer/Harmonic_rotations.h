@@ -26,6 +26,7 @@
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -35,13 +36,13 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
-// which is given by its square.
-inline bool is_torn(const Region& region, const Constraints& constraints, double size,
-                    const std::vector<Coordinates>& x)
+// For each simplex with a free vertex, the first, the pairs of it with each of the others that is
+// not free.
+inline Array<std::array<int, 2>> find_ties(const Region& region, const Array<char>& is_fixed)
 {
   const int n = region.number_of_movable_vertices;
-  const auto is_free = [&](int v) { return v < n && !constraints.is_fixed[v]; };
+  const auto is_free = [&](int v) { return v < n && !is_fixed[v]; };
+  Array<std::array<int, 2>> ties;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const int* const begin = region.corners_of(s);
@@ -49,15 +50,21 @@ inline bool is_torn(const Region& region, const Constraints& constraints, double
     const int* const free = std::find_if(begin, end, is_free);
     for(const int* v = begin; v != end && free != end; ++v)
       if(!is_free(*v))
-      {
-        const auto i = static_cast<std::size_t>(*v), j = static_cast<std::size_t>(*free);
-        const Coordinates d =
-          difference(difference(x[i], x[j]), difference(region.rest[i], region.rest[j]));
-        if(dot(d, d) > 0.01 * size)
-          return true;
-      }
+        ties.push_back({*free, *v});
   }
-  return false;
+  return ties;
+}
+
+// Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
+// which is given by its square.
+inline bool is_torn(const Array<std::array<int, 2>>& ties, const std::vector<Coordinates>& rest,
+                    double size, const std::vector<Coordinates>& x)
+{
+  return std::any_of(ties.begin(), ties.end(), [&](const std::array<int, 2>& tie) {
+    const auto i = static_cast<std::size_t>(tie[0]), j = static_cast<std::size_t>(tie[1]);
+    const Coordinates d = difference(difference(x[i], x[j]), difference(rest[i], rest[j]));
+    return dot(d, d) > 0.01 * size;
+  });
 }
 
 // Whether soft targets are as far away, and their pulls are not in balance with other forces: a
