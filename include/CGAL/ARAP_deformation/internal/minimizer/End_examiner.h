@@ -85,8 +85,10 @@ public:
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      if(!is_saddle || m_number_of_moves == most_moves ||
-         (m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated))
+      const bool is_gap_certain =
+        is_saddle ? m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated
+                  : gap <= 0.1 * tolerated || is_lower_after(look.solution());
+      if(m_number_of_moves == most_moves || is_gap_certain)
         return Status::converged;
     }
 
@@ -135,6 +137,32 @@ private:
     return largest;
   }
 
+  // moves x
+  double energy_at(const std::vector<Coordinates>& before,
+                   const std::vector<Coordinates>& direction, double t)
+  {
+    for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+      {
+        m_run.x[v] = before[v];
+        add(m_run.x[v], t, direction[v]);
+      }
+    });
+    return m_run.evaluate();
+  }
+
+  // Whether the energy falls along a whole step to the minimum of its model. If not, as in a valley
+  // that is curved, the model does not hold there, and does not tell what is left.
+  bool is_lower_after(const std::vector<Coordinates>& step)
+  {
+    const double value = m_run.value();
+    const std::vector<Coordinates> before = m_run.x;
+    const bool is_lower = energy_at(before, step, 1) < value;
+    energy_at(before, step, 0);
+    m_run.keep_energy();
+    return is_lower;
+  }
+
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
   // far as it goes on falling when the step is doubled, or until that is `longest`.
   bool descend_along(const std::vector<Coordinates>& direction, double first, double longest)
@@ -142,21 +170,11 @@ private:
     if(!std::isfinite(first))
       return false;
     const std::vector<Coordinates> before = m_run.x;
-    const auto energy_at = [&](double t) {
-      for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
-        for(std::size_t v = begin; v < end; ++v)
-        {
-          m_run.x[v] = before[v];
-          add(m_run.x[v], t, direction[v]);
-        }
-      });
-      return m_run.evaluate();
-    };
     double lowest = m_run.value() - 4 * energy_resolution(m_run.value(), m_run.report);
     double best = 0;
     for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)
     {
-      const double energy = energy_at(t);
+      const double energy = energy_at(before, direction, t);
       if(energy < lowest)
       {
         lowest = energy;
@@ -165,7 +183,7 @@ private:
       if(best != 0 && (best != t || 2 * std::abs(t) > longest))
         break;
     }
-    energy_at(best);
+    energy_at(before, direction, best);
     if(best == 0)
       m_run.keep_energy();
     return best != 0;
