@@ -476,8 +476,8 @@ public:
   ///         `CGAL::Aff_transformation_3`, or an `ARAP::Matrix_3x3`
   ///
   /// The rotation is that from the rest shape; it counts for soft control vertices too. A new
-  /// rotation costs no preprocessing. Returns `ARAP::Status::invalid_rotation`, and changes
-  /// nothing, if it is not a rotation.
+  /// rotation costs no preprocessing. Functions that move targets, as `rotate()`, do not change it.
+  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation.
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -486,9 +486,9 @@ public:
   }
 
   /// makes all control vertices of a range frames, with the rotation of the rigid motion that takes
-  /// them from the rest shape to their targets. Returns `ARAP::Status::invalid_rotation`, and
-  /// changes nothing, if there is no such motion up to \f$10^{-6}\f$ of their size, or if they lie
-  /// on a line, which leaves the rotation open.
+  /// them from the rest shape to their present targets: call it again when these have moved. Returns
+  /// `ARAP::Status::invalid_rotation`, and changes nothing, if there is no such motion up to
+  /// \f$10^{-6}\f$ of their size, or if they lie on a line, which leaves the rotation open.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
   {
