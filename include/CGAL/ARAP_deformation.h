@@ -486,9 +486,9 @@ public:
   }
 
   /// makes all control vertices of a range frames, with the rotation of the rigid motion that takes
-  /// them from the rest shape to their present targets: call it again when these have moved. Returns
-  /// `ARAP::Status::invalid_rotation`, and changes nothing, if there is no such motion up to
-  /// \f$10^{-6}\f$ of their size, or if they lie on a line, which leaves the rotation open.
+  /// them from the rest shape to their present targets: call it again when these have moved.
+  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if there is no such motion up
+  /// to \f$10^{-6}\f$ of their size, or if they lie on a line, which leaves the rotation open.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
   {
