@@ -37,7 +37,7 @@ struct Sample
   double seconds, energy;
 };
 
-// A shape whose ends are fixed and turned; in its middle all is free.
+// A shape with one end fixed and the other turned; in its middle all is free.
 template <std::size_t N>
 class Twisted
 {
@@ -162,7 +162,7 @@ Json run(const Settings& settings)
 {
   Json section = make_section(
     "Where runs from the rest shape end",
-    "The ends of each shape are fixed and turned by 1.5 rad. Iterations and seconds until the "
+    "One end of each shape is fixed, the other turned by 1.5 rad. Iterations and seconds until the "
     "energy is within 1e-3 of the lowest that any run with a tolerance of 1e-6 found, if it comes "
     "there; then a run with the default tolerance of 1e-3: its length, and the gap that it "
     "estimates beside the true one. All times without preprocessing.",

@@ -437,9 +437,9 @@ public:
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
-  /// \f$m\f$ has the unit of the edge weights. Cotangent weights are dimensionless on a surface,
-  /// where 1 is about as strong as one edge, and lengths in a solid. Weights below about
-  /// \f$10^{-14}\f$ times the edge weights are lost to rounding.
+  /// \f$m\f$ compares with the weights of the edges at the vertex, each added up over the cells
+  /// that count it. With cotangents these sums are about 1 on a surface, and lengths in a volume.
+  /// Weights below about \f$10^{-14}\f$ times them are lost to rounding.
   ///
   /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
   /// nothing. Returns `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative
@@ -476,8 +476,9 @@ public:
   ///         `CGAL::Aff_transformation_3`, or an `ARAP::Matrix_3x3`
   ///
   /// The rotation is that from the rest shape; it counts for soft control vertices too. A new
-  /// rotation costs no preprocessing. Functions that move targets, as `rotate()`, do not change it.
-  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation.
+  /// rotation costs no preprocessing. It stays when the target changes, by `rotate()` for example;
+  /// `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it. Returns
+  /// `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation.
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -486,9 +487,10 @@ public:
   }
 
   /// makes all control vertices of a range frames, with the rotation of the rigid motion that takes
-  /// them from the rest shape to their present targets: call it again when these have moved.
-  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if there is no such motion up
-  /// to \f$10^{-6}\f$ of their size, or if they lie on a line, which leaves the rotation open.
+  /// them from the rest shape to their current targets. When the targets have moved, by `rotate()`
+  /// for example, call it again. Returns `ARAP::Status::invalid_rotation`, and changes nothing, if
+  /// there is no such motion up to \f$10^{-6}\f$ of their size, or if they lie on a line, which
+  /// leaves the rotation open.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
   {
@@ -508,10 +510,11 @@ public:
   /// A map is a function object, a property map, an associative container, or a vector by indices.
   /// It is copied, and asked when the region is prepared: call the function again after a change of
   /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
-  /// simplices; maps with the other keys have no effect. The keys of a generic lambda, or of
-  /// another function object without one `operator()`, are vertices: `ARAP::of_simplices()` of it
-  /// takes simplices. Where cells are simplices, a run refuses one without it, with
-  /// `ARAP::Status::undeclared_map`.
+  /// simplices; a map with the other keys has no effect, and no call fails because of it. Where
+  /// both have the same type, as in ranges, it is taken for what the cells are. The keys of a
+  /// generic lambda, or of another function object without one `operator()`, are vertices:
+  /// `ARAP::of_simplices()` of it takes simplices. Where cells are simplices, a run refuses one
+  /// without it, with `ARAP::Status::undeclared_map`.
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
@@ -642,7 +645,8 @@ public:
   }
 
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
-  /// the weights of the targets. Targets that are sets become points.
+  /// the weights of the targets, and no rotation that a control vertex prescribes. Targets that
+  /// are sets become points.
   void reset() { m_session.reset(); }
 
   /// makes the current shape the rest shape. Keeps the targets and their weights, and no rotation
