@@ -141,7 +141,7 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
-  /// The named parameters are those of `arap_deform()`, but for what is about targets, and for the
+  /// The named parameters are those of `arap_deform()`, except for those of targets and the
   /// visitor, which `deform()` takes: `visitor` and `target_weight` do not compile. The region of
   /// interest is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
@@ -626,7 +626,7 @@ public:
     return advance(dynamics, forces, ARAP::Default_visitor());
   }
 
-  /// advances without forces beside the acceleration of the dynamics.
+  /// advances without forces other than the acceleration of the dynamics.
   [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics)
   {
     return m_session.advance(dynamics, {}, ARAP::Default_visitor());

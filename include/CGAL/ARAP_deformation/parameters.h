@@ -52,9 +52,9 @@ namespace parameters {
 
 /// \addtogroup PkgARAPDeformationParameters
 /// Named parameters of `CGAL::arap_deform()` and of the constructors of `CGAL::ARAP_deformation`,
-/// beside those of \cgal. They begin a sequence, `parameters::deformation_options(o).visitor(v)`,
-/// or have the rest of it as their second argument:
-/// `parameters::region_of_interest(r, parameters::deformation_options(o))`.
+/// in addition to those of \cgal. They begin a sequence,
+/// `parameters::deformation_options(o).visitor(v)`, or have the rest of it as their second
+/// argument: `parameters::region_of_interest(r, parameters::deformation_options(o))`.
 /// @{
 
 /// the options, default `ARAP::Options()`.

@@ -32,7 +32,7 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief what a deformation has done to a whole shape: numbers without unit, but for the angle.
+/// \brief what a deformation has done to a whole shape: numbers without unit, except for the angle.
 ///
 /// \f$l\f$ is a length, \f$A\f$ an area, \f$V\f$ a volume and \f$\alpha\f$ an angle in the
 /// rest shape; \f$l'\f$, \f$A'\f$, \f$V'\f$ and \f$\alpha'\f$ are the same in the deformed
