@@ -27,7 +27,6 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -147,9 +146,7 @@ private:
   std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;
   Array<char> m_is_isolated; // for each movable vertex
-  Array<char> m_is_near;     // for each vertex: it is in a simplex with a free one
-  Array<std::array<int, 2>> m_ties; // a free vertex with one that is not: see is_torn()
-  double m_squared_size = 0; // of the diagonal of the bounding box of these in the rest shape
+  double m_squared_size = 0; // of the diagonal of the box of what is near free vertices, at rest
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
   Array<Matrix_3x3> m_rotations;

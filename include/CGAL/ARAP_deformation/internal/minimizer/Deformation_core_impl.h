@@ -54,6 +54,7 @@ struct Deformation_core::State
 {
   Deformation_energy energy;
   Constrained_system system;
+  Free_neighborhood free_neighborhood;
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
   Array<int> parts; // for each movable vertex: see Rigid_start
   std::optional<Rigid_start> rigid_start;
@@ -104,7 +105,7 @@ Diagnosis Deformation_core::prepare()
   }
   else
     m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {}, {},
-                            {}});
+                            {}, {}});
   m_state->system.set_laplacian(std::move(laplacian));
   m_weights_version = version;
   return {};
@@ -155,8 +156,7 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   for(int v = 0; v < n; ++v)
     constraints.is_fixed[v] |= components.is_unconstrained(v);
 
-  m_is_near = find_vertices_near_free_ones(m_region, constraints.is_fixed);
-  m_ties = find_ties(m_region, constraints.is_fixed);
+  m_state->free_neighborhood = find_free_neighborhood(m_region, constraints.is_fixed);
   Bounding_box box;
   include_near(m_region.rest, box);
   m_squared_size = box.squared_length();
@@ -198,7 +198,7 @@ void Deformation_core::include_near(const std::vector<Coordinates>& points,
                                     Bounding_box& box) const
 {
   for(std::size_t v = 0; v < points.size(); ++v)
-    if(m_is_near[v])
+    if(m_state->free_neighborhood.is_near[v])
       box.include(points[v]);
 }
 
@@ -360,7 +360,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
-                        (is_torn(m_ties, m_region.rest, m_squared_size, x) ||
+                        (is_torn(m_state->free_neighborhood.ties, m_region.rest, m_squared_size, x) ||
                          is_torn(m_constraints, m_squared_size, targets, x,
                                  [&]() -> const std::vector<Coordinates>& {
                                    minimization.evaluate();
@@ -370,8 +370,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, m_is_near, targets, x)(m_state->energy,
-                                                                     m_state->system);
+      return Harmonic_rotations(m_region, m_constraints, m_state->free_neighborhood.is_near, targets,
+                                x)(m_state->energy, m_state->system);
     }();
     const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
       set_rotations_of_cells(vectors, to_set);

@@ -36,23 +36,32 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// For each simplex with a free vertex, the first, the pairs of it with each of the others that is
-// not free.
-inline Array<std::array<int, 2>> find_ties(const Region& region, const Array<char>& is_fixed)
+// Where free vertices meet others.
+struct Free_neighborhood
+{
+  Array<char> is_near; // for each vertex: it is in a simplex with a free one
+  Array<std::array<int, 2>> ties; // a free vertex with one that is not: see is_torn()
+};
+
+// Of each simplex the first free vertex is tied to all that are not free.
+inline Free_neighborhood find_free_neighborhood(const Region& region, const Array<char>& is_fixed)
 {
   const int n = region.number_of_movable_vertices;
   const auto is_free = [&](int v) { return v < n && !is_fixed[v]; };
-  Array<std::array<int, 2>> ties;
+  Free_neighborhood result = {Array<char>(region.number_of_vertices(), false), {}};
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const int* const begin = region.corners_of(s);
     const int* const end = begin + region.number_of_corners(s);
     const int* const free = std::find_if(begin, end, is_free);
     for(const int* v = begin; v != end && free != end; ++v)
+    {
+      result.is_near[*v] = true;
       if(!is_free(*v))
-        ties.push_back({*free, *v});
+        result.ties.push_back({*free, *v});
+    }
   }
-  return ties;
+  return result;
 }
 
 // Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
@@ -96,21 +105,6 @@ bool is_torn(const Constraints& constraints, double size, const Targets& targets
       return true;
   }
   return false;
-}
-
-// the vertices of all simplices that have a free one
-inline Array<char> find_vertices_near_free_ones(const Region& region, const Array<char>& is_fixed)
-{
-  const int n = region.number_of_movable_vertices;
-  Array<char> is_near(region.number_of_vertices(), false);
-  for(int s = 0; s < region.number_of_simplices(); ++s)
-  {
-    const int* const begin = region.corners_of(s);
-    const int* const end = begin + region.number_of_corners(s);
-    if(std::any_of(begin, end, [&](int v) { return v < n && !is_fixed[v]; }))
-      std::for_each(begin, end, [&](int v) { is_near[v] = true; });
-  }
-  return is_near;
 }
 
 // Rotations for the first guess of a run (Zayer et al. 2005): each handle, a set of connected
