@@ -141,15 +141,16 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
   Sparse_matrix matrix = with_rows(constraints.rows);
   const auto& is_fixed = constraints.is_fixed;
   const bool has_pattern_of_laplacian = matrix.nonZeros() == m_laplacian.matrix.nonZeros();
-  bool is_analyzed = m_solver && has_pattern_of_laplacian && !m_is_coupled.empty();
-  for(int v = 0; v < matrix.cols(); ++v)
-    is_analyzed = is_analyzed && (is_fixed[v] || m_is_coupled[v]);
+  // the order is of some vertices, and then, if it does not suffice, of all
+  const bool has_order = m_solver && has_pattern_of_laplacian && !m_is_coupled.empty();
+  const bool is_analyzed =
+    has_order && std::equal(is_fixed.begin(), is_fixed.end(), m_is_coupled.begin(),
+                            [](char fixed, char coupled) { return fixed || coupled; });
   if(!is_analyzed)
   {
-    const bool is_first = !m_solver || m_is_coupled.empty();
-    m_is_coupled.assign(is_fixed.size(), true);
-    for(std::size_t v = 0; v < is_fixed.size() && is_first; ++v)
-      m_is_coupled[v] = !is_fixed[v];
+    m_is_coupled.resize(is_fixed.size());
+    std::transform(is_fixed.begin(), is_fixed.end(), m_is_coupled.begin(),
+                   [&](char fixed) { return has_order || !fixed; });
   }
   for(int v = 0; v < matrix.cols(); ++v)
   {
