@@ -85,11 +85,10 @@ public:
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      const bool is_gap_certain =
-        is_saddle ? m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated
-                  : gap <= 0.1 * tolerated || is_lower_after(look.solution());
-      if(m_number_of_moves == most_moves || is_gap_certain)
-        return Status::converged;
+      if(m_number_of_moves == most_moves ||
+         (is_saddle ? m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated
+                    : gap <= 0.1 * tolerated || is_lower_after(look.solution())))
+        return Status::converged; // the gap is certain, or as certain as it becomes
     }
 
     bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1);
