@@ -521,6 +521,14 @@ struct Pair
     f(other);
   }
 
+  void insert_all_vertices()
+  {
+    with_both([&](auto& d) {
+      for(std::size_t v = 0; v < points.size(); ++v)
+        d.insert_roi_vertex(v);
+    });
+  }
+
   // the same status, energies and positions
   Status deform_and_compare(unsigned int iterations = 5)
   {
@@ -554,9 +562,8 @@ void test_random_changes(Pair& pair, unsigned int seed)
   std::uniform_int_distribution<std::size_t> vertex(0, n - 1), number_of_changes(1, 6);
   std::uniform_int_distribution<int> kind(0, 9);
   std::uniform_real_distribution<double> shift(-0.1, 0.1), exponent(-3, 3);
+  pair.insert_all_vertices();
   pair.with_both([n](auto& d) {
-    for(std::size_t v = 0; v < n; ++v)
-      d.insert_roi_vertex(v);
     for(std::size_t v : {std::size_t(0), n / 2, n - 1})
       d.insert_control_vertex(v);
   });
@@ -641,10 +648,8 @@ void test_many_changes()
   test_case() = "many changes";
   const Shape shape = large_sheet();
   Pair<2, Triangles, Solver> pair(shape.points, shape.triangles, Cell_scheme::spokes());
-  const std::size_t n = shape.points.size();
-  pair.with_both([n](auto& d) {
-    for(std::size_t v = 0; v < n; ++v)
-      d.insert_roi_vertex(v);
+  pair.insert_all_vertices();
+  pair.with_both([](auto& d) {
     for(std::size_t v = 0; v < 400; ++v)
       d.insert_control_vertex(v);
   });
@@ -662,9 +667,8 @@ void test_failure()
   const Shape shape = large_sheet();
   Pair<2, Triangles, Solver> pair(shape.points, shape.triangles, Cell_scheme::spokes_and_rims());
   const std::size_t n = shape.points.size();
+  pair.insert_all_vertices();
   pair.with_both([n](auto& d) {
-    for(std::size_t v = 0; v < n; ++v)
-      d.insert_roi_vertex(v);
     d.insert_control_vertex(5);
     d.insert_control_vertex(n - 1);
   });
@@ -699,9 +703,8 @@ struct Changing_weight : CGAL::ARAP::Uniform_weight
 using Weighted_pair = Pair<2, Triangles, Solver, Changing_weight>;
 void hold(Weighted_pair& pair, const std::vector<std::size_t>& controls)
 {
+  pair.insert_all_vertices();
   pair.with_both([&](auto& d) {
-    for(std::size_t v = 0; v < pair.points.size(); ++v)
-      d.insert_roi_vertex(v);
     d.clear_control_vertices();
     d.insert_control_vertices(controls.begin(), controls.end());
     CHECK(d.translate(controls.back(), Kernel::Vector_3(0, 0.1, 0.4)));
@@ -793,10 +796,7 @@ void test_order_of_free_vertices()
   test_case() = "order of free vertices";
   const Shape shape = large_sheet();
   Pair<2, Triangles, Solver> pair(shape.points, shape.triangles, Cell_scheme::spokes());
-  pair.with_both([&](auto& d) {
-    for(std::size_t v = 0; v < shape.points.size(); ++v)
-      d.insert_roi_vertex(v);
-  });
+  pair.insert_all_vertices();
   const auto move_others = [&](std::size_t first) {
     pair.with_both([&](auto& d) {
       d.clear_control_vertices();
@@ -1020,9 +1020,8 @@ void test_rest_shape()
   test_case() = "another rest shape";
   const Shape shape = large_sheet();
   Pair<2, Triangles, Solver> pair(shape.points, shape.triangles, Cell_scheme::spokes());
+  pair.insert_all_vertices();
   pair.with_both([&](auto& d) {
-    for(std::size_t v = 0; v < shape.points.size(); ++v)
-      d.insert_roi_vertex(v);
     for(std::size_t v : {std::size_t(0), shape.points.size() - 1})
       d.insert_control_vertex(v);
     CHECK(d.translate(shape.points.size() - 1, Kernel::Vector_3(0, 0.1, 0.4)));
