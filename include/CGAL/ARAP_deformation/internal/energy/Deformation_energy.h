@@ -117,10 +117,8 @@ public:
   }
 
   // Says which of the movable vertices are fixed. Only cells in which something moves count from
-  // now on, unless `are_all_cells_counted`; the others cost nothing, and their rotations become
-  // identities.
-  void set_fixed(const Array<char>& is_fixed, bool are_all_cells_counted,
-                 std::vector<Matrix_3x3>& rotations)
+  // now on, unless `are_all_cells_counted`; the others cost nothing.
+  void set_fixed(const Array<char>& is_fixed, bool are_all_cells_counted)
   {
     const auto is_free = [&](int v) { return v < m_number_of_movable_vertices && !is_fixed[v]; };
     Array<char> is_chosen(static_cast<std::size_t>(number_of_cells()));
@@ -143,7 +141,6 @@ public:
       m_is_chosen = std::move(is_chosen);
       measure();
     }
-    clear_others(rotations);
   }
 
   // the bounding box of the points of all vertices that cells that count are at

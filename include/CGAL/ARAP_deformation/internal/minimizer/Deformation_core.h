@@ -107,10 +107,12 @@ public:
     return m_unconstrained_components;
   }
 
-  // the rotation of a cell, the identity before the first run and where nothing moves
+  int number_of_cells() const;
+
+  // The rotation of a cell, the identity where nothing moves. None if all are identities, as before
+  // the first run.
   const Array<Matrix_3x3>& rotations() const { return m_rotations; }
   void set_rotations(Array<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
-  void reset_rotations();
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
   // rotations but for those that frames give. Targets that are sets become the projections of the

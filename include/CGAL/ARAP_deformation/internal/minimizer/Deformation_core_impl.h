@@ -96,7 +96,6 @@ Diagnosis Deformation_core::prepare()
     make_deformation_energy(*m_models.weight, std::move(simplices), m_energy_model, m_region);
   if(const int v = energy.find_vertex_of_non_finite_weight(); v >= 0)
     return {Status::non_finite_weight, v};
-  m_rotations.resize(static_cast<std::size_t>(energy.number_of_cells()), identity_matrix());
   Laplacian laplacian = laplacian_of(energy);
   if(m_state)
   {
@@ -183,8 +182,9 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     if(constraints.is_fixed[v])
       m_state->parts[v] = components.is_unconstrained(v) || m_is_isolated[v] ? -2 : -1;
   m_state->rigid_start.reset();
-  m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first,
-                            m_rotations);
+  m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first);
+  if(!m_rotations.empty())
+    m_state->energy.clear_others(m_rotations);
   m_constraints = std::move(constraints);
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
@@ -203,9 +203,9 @@ void Deformation_core::include_near(const std::vector<Coordinates>& points,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Deformation_core::reset_rotations()
+int Deformation_core::number_of_cells() const
 {
-  std::fill(m_rotations.begin(), m_rotations.end(), identity_matrix());
+  return m_state->energy.number_of_cells();
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -214,6 +214,7 @@ Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
                                 std::vector<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
+  rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
   run_with_threads(threads(options.threads), [&] {
     diagnosis = run_in_arena(options, observe, targets, x, rotations, report);
   });
@@ -248,7 +249,7 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   if(m_energy_model.cells.has_vertex_cells())
   {
     for(const Frame& frame : frames)
-      if(frame.vertex < static_cast<int>(m_rotations.size()))
+      if(frame.vertex < number_of_cells())
         given.emplace_back(frame.vertex, frame.rotation);
     return given;
   }
@@ -357,10 +358,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(!minimization.try_positions(std::move(unplaced)))
       is_placed.assign(is_placed.size(), false);
   }
+  const Free_neighborhood& neighborhood = m_state->free_neighborhood;
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
                         m_constraints.inertia == 0 &&
-                        (is_torn(m_state->free_neighborhood.ties, m_region.rest, m_squared_size, x) ||
+                        (is_torn(neighborhood.ties, m_region.rest, m_squared_size, x) ||
                          is_torn(m_constraints, m_squared_size, targets, x,
                                  [&]() -> const std::vector<Coordinates>& {
                                    minimization.evaluate();
@@ -370,7 +372,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, m_state->free_neighborhood.is_near, targets,
+      return Harmonic_rotations(m_region, m_constraints, neighborhood.is_near, targets,
                                 x)(m_state->energy, m_state->system);
     }();
     const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {

@@ -183,12 +183,13 @@ struct Built_region
     return constraints;
   }
 
-  // the rotations that these cells have elsewhere; the identity where they have none
+  // The rotations that these cells have elsewhere, the identity where they have none. None if there
+  // are none.
   Array<Matrix_3x3> rotations_from(const Cell_rotations<Domain>& from, const Domain& domain) const
   {
-    Array<Matrix_3x3> rotations(core->rotations().size(), identity_matrix());
-    if(!from.region)
-      return rotations;
+    if(!from.region || from.rotations.empty())
+      return {};
+    Array<Matrix_3x3> rotations(core->number_of_cells(), identity_matrix());
     const bool are_at_vertices = core->has_vertex_cells();
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(const int old = are_at_vertices

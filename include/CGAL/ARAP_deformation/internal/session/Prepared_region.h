@@ -167,7 +167,7 @@ public:
   {
     m_restored = Cell_rotations<Domain>();
     if(m_prepared)
-      m_prepared->core->reset_rotations();
+      m_prepared->core->set_rotations({});
   }
 
   // What is needed to return to the present sets, positions and rotations, bit by bit.
