@@ -87,7 +87,7 @@ public:
         return without_look();
       if(m_number_of_moves == most_moves ||
          (is_saddle ? m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated
-                    : gap <= 0.1 * tolerated || is_lower_after(look.solution())))
+                    : does_model_hold(look, 0.1 * tolerated)))
         return Status::converged; // the gap is certain, or as certain as it becomes
     }
 
@@ -150,16 +150,16 @@ private:
     return m_run.evaluate();
   }
 
-  // Whether the energy falls along a whole step to the minimum of its model. If not, as in a valley
-  // that is curved, the model does not hold there, and does not tell what is left.
-  bool is_lower_after(const std::vector<Coordinates>& step)
+  // Whether the model of the energy holds, up to this, where it is what it is here: behind its
+  // minimum, as far again. If not, as in a valley that is curved, it does not tell what is left.
+  bool does_model_hold(const Second_look& look, double error)
   {
     const double value = m_run.value();
     const std::vector<Coordinates> before = m_run.x;
-    const bool is_lower = energy_at(before, step, 1) < value;
-    energy_at(before, step, 0);
+    const double change = energy_at(before, look.solution(), 2) - value;
+    energy_at(before, look.solution(), 0);
     m_run.keep_energy();
-    return is_lower;
+    return std::abs(change - 4 * (look.curvature() - look.gap())) <= error;
   }
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as

@@ -107,9 +107,9 @@ public:
   template <typename Function>
   bool start_with(const Function& set_rotations, const std::vector<char>& is_placed, bool is_tried)
   {
-    std::vector<Coordinates> before = x, step;
+    std::vector<Coordinates> step;
     const double energy = is_tried ? evaluate() : 0;
-    const std::vector<Matrix_3x3> last = m_last_rotations;
+    const std::vector<Matrix_3x3> last_rotations = m_last_rotations;
     set_rotations(m_rotations); // others are fitted anew
     m_energy.clear_others(m_rotations);
     evaluate_without_fit();
@@ -118,14 +118,19 @@ public:
       if(!solve(step))
         return false;
     }
+    std::vector<Coordinates>& before = step;
     for(std::size_t v = 0; v < number_of_vertices; ++v)
+    {
+      const Coordinates last = x[v];
       if(!is_placed[v])
         add(x[v], 1, step[v]);
+      before[v] = last;
+    }
     keep_rotations();
     if(is_tried && !(evaluate() < energy))
     {
-      x.swap(before);
-      m_last_rotations = last;
+      std::copy(before.begin(), before.end(), x.begin());
+      m_last_rotations = last_rotations;
     }
     return true;
   }

@@ -88,6 +88,7 @@ public:
     if(!(pap > 1e-9 * m_p_square))
       return std::isfinite(pap) ? Finding::negative_curvature : Finding::failure;
     const double alpha = m_r_square / pap;
+    m_curvature += alpha * m_r_square;
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
       {
@@ -151,6 +152,8 @@ public:
 
   // by how much the energy decreases along the solution, by its model and up to what e changes
   double gap() const { return dot_product(m_run.force(), m_s); }
+
+  double curvature() const { return m_curvature; } // s A s, of the solution s
 
 private:
   // result := a x + b y, for the movable vertices; it may be one of them
@@ -226,6 +229,7 @@ private:
   std::vector<Coordinates> m_p, m_lp;     // direction and L p
   std::vector<Coordinates> m_ap, m_w, m_q, m_aq, m_lq; // of sharpen(): A p and so on
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric of L
+  double m_curvature = 0;
 };
 
 } // namespace internal
