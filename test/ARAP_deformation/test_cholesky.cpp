@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
@@ -395,6 +396,56 @@ void test_blocks()
   CHECK(cholesky.structure().blocks().size() > 20);
 }
 
+// the columns of a supernode and the update below them, with that many threads
+Eigen::MatrixXd eliminated(Eigen::MatrixXd front, int width, unsigned int threads)
+{
+  const int height = static_cast<int>(front.rows()), below = height - width;
+  Eigen::MatrixXd panel = front.leftCols(width), update = front.bottomRightCorner(below, below);
+  run_with_threads(threads, [&] {
+    internal::factor_panel(panel.data(), width, height);
+    internal::subtract_square(update.data(), below, below, 0, below, panel.data() + width, width,
+                              height);
+  });
+  front.leftCols(width) = panel;
+  front.bottomRightCorner(below, below) = update;
+  return front.triangularView<Eigen::Lower>();
+}
+
+// supernodes of all sizes that are divided, and not divided, into blocks
+void test_supernodes()
+{
+  for(int width : {1, 3, 4, 62, 64, 67, 128, 131, 194, 330})
+    for(int below : {0, 1, 6, 61, 192, 193, 251, 390, 579})
+    {
+      test_case() = "supernode " + std::to_string(width) + ", " + std::to_string(below);
+      const int height = width + below;
+      const Eigen::MatrixXd random = Eigen::MatrixXd::Random(height, height);
+      const Eigen::MatrixXd front =
+        random + random.transpose() + 3 * height * Eigen::MatrixXd::Identity(height, height);
+      const Eigen::MatrixXd result = eliminated(front, width, 1);
+      CHECK(result == eliminated(front, width, 2) && result == eliminated(front, width, 8));
+
+      Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(height, height);
+      const Eigen::LLT<Eigen::MatrixXd> llt(front.topLeftCorner(width, width));
+      const Eigen::MatrixXd factor = llt.matrixL();
+      const Eigen::MatrixXd rows = llt.matrixL().solve(front.topRightCorner(width, below));
+      expected.topLeftCorner(width, width) = factor;
+      expected.diagonal().head(width) = factor.diagonal().cwiseInverse();
+      expected.bottomLeftCorner(below, width) = rows.transpose();
+      expected.bottomRightCorner(below, below) =
+        (front.bottomRightCorner(below, below) - rows.transpose() * rows)
+          .triangularView<Eigen::Lower>();
+      CHECK_AT_MOST(largest_entry(result - expected) / height, 1e-13);
+
+      for(int wrong : {0, width / 2, width - 1})
+      {
+        Eigen::MatrixXd indefinite = front;
+        indefinite(wrong, wrong) = -1;
+        CHECK(std::isnan(eliminated(indefinite, width, 2)(wrong, wrong)));
+      }
+    }
+}
+
 template <typename Solver>
 void test_solver(const std::string& name, const Solver& solver)
 {
@@ -410,6 +461,7 @@ int main()
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
 #endif
   test_blocks();
+  test_supernodes();
   test_borders_in_single_precision();
   for(Fill_reducing_ordering ordering :
       {Fill_reducing_ordering::minimum_degree, Fill_reducing_ordering::nested_dissection})

@@ -48,6 +48,7 @@ public:
       const Block& b = m_structure.blocks()[k];
       Array<int> places;
       Array<double> columns; // of a supernode, if they are stored in single precision
+      Array<double> spare;   // the memory of an update that is not needed any more
       for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
       {
         const Supernode& supernode = m_structure.supernodes()[s];
@@ -57,7 +58,7 @@ public:
         double* const panel = m_single_values ? columns.data() : m_values + supernode.values;
         std::fill_n(panel, size, 0);
         assemble(s, panel);
-        factorize_supernode(k, s, panel, places);
+        factorize_supernode(k, s, panel, places, spare);
         if(m_single_values)
           std::transform(panel, panel + size, m_single_values + supernode.values,
                          [](double value) { return static_cast<float>(value); });
@@ -83,16 +84,22 @@ private:
       }
   }
 
-  void factorize_supernode(int block, int index, double* panel, Array<int>& places)
+  void factorize_supernode(int block, int index, double* panel, Array<int>& places,
+                           Array<double>& spare)
   {
     const Supernode& s = m_structure.supernodes()[index];
     const std::size_t below = static_cast<std::size_t>(s.below);
     Array<double>& update = m_updates[index];
+    if(spare.capacity() < below * below)
+      Array<double>().swap(spare); // before there is another one
+    update.swap(spare);
     update.assign(below * below, 0);
     for(int child = m_first_child[index]; child >= 0; child = m_next_child[child])
     {
       find_places(block, s, child, places);
       add_update(s, m_updates[child], places, panel, update.data());
+      if(spare.capacity() < m_updates[child].capacity())
+        spare.swap(m_updates[child]);
       Array<double>().swap(m_updates[child]);
     }
     factor_panel(panel, s.width, s.width + s.below);

@@ -14,9 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -128,30 +131,31 @@ CGAL_ARAP_ALWAYS_INLINE void factor_columns(int rows, double* panel, std::ptrdif
     }
 }
 
-// factor_panel() with at most so many columns at a time
+// Factors the first `width` columns of a matrix, with at most so many columns at a time.
 template <int most>
-struct Factor_panel
+struct Factor_columns
 {
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* panel, int width, int height)
+  CGAL_ARAP_ALWAYS_INLINE static void run(double* panel, std::ptrdiff_t stride, int width,
+                                          int height)
   {
     int j = 0;
     for(; j + most <= width; j += most)
-      run_columns<most>(panel, j, height);
+      run_columns<most>(panel, stride, j, height);
     if constexpr(most > 2)
       switch(width - j)
       {
-      case 2: return run_columns<2>(panel, j, height);
-      case 3: return run_columns<3>(panel, j, height);
+      case 2: return run_columns<2>(panel, stride, j, height);
+      case 3: return run_columns<3>(panel, stride, j, height);
       }
     if(j < width)
-      run_columns<1>(panel, j, height);
+      run_columns<1>(panel, stride, j, height);
   }
 
 private:
   template <int Columns>
-  CGAL_ARAP_ALWAYS_INLINE static void run_columns(double* panel, int first, int height)
+  CGAL_ARAP_ALWAYS_INLINE static void run_columns(double* panel, std::ptrdiff_t stride, int first,
+                                                  int height)
   {
-    const std::ptrdiff_t stride = height;
     double* const columns = panel + first * stride + first;
     subtract_columns<Columns>(height - first, columns, stride, panel + first, panel + first,
                               stride, first);
@@ -159,30 +163,20 @@ private:
   }
 };
 
-// subtract_square() with at most so many columns at a time
+// U := U - A B^T, with at most so many columns of U at a time. Column j of U is only needed from
+// row j - `above` on.
 template <int most>
-struct Subtract_square
+struct Subtract_product
 {
-  // so many entries of A fit into the second-level cache
-  static constexpr int rows_at_once = 192, depth_at_once = 128;
-
-  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::ptrdiff_t u_stride, int n, int first,
-                                          int last, const double* a, int width,
-                                          std::ptrdiff_t stride)
+  CGAL_ARAP_ALWAYS_INLINE static void run(double* u, std::ptrdiff_t u_stride, int rows, int columns,
+                                          int above, const double* a, const double* b,
+                                          std::ptrdiff_t stride, int depth)
   {
-    for(int k = 0; k < width; k += depth_at_once)
+    for(int j = 0; j < columns && j < above + rows; j += most)
     {
-      const int depth = width - k < depth_at_once ? width - k : depth_at_once;
-      for(int i = 0; i < n; i += rows_at_once)
-      {
-        const int end = n - i < rows_at_once ? n : i + rows_at_once;
-        for(int j = first; j < end && j < last; j += most)
-        {
-          const int begin = i < j ? j : i;
-          run_columns(last - j, end - begin, u + j * u_stride + begin, u_stride,
-                      a + k * stride + begin, a + k * stride + j, stride, depth);
-        }
-      }
+      const int begin = j < above ? 0 : j - above;
+      run_columns(columns - j, rows - begin, u + j * u_stride + begin, u_stride, a + begin, b + j,
+                  stride, depth);
     }
   }
 
@@ -204,22 +198,72 @@ private:
   }
 };
 
+inline void subtract_product(double* u, std::ptrdiff_t u_stride, int rows, int columns, int above,
+                             const double* a, const double* b, std::ptrdiff_t stride, int depth)
+{
+  run_kernel<Subtract_product<4>, Subtract_product<plain_columns>>(u, u_stride, rows, columns,
+                                                                   above, a, b, stride, depth);
+}
+
+// Two blocks of so many entries of A fit into the second-level cache.
+constexpr int rows_at_once = 192, depth_at_once = 128;
+
+// U := U - A A^T in the columns from `first` to before `last` of the lower triangle of U. A has n
+// rows and `width` columns; `first` is a multiple of four. Entries of U above the diagonal may
+// change too. Large matrices are divided into blocks, which are copied: the columns of A lie in as
+// many pages of memory. Different columns of blocks are tasks.
+inline void subtract_square(double* u, std::ptrdiff_t u_stride, int n, int first, int last,
+                            const double* a, int width, std::ptrdiff_t stride)
+{
+  const auto depth = [&](int k) { return (std::min)(depth_at_once, width - k); };
+  const auto entry = [&](int i, int j) { return u + j * u_stride + i; };
+  if(n - first <= rows_at_once)
+  {
+    for(int k = 0; k < width; k += depth_at_once)
+      subtract_product(entry(first, first), u_stride, n - first, last - first, 0,
+                       a + k * stride + first, a + k * stride + first, stride, depth(k));
+    return;
+  }
+  const auto copy = [&](int i, int k, Array<double>& block) {
+    block.resize(static_cast<std::size_t>(rows_at_once * depth_at_once));
+    for(int c = 0; c < depth(k); ++c)
+      std::copy_n(a + (k + c) * stride + i, (std::min)(rows_at_once, n - i),
+                  block.data() + c * rows_at_once);
+  };
+  for_each_block(static_cast<std::size_t>(last - first), [&](std::size_t begin, std::size_t end) {
+    const int j = first + static_cast<int>(begin), columns = static_cast<int>(end - begin);
+    Array<double> block, other_block;
+    for(int k = 0; k < width; k += depth_at_once)
+    {
+      copy(j, k, block);
+      for(int i = j; i < n; i += rows_at_once)
+      {
+        if(i > j)
+          copy(i, k, other_block);
+        subtract_product(entry(i, j), u_stride, (std::min)(rows_at_once, n - i), columns, i - j,
+                         i > j ? other_block.data() : block.data(), block.data(), rows_at_once,
+                         depth(k));
+      }
+    }
+  }, rows_at_once);
+}
+
 // Factors the first `width` columns of a matrix with `height` rows, whose upper part is symmetric
 // and given by its lower triangle. The diagonal is replaced by its reciprocals, which are NaN where
 // the matrix is not positive definite.
 inline void factor_panel(double* panel, int width, int height)
 {
-  run_kernel<Factor_panel<4>, Factor_panel<plain_columns>>(panel, width, height);
-}
-
-// U := U - A A^T in the columns from `first` to before `last` of the lower triangle of U. A has n
-// rows and `width` columns; `first` is a multiple of four. Entries of U above the diagonal may
-// change too.
-inline void subtract_square(double* u, std::ptrdiff_t u_stride, int n, int first, int last,
-                            const double* a, int width, std::ptrdiff_t stride)
-{
-  run_kernel<Subtract_square<4>, Subtract_square<plain_columns>>(u, u_stride, n, first, last, a,
-                                                                 width, stride);
+  constexpr int columns_at_once = 64; // these are read again for each four of them
+  const std::ptrdiff_t stride = height;
+  for(int k = 0; k < width; k += columns_at_once)
+  {
+    double* const block = panel + k * (stride + 1);
+    const int columns = (std::min)(columns_at_once, width - k);
+    run_kernel<Factor_columns<4>, Factor_columns<plain_columns>>(block, stride, columns,
+                                                                 height - k);
+    subtract_square(block + columns * (stride + 1), stride, height - k - columns, 0,
+                    width - k - columns, block + columns, columns, stride);
+  }
 }
 
 } // namespace internal
