@@ -171,23 +171,22 @@ private:
   }
 
   // The coefficients that minimize a quadratic form a where another one, l, is 1. Vectors that
-  // others determine are left out.
+  // others determine are left out: they count with 0, which is more than the lowest value.
   static Eigen::Vector3d lowest_combination(const Eigen::Matrix3d& a, const Eigen::Matrix3d& l)
   {
+    using Eigen_solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
     Eigen::Vector3d scale;
     for(int k = 0; k < 3; ++k)
       scale[k] = l(k, k) > 0 ? 1 / std::sqrt(l(k, k)) : 0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> metric(scale.asDiagonal() * l *
-                                                                scale.asDiagonal());
+    const Eigen::Matrix3d scaled_l = scale.asDiagonal() * l * scale.asDiagonal();
+    const Eigen_solver metric(scaled_l);
     Eigen::Matrix3d basis = Eigen::Matrix3d::Zero();
-    int size = 0;
     for(int k = 0; k < 3; ++k)
       if(metric.eigenvalues()[k] > 1e-8)
-        basis.col(size++) = scale.asDiagonal() * metric.eigenvectors().col(k) /
-                            std::sqrt(metric.eigenvalues()[k]);
-    const Eigen::MatrixXd used = basis.leftCols(size);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> form(used.transpose() * a * used);
-    return used * form.eigenvectors().col(0);
+        basis.col(k) = scale.asDiagonal() * metric.eigenvectors().col(k) /
+                       std::sqrt(metric.eigenvalues()[k]);
+    const Eigen::Matrix3d form = basis.transpose() * a * basis;
+    return basis * Eigen_solver(form).eigenvectors().col(0);
   }
 
   bool solve()
