@@ -26,8 +26,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -97,10 +97,13 @@ struct Multifrontal_cholesky_solver::State
   {
     const std::size_t n = static_cast<std::size_t>(a.rows());
     internal::Array<Coordinates> residual(n), step;
-    std::minstd_rand random(1);
+    std::uint64_t state = 1; // of the generator std::minstd_rand, whose header is large
     for(Coordinates& row : residual)
       for(double& entry : row)
-        entry = static_cast<double>(random()) / static_cast<double>(random.max()) - 0.5;
+      {
+        state = 48271 * state % 2147483647;
+        entry = static_cast<double>(state) / 2147483646 - 0.5;
+      }
     double first = 0, last = 0;
     for(int k = 0; k < 4; ++k)
     {

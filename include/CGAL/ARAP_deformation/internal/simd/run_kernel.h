@@ -29,10 +29,11 @@ namespace internal {
 inline namespace CGAL_ARAP_SIMD {
 
 #ifdef CGAL_ARAP_HAS_DISPATCH
+// Reads what the run-time library found when the program started: a static variable would cost
+// more, in each kernel.
 inline bool has_avx2()
 {
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
 
 template <typename Kernel, typename... Arguments>
