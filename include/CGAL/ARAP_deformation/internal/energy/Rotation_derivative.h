@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace CGAL {
@@ -29,7 +30,8 @@ namespace internal {
 // How the closest rotation R follows a covariance S. Of the rotation exp(w) R the product with S
 // is, to second order,  tr(R^T S) + a w - w K w / 2  with the axis a of the skew part of S R^T,
 // which is zero for the closest one, and K = tr(Y) I - Y, Y the symmetric part. So a change dS, by
-// which the axis becomes a(dS R^T), turns R by w = K^-1 a.
+// which the axis becomes a(dS R^T), turns R by w = K^-1 a. Only the eigenvectors are Eigen's: its
+// products of matrices would take half a second to compile.
 class Rotation_derivative
 {
 public:
@@ -37,29 +39,35 @@ public:
 
   Rotation_derivative(const Matrix_3x3& covariance, const Matrix_3x3& rotation)
   {
-    const Matrix m = map(covariance) * map(rotation).transpose();
-    const Matrix y = 0.5 * (m + m.transpose());
-    Eigen::SelfAdjointEigenSolver<Matrix> solver;
-    solver.computeDirect(y.trace() * Matrix::Identity() - y);
+    const Matrix_3x3 m = product_with_transpose(covariance, rotation);
+    Eigen::Matrix3d k;
+    for(int r = 0; r < 3; ++r)
+      for(int c = 0; c < 3; ++c)
+        k(r, c) = (r == c ? m[0] + m[4] + m[8] : 0) -
+                  0.5 * (m[static_cast<std::size_t>(3 * r + c)] +
+                         m[static_cast<std::size_t>(3 * c + r)]);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(k);
     // Where it is next to zero another rotation is as close, and R jumps: the energy has a kink.
     const double largest = solver.eigenvalues()[2], least = 1e-6 * largest;
-    if(largest > 0)
-      m_inverse = solver.eigenvectors() *
-                  solver.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-                  solver.eigenvectors().transpose();
+    for(int j = 0; j < 3 && largest > 0; ++j)
+    {
+      const auto vector = solver.eigenvectors().col(j);
+      const Coordinates axis = {vector[0], vector[1], vector[2]};
+      add_product(m_inverse, scaled(axis, 1 / (std::max)(solver.eigenvalues()[j], least)), axis);
+    }
   }
 
   // the change of R that a change of the covariance makes
   Matrix_3x3 operator()(const Matrix_3x3& change, const Matrix_3x3& rotation) const
   {
-    const Matrix m = map(change) * map(rotation).transpose();
-    const Eigen::Vector3d axis(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
-    const Eigen::Vector3d w = m_inverse * axis;
+    const Matrix_3x3 m = product_with_transpose(change, rotation);
+    const Coordinates axis = {m[7] - m[5], m[2] - m[6], m[3] - m[1]};
+    const Coordinates w = product(m_inverse, axis);
     Matrix_3x3 result;
     for(std::size_t c = 0; c < 3; ++c)
     {
-      const Coordinates column = cross({w[0], w[1], w[2]},
-                                       {rotation[c], rotation[3 + c], rotation[6 + c]});
+      const Coordinates column = cross(w, {rotation[c], rotation[3 + c], rotation[6 + c]});
       for(std::size_t r = 0; r < 3; ++r)
         result[3 * r + c] = column[r];
     }
@@ -67,14 +75,7 @@ public:
   }
 
 private:
-  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-  static Eigen::Map<const Matrix> map(const Matrix_3x3& m)
-  {
-    return Eigen::Map<const Matrix>(m.data());
-  }
-
-  Matrix m_inverse = Matrix::Zero(); // of K
+  Matrix_3x3 m_inverse{}; // of K
 };
 
 } // namespace internal

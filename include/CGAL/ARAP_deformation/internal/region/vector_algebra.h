@@ -77,6 +77,17 @@ inline Matrix_3x3 product(const Matrix_3x3& a, const Matrix_3x3& b)
   return c;
 }
 
+// a b^T
+inline Matrix_3x3 product_with_transpose(const Matrix_3x3& a, const Matrix_3x3& b)
+{
+  Matrix_3x3 c{};
+  for(std::size_t i = 0; i < 3; ++i)
+    for(std::size_t j = 0; j < 3; ++j)
+      c[3 * i + j] =
+        a[3 * i] * b[3 * j] + a[3 * i + 1] * b[3 * j + 1] + a[3 * i + 2] * b[3 * j + 2];
+  return c;
+}
+
 constexpr Matrix_3x3 identity_matrix()
 {
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};
