@@ -136,10 +136,7 @@ private:
                           const Array<int>& part_of)
   {
     const Array<Block>& blocks = structure.blocks();
-    // the blocks upwards, and the supernodes of each
-    const auto rank = [&](int s) { return std::make_pair(-structure.block_of(s), s); };
-    std::sort(path.begin(), path.end(), [&](int s, int t) { return rank(s) < rank(t); });
-
+    sort_path(structure, path);
     Array<std::size_t> begin(blocks.size(), 0); // of the local vectors of blocks on the path
     std::size_t size = 0;
     for(std::size_t k = 0; k < path.size(); ++k)

@@ -24,8 +24,8 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 namespace CGAL {
@@ -121,6 +121,13 @@ protected:
     m_values.assign(size, 0);
   }
 
+  // the blocks upwards, and the supernodes of each
+  static void sort_path(const Supernodal_structure& structure, Array<int>& path)
+  {
+    const auto rank = [&](int s) { return std::make_pair(-structure.block_of(s), s); };
+    std::sort(path.begin(), path.end(), [&](int s, int t) { return rank(s) < rank(t); });
+  }
+
   Array<int> m_order;
   std::size_t m_size = 0;
   Array<Part> m_parts; // of ascending supernodes
@@ -136,7 +143,7 @@ private:
       m_rank = inverse_permutation(structure.numbers());
     }
     // in postorder a subtree is a range
-    Array<std::tuple<int, int, int>> keys;
+    Array<std::array<int, 3>> keys;
     for(int j = 0; j < b.cols(); ++j)
     {
       std::pair<int, int> first(0, 0);
@@ -147,12 +154,12 @@ private:
         if(entry.index() == b.innerIndexPtr()[b.outerIndexPtr()[j]] || at < first)
           first = at;
       }
-      keys.emplace_back(first.first, first.second, j);
+      keys.push_back({first.first, first.second, j});
     }
     std::sort(keys.begin(), keys.end());
     m_order.clear();
     for(const auto& key : keys)
-      m_order.push_back(std::get<2>(key));
+      m_order.push_back(key[2]);
   }
 
   Array<int> m_rank; // of the supernodes, in postorder

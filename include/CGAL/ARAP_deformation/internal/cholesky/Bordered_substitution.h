@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Border_columns.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/Border_parts.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Quasidefinite_factor.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
@@ -32,6 +33,34 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
+// multipliers is negative definite, and with them eliminated the rest is positive definite. Pivots
+// are compared with the diagonal of D: what W subtracts may be all that D has.
+inline bool factorize_remainder(const Dense_matrix& d, const Border_parts& w,
+                                double smallest_pivot, Quasidefinite_factor& factor)
+{
+  const Array<int>& order = w.order();
+  const Array<double> square = w.negative_square();
+  const std::size_t n = order.size();
+  Array<double> remainder(n * n), smallest_pivots(n);
+  Array<char> is_multiplier(n);
+  for(std::size_t l = 0; l < n; ++l)
+    for(std::size_t k = l; k < n; ++k)
+    {
+      const auto [column, row] = std::minmax(order[k], order[l]);
+      remainder[static_cast<std::size_t>(column) * n + static_cast<std::size_t>(row)] =
+        d(row, column) + square[l * w.size() + k];
+    }
+  for(std::size_t k = 0; k < n; ++k)
+  {
+    const double diagonal = d(static_cast<int>(k), static_cast<int>(k));
+    is_multiplier[k] = diagonal <= 0;
+    smallest_pivots[k] =
+      smallest_pivot * (is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal);
+  }
+  return factor.factorize(static_cast<int>(n), remainder, is_multiplier, smallest_pivots);
+}
 
 // Substitution with the factor of A, or with that of A with a border, [A B; B^T D]. With W = L^-1 P
 // B, what is left for the unknowns of the border is the dense system of D - W^T W.
@@ -57,7 +86,7 @@ public:
       if(b.cols() > 0)
       {
         m_columns.compute(structure, values, b);
-        is_solvable = factorize_remainder(d);
+        is_solvable = factorize_remainder(d, m_columns, smallest_pivot, m_remainder);
       }
     }
     catch(...)
@@ -87,33 +116,6 @@ private:
   // Rounding errors of W, which are those of the factor, count as much more in the solution as the
   // pivots are smaller. Long before all digits are lost another factorization of A is better.
   static constexpr double smallest_pivot = std::is_same_v<Number, double> ? 1e-11 : 1e-4;
-
-  // The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
-  // multipliers is negative definite, and with them eliminated the rest is positive definite.
-  // Pivots are compared with the diagonal of D: what W subtracts may be all that D has.
-  bool factorize_remainder(const Dense_matrix& d)
-  {
-    const Array<int>& order = m_columns.order();
-    const Array<double> square = m_columns.negative_square();
-    const std::size_t n = order.size();
-    Array<double> remainder(n * n), smallest_pivots(n);
-    Array<char> is_multiplier(n);
-    for(std::size_t l = 0; l < n; ++l)
-      for(std::size_t k = l; k < n; ++k)
-      {
-        const auto [column, row] = std::minmax(order[k], order[l]);
-        remainder[static_cast<std::size_t>(column) * n + static_cast<std::size_t>(row)] =
-          d(row, column) + square[l * m_columns.size() + k];
-      }
-    for(std::size_t k = 0; k < n; ++k)
-    {
-      const double diagonal = d(static_cast<int>(k), static_cast<int>(k));
-      is_multiplier[k] = diagonal <= 0;
-      smallest_pivots[k] =
-        smallest_pivot * (is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal);
-    }
-    return m_remainder.factorize(static_cast<int>(n), remainder, is_multiplier, smallest_pivots);
-  }
 
   // z := (D - W^T W)^-1 (g - W^T y), and y := y - W z in the local vectors
   void solve_border(const Supernodal_structure& structure, Coordinates* x, double scale)

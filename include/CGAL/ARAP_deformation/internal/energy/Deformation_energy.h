@@ -39,7 +39,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -88,7 +87,7 @@ public:
     m_given = std::move(given);
     if(m_groups.size() == 0)
       return;
-    std::map<int, Matrix_3x3> sums; // for each group
+    Array<Matrix_3x3> sums(m_groups.size(), Matrix_3x3{});
     for(const auto& [c, rotation] : m_given)
       if(const int g = m_group_of[c]; g >= 0)
         for(std::size_t entry = 0; entry < 9; ++entry)

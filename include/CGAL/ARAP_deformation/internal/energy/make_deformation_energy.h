@@ -35,7 +35,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -56,7 +55,9 @@ void for_each_facet(const Region& region, int s, const Function& f)
     std::array<int, 3> facet = {corners[k], corners[(k + 1) % n], -1};
     if(region.dimension == 3)
       facet[2] = corners[(k + 2) % n];
-    std::sort(facet.begin(), facet.end(), std::greater<int>());
+    if(facet[0] < facet[1]) std::swap(facet[0], facet[1]);
+    if(facet[1] < facet[2]) std::swap(facet[1], facet[2]);
+    if(facet[0] < facet[1]) std::swap(facet[0], facet[1]);
     f(facet);
   }
 }
@@ -258,17 +259,11 @@ inline Deformation_energy make_deformation_energy(const Edge_weight_model& model
       make_sequential_fit(energy_model, region, energy.number_of_cells()));
   if(!energy_model.group.empty())
   {
-    std::map<int, std::vector<int>> groups;
+    std::vector<std::pair<int, int>> members; // each a group and a cell
     for(int c = 0; c < energy.number_of_cells(); ++c)
       if(energy_model.group[c] >= 0)
-        groups[energy_model.group[c]].push_back(c);
-    Index_lists lists;
-    for(const auto& group : groups)
-    {
-      lists.items.insert(lists.items.end(), group.second.begin(), group.second.end());
-      lists.begin.push_back(static_cast<int>(lists.items.size()));
-    }
-    energy.set_groups(std::move(lists));
+        members.emplace_back(energy_model.group[c], c);
+    energy.set_groups(lists_by_first(std::move(members)));
   }
   return energy;
 }

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
@@ -29,7 +30,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -148,28 +149,29 @@ public:
           sets.unite(*first, *v);
         }
     }
-    std::map<int, std::vector<int>> handles;
+    std::vector<std::pair<int, int>> members; // each a set and a vertex
     for(int v = 0; v < region.number_of_vertices(); ++v)
       if(is_seen[v])
-        handles[sets.find(v)].push_back(v);
+        members.emplace_back(sets.find(v), v);
+    const Index_lists handles = lists_by_first(std::move(members));
     const auto place = [&](int v) {
       return v < n && !constraints.is_fixed[v] ? targets.soft[static_cast<std::size_t>(row_of[v])]
                                                : x[static_cast<std::size_t>(v)];
     };
-    for(const auto& handle : handles)
+    for(int h = 0; h < handles.size(); ++h)
     {
-      const std::vector<int>& vertices = handle.second;
-      if(vertices.size() < 2)
+      const int begin = handles.begin[h], end = handles.begin[h + 1];
+      if(end - begin < 2)
         continue;
       std::vector<Coordinates> rest, places;
-      for(int v : vertices)
+      for(int k = begin; k < end; ++k)
       {
-        rest.push_back(region.rest[v]);
-        places.push_back(place(v));
+        rest.push_back(region.rest[handles.items[k]]);
+        places.push_back(place(handles.items[k]));
       }
       const Rigid_fit fit(rest, places);
-      for(int v : vertices)
-        set(v, fit.rotation());
+      for(int k = begin; k < end; ++k)
+        set(handles.items[k], fit.rotation());
     }
     for(const Frame& frame : targets.frames)
       set(frame.vertex, frame.rotation);

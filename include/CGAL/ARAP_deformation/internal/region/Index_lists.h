@@ -18,8 +18,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -33,6 +36,21 @@ struct Index_lists
 
   int size() const { return static_cast<int>(begin.size()) - 1; }
 };
+
+// For each first number that pairs have, in ascending order, the list of their second numbers, in
+// ascending order too.
+inline Index_lists lists_by_first(std::vector<std::pair<int, int>> pairs)
+{
+  std::sort(pairs.begin(), pairs.end());
+  Index_lists result;
+  for(std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    result.items.push_back(pairs[k].second);
+    if(k + 1 == pairs.size() || pairs[k + 1].first != pairs[k].first)
+      result.begin.push_back(static_cast<int>(k + 1));
+  }
+  return result;
+}
 
 // For each number below n what name(k, place) is where list k has it, at that place in `items`.
 template <typename Naming>
