@@ -38,6 +38,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -393,8 +394,8 @@ private:
 
   // Calls f(c, S) for each cell that counts whose rotation is fitted to its own covariance S alone,
   // at the positions m_x, and for the first one of each group with the sum of theirs.
-  template <typename Function>
-  void for_each_fitted_cell(const Function& f)
+  // It is no template: for each f there would be loops for each kind of cells.
+  void for_each_fitted_cell(const std::function<void(int, const Matrix_3x3&)>& f)
   {
     Array<char> is_given(m_given.empty() ? 0 : number_of_cells(), false);
     for(const auto& cell : m_given)
