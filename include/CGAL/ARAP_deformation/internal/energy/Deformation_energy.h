@@ -218,30 +218,27 @@ public:
                           std::vector<Coordinates>& force, bool is_smooth = true)
   {
     assign_padded(m_x, x);
-    m_bending.prepare(m_x.data());
+    prepare_covariances(m_x);
     m_smooth.keep(rotations);
     const bool has_steps = is_smooth && m_number_of_rotation_steps > 0;
     if(has_steps)
       m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
-    std::visit([&](auto& cells) {
-      cells.prepare_covariances(m_rest.data(), m_x.data());
-      const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
-        covariances_of_cells(cells, m_x, begin, end, covariances);
-        if(is_smooth)
-          m_smooth.add_covariances(begin, end, covariances);
-      };
-      for(int c : m_sequential_fit.order())
-      {
-        Matrix_3x3 covariance;
-        compute_covariances(c, c + 1, &covariance);
-        m_sequential_fit.add_covariance(c, rotations, covariance);
-        closest_rotations(1, &covariance, &rotations[static_cast<std::size_t>(c)]);
-      }
-      if(!m_sequential_fit.is_none())
-        return;
+    const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
+      covariances_of_cells(m_x, begin, end, covariances);
+      if(is_smooth)
+        m_smooth.add_covariances(begin, end, covariances);
+    };
+    for(int c : m_sequential_fit.order())
+    {
+      Matrix_3x3 covariance;
+      compute_covariances(c, c + 1, &covariance);
+      m_sequential_fit.add_covariance(c, rotations, covariance);
+      closest_rotations(1, &covariance, &rotations[static_cast<std::size_t>(c)]);
+    }
+    if(m_sequential_fit.is_none())
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        covariances_of_cells(cells, m_x, begin, end, covariances.data());
+        covariances_of_cells(m_x, begin, end, covariances.data());
         if(has_steps)
           std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
         if(is_smooth)
@@ -249,20 +246,19 @@ public:
         closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
                           rotations.data() + begin);
       });
-      for_each_group([&](const int* begin, const int* end) {
-        if(!m_is_chosen[*begin])
-          return;
-        Matrix_3x3 sum{}, covariance;
-        for(const int* c = begin; c != end; ++c)
-        {
-          compute_covariances(*c, *c + 1, &covariance);
-          for(std::size_t entry = 0; entry < 9; ++entry)
-            sum[entry] += covariance[entry];
-        }
-        closest_rotations(1, &sum, &rotations[static_cast<std::size_t>(*begin)]);
-        set_rotation_of_group(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
-      });
-    }, m_cells);
+    for_each_group([&](const int* begin, const int* end) {
+      if(!m_is_chosen[*begin])
+        return;
+      Matrix_3x3 sum{}, covariance;
+      for(const int* c = begin; c != end; ++c)
+      {
+        compute_covariances(*c, *c + 1, &covariance);
+        for(std::size_t entry = 0; entry < 9; ++entry)
+          sum[entry] += covariance[entry];
+      }
+      closest_rotations(1, &sum, &rotations[static_cast<std::size_t>(*begin)]);
+      set_rotation_of_group(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
+    });
     for(const auto& [c, rotation] : m_given)
       if(m_is_chosen[c])
         set_rotation_of_group(c, rotation, rotations);
@@ -383,18 +379,15 @@ private:
   void compute_covariances(const std::vector<Double4>& x)
   {
     m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
-    m_bending.prepare(x.data());
-    std::visit([&](auto& cells) {
-      cells.prepare_covariances(m_rest.data(), x.data());
-      m_batches.for_each([&](int begin, int end) {
-        covariances_of_cells(cells, x, begin, end, m_covariances.data() + begin);
-      });
-    }, m_cells);
+    prepare_covariances(x);
+    m_batches.for_each([&](int begin, int end) {
+      covariances_of_cells(x, begin, end, m_covariances.data() + begin);
+    });
   }
 
   // Calls f(c, S) for each cell that counts whose rotation is fitted to its own covariance S alone,
   // at the positions m_x, and for the first one of each group with the sum of theirs.
-  // It is no template: for each f there would be loops for each kind of cells.
+  // It is no template: for each f there would be another copy of its loops.
   void for_each_fitted_cell(const std::function<void(int, const Matrix_3x3&)>& f)
   {
     Array<char> is_given(m_given.empty() ? 0 : number_of_cells(), false);
@@ -403,37 +396,43 @@ private:
       const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
       is_given[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = true;
     }
-    m_bending.prepare(m_x.data());
-    std::visit([&](auto& cells) {
-      cells.prepare_covariances(m_rest.data(), m_x.data());
-      m_batches.for_each([&](int begin, int end) {
-        std::array<Matrix_3x3, batch_size> covariances;
-        covariances_of_cells(cells, m_x, begin, end, covariances.data());
-        for(int c = begin; c < end; ++c)
-          if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
-            f(c, covariances[static_cast<std::size_t>(c - begin)]);
-      });
-      for_each_group([&](const int* begin, const int* end) {
-        if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
-          return;
-        Matrix_3x3 sum{}, covariance;
-        for(const int* c = begin; c != end; ++c)
-        {
-          covariances_of_cells(cells, m_x, *c, *c + 1, &covariance);
-          for(std::size_t entry = 0; entry < 9; ++entry)
-            sum[entry] += covariance[entry];
-        }
-        f(*begin, sum);
-      });
-    }, m_cells);
+    prepare_covariances(m_x);
+    m_batches.for_each([&](int begin, int end) {
+      std::array<Matrix_3x3, batch_size> covariances;
+      covariances_of_cells(m_x, begin, end, covariances.data());
+      for(int c = begin; c < end; ++c)
+        if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
+          f(c, covariances[static_cast<std::size_t>(c - begin)]);
+    });
+    for_each_group([&](const int* begin, const int* end) {
+      if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
+        return;
+      Matrix_3x3 sum{}, covariance;
+      for(const int* c = begin; c != end; ++c)
+      {
+        covariances_of_cells(m_x, *c, *c + 1, &covariance);
+        for(std::size_t entry = 0; entry < 9; ++entry)
+          sum[entry] += covariance[entry];
+      }
+      f(*begin, sum);
+    });
   }
 
-  // the same for some cells, when cells and bending are prepared for these positions
-  template <typename Cell_energy>
-  void covariances_of_cells(const Cell_energy& cells, const std::vector<Double4>& x, int begin,
-                            int end, Matrix_3x3* covariances) const
+  // to be called before the covariances of cells are asked for at these positions
+  void prepare_covariances(const std::vector<Double4>& x)
   {
-    cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
+    m_bending.prepare(x.data());
+    std::visit([&](auto& cells) { cells.prepare_covariances(m_rest.data(), x.data()); }, m_cells);
+  }
+
+  // Of the cells in [begin, end), without what makes them smooth. The only place that asks which
+  // kind of cells there is: else all loops over cells would be compiled for each.
+  void covariances_of_cells(const std::vector<Double4>& x, int begin, int end,
+                            Matrix_3x3* covariances) const
+  {
+    std::visit([&](const auto& cells) {
+      cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
+    }, m_cells);
     m_bending.add_covariances(begin, end, covariances);
   }
 
