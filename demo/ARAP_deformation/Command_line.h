@@ -175,6 +175,8 @@ inline boost::program_options::options_description described_options()
      "stop when the estimated relative gap to the minimum is at most T; 0: run all N")
     ("verify_minimum", value<std::string>()->default_value("true")->value_name("true|false"),
      "look at the second derivative before the end, and go on if that is not at a minimum")
+    ("coarse_metric", value<std::string>()->default_value("true")->value_name("true|false"),
+     "let quasi-Newton runs on 20,000 free vertices or more find long bends sooner, for memory")
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
      "use at most N threads; 0: one per processor");
@@ -544,7 +546,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
     for(const char* name :
         {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
-          "verify_minimum"})
+          "verify_minimum", "coarse_metric"})
       if(const Outcome set = set_option(line.options, name, text(name)); !set)
         throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
     line.options.bending_length = number<double>("bending", text("bending"));

@@ -299,7 +299,7 @@ void test_options_by_name()
     {"minimizer", {"local_global", "quasi_newton", "automatic"}},
     {"initial_guess", {"rotations", "laplacian", "previous", "automatic"}},
     {"iterations", {"0", "2147483647"}}, {"threads", {"3", "0"}}, {"tolerance", {"0", "0.25"}},
-    {"verify_minimum", {"false", "true"}},
+    {"verify_minimum", {"false", "true"}}, {"coarse_metric", {"false", "true"}},
     {"bending_length", {"1", "0.5"}}, {"smoothing_length", {"7"}}};
   for(const auto& [name, values] : valid)
     for(const std::string& value : values)

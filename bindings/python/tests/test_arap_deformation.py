@@ -185,6 +185,9 @@ def test_options():
     assert d.verify_minimum is True
     d.verify_minimum = False
     assert d.verify_minimum is False
+    assert d.coarse_metric is True
+    d.coarse_metric = False
+    assert d.coarse_metric is False
     d.tolerance = 1 / 3
     d.bending_length = d.smoothing_length = 2
     assert d.tolerance == 1 / 3 and d.bending_length == d.smoothing_length == 2

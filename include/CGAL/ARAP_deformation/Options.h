@@ -101,6 +101,15 @@ struct Options
   /// time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
+  /// whether a quasi-Newton run with 20,000 free vertices or more completes the metric of the
+  /// Laplacian by a coarse one, from its fifth iteration on and where it looks at the second
+  /// derivative: see \ref ARAPDeformation_CoarseMetric. It then needs from two thirds to a fifth of
+  /// the iterations, and about 200 bytes more for each vertex of the region. It is made when it is
+  /// first needed, which takes as long as some ten iterations, and kept until the weights change.
+  /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are
+  /// not soft, and weights for which the energy may be negative, do without.
+  bool coarse_metric = true;
+
   /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro
   /// `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is only one.
   /// Results are the same to the last bit for any number.

@@ -32,7 +32,7 @@ struct Phase_seconds
   double transfer = 0;      ///< targets and points read, and points written
   double initial_guess = 0; ///< the initial guess
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
-  double global_steps = 0;  ///< solves with the factor, over all iterations
+  double global_steps = 0;  ///< solves with the factor, over all iterations, and coarse metrics
   double visitor = 0;       ///< in the visitor
   double total = 0;         ///< the whole call: the sum, up to a few microseconds
 };

@@ -60,14 +60,16 @@ Outcome with_option(Options_& options, const std::string& name, const Function& 
     return f(options.tolerance);
   if(name == "verify_minimum")
     return f(options.verify_minimum, Choices<bool>{{"true", true}, {"false", false}});
+  if(name == "coarse_metric")
+    return f(options.coarse_metric, Choices<bool>{{"true", true}, {"false", false}});
   if(name == "bending_length")
     return f(options.bending_length);
   if(name == "smoothing_length")
     return f(options.smoothing_length);
   return Outcome(Status::invalid_option,
                  "the option '" + name + "' is not known; use one of cells, minimizer, "
-                 "initial_guess, iterations, threads, tolerance, verify_minimum, bending_length, "
-                 "smoothing_length");
+                 "initial_guess, iterations, threads, tolerance, verify_minimum, coarse_metric, "
+                 "bending_length, smoothing_length");
 }
 
 // Reads a value, or tells which there are; Options::check() sees whether it is in its range.

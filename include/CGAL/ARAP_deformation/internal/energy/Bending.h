@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -212,6 +213,16 @@ public:
             covariances[i - begin][static_cast<std::size_t>(3 * r + c)] +=
               factor * m_values[i][r] * m_rest_values[i][c];
       }
+  }
+
+  // adds what the form of cell c makes of its covariance
+  void add_coefficients(int c, Covariance_coefficients& sum) const
+  {
+    if(is_none() || !(m_chosen_factors[c] > 0))
+      return;
+    for(int e = m_stars.neighbours.begin[c]; e < m_stars.neighbours.begin[c + 1]; ++e)
+      sum.add_edge(c, m_stars.neighbours.items[e],
+                   Double4::all(m_chosen_factors[c] * m_stars.weights[e]) * m_rest_values[c]);
   }
 
   // Returns the energy of the forms in chosen cells, and adds their forces on movable vertices.

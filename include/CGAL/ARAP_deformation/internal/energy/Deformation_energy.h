@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
+#include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Rotation_derivative.h>
 #include <CGAL/ARAP_deformation/internal/energy/Rotation_steps.h>
@@ -33,6 +34,7 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 
 #include <algorithm>
 #include <array>
@@ -351,6 +353,53 @@ public:
     m_changes = std::vector<Matrix_3x3>();
   }
 
+  // For each cell whether its rotation is fitted, to its own covariance or, for the first cell of a
+  // group, to that of the group.
+  Array<char> fitted_cells() const
+  {
+    Array<char> is_fitted = m_is_chosen;
+    for_each_group([&](const int* begin, const int* end) {
+      std::for_each(begin + 1, end, [&](int c) { is_fitted[c] = false; });
+    });
+    for(const auto& cell : m_given)
+    {
+      const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
+      is_fitted[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = false;
+    }
+    return is_fitted;
+  }
+
+  // The covariance that the rotation of a cell is fitted to, as a function of the positions; for
+  // the first cell of a group that of the group, for the others nothing.
+  void coefficients(int c, Covariance_coefficients& result) const
+  {
+    result.clear();
+    std::visit([&](const auto& cells) {
+      const auto add = [&](int cell) {
+        cells.add_coefficients(cell, m_rest.data(), result);
+        m_bending.add_coefficients(cell, result);
+      };
+      const int g = m_group_of.empty() ? -1 : m_group_of[c];
+      if(g < 0)
+        return add(c);
+      if(c == m_groups.items[m_groups.begin[g]])
+        for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
+          add(m_groups.items[k]);
+    }, m_cells);
+  }
+
+  // its value in the rest shape
+  Matrix_3x3 rest_covariance(const Covariance_coefficients& coefficients) const
+  {
+    Matrix_rows sum = Matrix_rows::zero();
+    for(std::size_t k = 0; k < coefficients.size(); ++k)
+      sum.add_outer_product(m_rest[static_cast<std::size_t>(coefficients.vertices[k])],
+                            coefficients.vectors[k]);
+    Matrix_3x3 result;
+    sum.store(result);
+    return result;
+  }
+
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
@@ -390,22 +439,17 @@ private:
   // It is no template: for each f there would be another copy of its loops.
   void for_each_fitted_cell(const std::function<void(int, const Matrix_3x3&)>& f)
   {
-    Array<char> is_given(m_given.empty() ? 0 : number_of_cells(), false);
-    for(const auto& cell : m_given)
-    {
-      const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
-      is_given[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = true;
-    }
+    const Array<char> is_fitted = fitted_cells();
     prepare_covariances(m_x);
     m_batches.for_each([&](int begin, int end) {
       std::array<Matrix_3x3, batch_size> covariances;
       covariances_of_cells(m_x, begin, end, covariances.data());
       for(int c = begin; c < end; ++c)
-        if((m_group_of.empty() || m_group_of[c] < 0) && (is_given.empty() || !is_given[c]))
+        if(is_fitted[c] && (m_group_of.empty() || m_group_of[c] < 0))
           f(c, covariances[static_cast<std::size_t>(c - begin)]);
     });
     for_each_group([&](const int* begin, const int* end) {
-      if(!m_is_chosen[*begin] || (!is_given.empty() && is_given[*begin]))
+      if(!is_fitted[*begin])
         return;
       Matrix_3x3 sum{}, covariance;
       for(const int* c = begin; c != end; ++c)

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Block_forces.h>
+#include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -109,14 +110,15 @@ struct Simplex_residuals_kernel
       }
       else
       {
-        Double4 few_forces[N]; // in registers
+        Double4 few_forces[std::size_t(N)]; // in registers
         for(int a = 0; a < N; ++a)
           few_forces[a] = Double4::zero();
         for(int k = cells.begin[s]; k < cells.begin[s + 1]; ++k)
         {
           const Matrix_columns rotation = Matrix_columns::of(rotations[cells.items[k]]);
           const Double4 factor = Double4::all(stiffness[cells.items[k]]);
-          Double4 residuals[N]; // of the edges from the first corner: others are their differences
+          // of the edges from the first corner: others are their differences
+          Double4 residuals[std::size_t(N)];
           const int o = corners[0];
           residuals[0] = Double4::zero();
           for(int a = 1; a < N; ++a)
@@ -276,6 +278,23 @@ public:
       if(m_cells.stiffness[c] != 1)
         for(double& entry : covariances[c - begin])
           entry *= m_cells.stiffness[c];
+  }
+
+  // adds what the covariance of cell c consists of
+  void add_coefficients(int c, const Double4* rest, Covariance_coefficients& sum) const
+  {
+    const auto& corners = m_simplices.corners;
+    for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
+    {
+      const int s = m_cells.sets.items[k];
+      const double* w = m_simplices.weights.data() + m_simplices.first_weight[s];
+      for(int a = corners.begin[s]; a < corners.begin[s + 1]; ++a)
+        for(int b = a + 1; b < corners.begin[s + 1]; ++b, ++w)
+        {
+          const int i = corners.items[a], j = corners.items[b];
+          sum.add_edge(i, j, Double4::all(m_cells.stiffness[c] * *w) * (rest[i] - rest[j]));
+        }
+    }
   }
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
 #include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
@@ -229,6 +230,15 @@ public:
     add_up_covariances(m_cells, m_covariances, begin, end, covariances);
   }
 
+  // adds what the covariance of cell c consists of
+  void add_coefficients(int c, const Double4* rest, Covariance_coefficients& sum) const
+  {
+    if(has_stars_as_cells())
+      return add_star(c, 1, rest, sum);
+    for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
+      add_star(m_cells.sets.items[k], m_cells.stiffness[c], rest, sum);
+  }
+
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
   // movable vertex that has neighbours in chosen cells only.
   double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
@@ -267,6 +277,15 @@ public:
 
 private:
   bool has_stars_as_cells() const { return m_cells.sets.items.empty(); }
+
+  void add_star(int i, double stiffness, const Double4* rest, Covariance_coefficients& sum) const
+  {
+    for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+    {
+      const int j = m_stars.neighbours.items[e];
+      sum.add_edge(i, j, Double4::all(stiffness * m_stars.weights[e]) * (rest[i] - rest[j]));
+    }
+  }
 
   // with the stiffness of the cells that count
   const Array<double>& weights_of_cells() const

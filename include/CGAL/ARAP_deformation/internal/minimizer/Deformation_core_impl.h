@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>
@@ -39,6 +40,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -58,6 +60,7 @@ struct Deformation_core::State
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
   Array<int> parts; // for each movable vertex: see Rigid_start
   std::optional<Rigid_start> rigid_start;
+  std::unique_ptr<Coarse_metric> coarse_metric; // once a run has made it
 };
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -101,10 +104,11 @@ Diagnosis Deformation_core::prepare()
   {
     m_state->energy = std::move(energy);
     m_state->stars.reset();
+    m_state->coarse_metric.reset();
   }
   else
     m_state.reset(new State{std::move(energy), Constrained_system(m_models.solver->copy()), {}, {},
-                            {}, {}});
+                            {}, {}, {}});
   m_state->system.set_laplacian(std::move(laplacian));
   m_weights_version = version;
   return {};
@@ -126,6 +130,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::release_factor()
 {
   m_state->system.release_factor();
+  m_state->coarse_metric.reset();
   m_state->energy.clear_rotation_steps();
 }
 
@@ -351,7 +356,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return {Status::solver_failed};
   }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
-                            m_constraints, options, observe, targets, x, rotations, report);
+                            m_constraints, options, observe, targets, x, rotations,
+                            m_state->coarse_metric, report);
   if(!is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end())
   {
     x.swap(unplaced);

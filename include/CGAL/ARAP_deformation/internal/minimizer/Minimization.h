@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
@@ -31,23 +32,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// of as many points as the shorter one has
-inline double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
-{
-  return sum_over_blocks((std::min)(a.size(), b.size()), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for(std::size_t v = begin; v < end; ++v)
-      sum += dot(a[v], b[v]);
-    return sum;
-  });
-}
 
 // What all minimizers have in common: the energy that is minimized, the rigidity and the pull of
 // the constraints; the local step, the solution for the global step, and what is observed, reported
@@ -66,11 +57,13 @@ public:
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
                const Observer& observe, Targets& targets, std::vector<Coordinates>& x_,
-               std::vector<Matrix_3x3>& rotations, Report& report_)
+               std::vector<Matrix_3x3>& rotations, std::unique_ptr<Coarse_metric>& coarse_metric,
+               Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
-      m_rows(constraints.rows), m_inertia(constraints.inertia), m_observe(observe),
-      m_targets(targets), m_rotations(rotations)
+      m_constraints(constraints), m_rows(constraints.rows), m_inertia(constraints.inertia),
+      m_observe(observe), m_targets(targets), m_rotations(rotations),
+      m_coarse_metric(coarse_metric)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
@@ -202,6 +195,25 @@ public:
     for(std::size_t v : m_fixed_vertices)
       force[v] = {0, 0, 0};
     m_system.hard_rows().leave_out_multipliers(force);
+  }
+
+  // Completes the metric of the Laplacian for the positions x, which were evaluated last. None for
+  // few vertices, for which it costs more than it saves, and where it would not be definite.
+  Coarse_metric* build_coarse_metric()
+  {
+    constexpr std::size_t least_vertices = 20000;
+    if(!options.coarse_metric ||
+       number_of_vertices - m_fixed_vertices.size() < least_vertices ||
+       !has_second_derivative() || !m_system.laplacian().is_sum_of_squares ||
+       !m_system.hard_rows().is_empty())
+      return nullptr;
+    const Sparse_matrix& laplacian = m_system.laplacian().matrix;
+    if(!m_coarse_metric)
+      m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian);
+    const bool has_rows = m_rows.size() > 0;
+    const Sparse_matrix own = has_rows ? m_system.with_rows(m_rows) : Sparse_matrix();
+    return m_coarse_metric->build(m_energy, has_rows ? own : laplacian, m_constraints.is_fixed, x,
+                                  m_rotations) ? m_coarse_metric.get() : nullptr;
   }
 
   double value() const { return m_value; } // that was evaluated last
@@ -369,12 +381,14 @@ private:
   Deformation_energy& m_energy;
   const Closest_rotations& m_closest_rotations;
   Constrained_system& m_system;
+  const Constraints& m_constraints;
   const Weighted_rows& m_rows;
   const double m_inertia;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
   Targets& m_targets;
   std::vector<Matrix_3x3>& m_rotations;
+  std::unique_ptr<Coarse_metric>& m_coarse_metric;
   std::vector<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
   std::vector<Coordinates> m_force;
   double m_value = 0;

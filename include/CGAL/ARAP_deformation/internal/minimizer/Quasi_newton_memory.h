@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pairs.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/simd/vector_kernels.h>
@@ -33,7 +34,8 @@ namespace internal {
 // f minus half the gradient, L the Laplacian and d = L^-1 f the step of local/global, a step s
 // changes f by some -y and d by some -z, and z = L^-1 y: L-BFGS with a multiple of L^-1 for its
 // initial inverse Hessian needs no solution of a system but the d of each iterate. All dot products
-// are of an s or a z with an f; one with a y is the difference of two.
+// are of an s or a z with an f; one with a y is the difference of two. A coarse metric completes
+// L^-1, and d and z, by parts that are kept apart.
 //
 // The pairs (s, z) are kept in single precision, in a unit that no mesh can make too small or too
 // large for it. This disturbs the step a little, which need not be exact, and saves half the memory
@@ -44,9 +46,35 @@ public:
   // the number of pairs: more save few iterations, and cost time and memory
   static constexpr std::size_t capacity = 6;
 
-  explicit Quasi_newton_memory(std::size_t number_of_vertices) : m_length(3 * number_of_vertices) {}
+  explicit Quasi_newton_memory(std::size_t number_of_vertices)
+    : m_length(3 * number_of_vertices), m_coarse(capacity)
+  {}
 
   bool is_empty() const { return m_number_of_pairs == 0; }
+  bool has_coarse_metric() const { return m_coarse.is_active(); }
+
+  // The next force, to be told before remember() and move(). False if the coarse metric fails.
+  bool set_next_force(const std::vector<Coordinates>& force)
+  {
+    return m_coarse.set_next_force(force);
+  }
+
+  // Takes another coarse metric, or none, for the next force. Forgets all pairs: their z are those
+  // of the metric before, and to keep them saves no iterations.
+  bool set_coarse_metric(Coarse_metric* metric, const std::vector<Coordinates>& force)
+  {
+    m_number_of_pairs = 0;
+    m_coarse.set_metric(metric);
+    return set_next_force(force);
+  }
+
+  // About what the metric takes the last step for, divided by what it was: well below 1 where the
+  // coarse metric was made at other rotations, and finds what was soft there still soft.
+  double trust() const
+  {
+    const std::size_t newest = m_number_of_pairs - 1;
+    return is_empty() ? 1 : m_slots[m_order[newest]].sy[m_order[newest]] / zy(newest, newest);
+  }
 
   // Adds to x the step p to the minimum of the model of the energy, after `before` has become a
   // copy of x; both as far as d reaches. Returns the dot product f p: the model decreases by that
@@ -56,7 +84,10 @@ public:
   {
     if(m_unit == 0)
       m_unit = unit(d);
+    m_coarse.take_next_force();
     const Coefficients c = coefficients();
+    const std::vector<Coordinates> coarse_step =
+      m_coarse.step(m_length / 3, c.of_d, slots_in_use(), c.of_z);
     m_next = m_number_of_pairs < capacity ? unused_slot() : m_order[0];
     std::vector<float>& s = m_slots[m_next].s;
     s.resize(m_length);
@@ -66,7 +97,7 @@ public:
       double *x_begin = entries(x) + begin, *before_begin = entries(before) + begin;
       std::array<double, block_size> p;
       for(std::size_t k = 0; k < n; ++k)
-        p[k] = c.of_d * d_begin[k];
+        p[k] = c.of_d * d_begin[k] + (coarse_step.empty() ? 0 : entries(coarse_step)[begin + k]);
       for(std::size_t i = 0; i < m_number_of_pairs; ++i)
       {
         const Slot& slot = m_slots[m_order[i]];
@@ -169,13 +200,16 @@ public:
       slot.fs = sums.fs[i];
       slot.fz = sums.fz[i];
     }
+    m_coarse.remember(m_next, m_unit);
+    const double own_zy = next.zy[m_next] + m_coarse.zy(m_next, m_next);
     // Where the energy is convex and its rotations are free, L bounds its curvature, and s y is at
-    // least z y. Much less than that is rounding, or not convex. A long step may change the force
+    // least z y, or not much less with a coarse metric. Far less than that is rounding, or not
+    // convex. A long step may change the force
     // by rounding errors only: a part that almost nothing ties would then move far away, to where
     // these errors happen to vanish.
     const double least = t * m_longest_shift > 1e-8 * diameter
                        ? force_error / m_unit * std::sqrt(sums.ss) : 0;
-    if(next.zy[m_next] > 0 && next.sy[m_next] > (std::max)(0.1 * next.zy[m_next], least))
+    if(own_zy > 0 && next.sy[m_next] > (std::max)(0.1 * own_zy, least))
       ++m_number_of_pairs;
   }
 
@@ -247,6 +281,19 @@ private:
     return largest > 0 && std::isfinite(largest) ? largest : 1;
   }
 
+  // from the oldest to the newest
+  std::vector<std::size_t> slots_in_use() const
+  {
+    return {m_order.begin(), m_order.begin() + static_cast<std::ptrdiff_t>(m_number_of_pairs)};
+  }
+
+  // of the i-th and the j-th pair, with their coarse parts
+  double fz(std::size_t i) const { return m_slots[m_order[i]].fz + m_coarse.fz(m_order[i]); }
+  double zy(std::size_t i, std::size_t j) const
+  {
+    return m_slots[m_order[i]].zy[m_order[j]] + m_coarse.zy(m_order[i], m_order[j]);
+  }
+
   std::size_t unused_slot() const
   {
     const auto end = m_order.data() + m_number_of_pairs;
@@ -267,9 +314,7 @@ private:
     // last are softer, and to go somewhat too far in the others costs less than to go not far
     // enough there: hence more than the ratio. After a run of local/global it is a hundred and
     // more, and would let the stiff modes explode: hence a bound.
-    const Slot& newest = m_slots[m_order[m - 1]];
-    const double ratio = newest.sy[m_order[m - 1]] / newest.zy[m_order[m - 1]];
-    c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * ratio));
+    c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * trust()));
 
     std::array<double, capacity> alpha;
     for(std::size_t i = m; i-- > 0;)
@@ -284,9 +329,9 @@ private:
     for(std::size_t i = 0; i < m; ++i)
     {
       const Slot& slot = m_slots[m_order[i]];
-      double yp = c.of_d * slot.fz;
+      double yp = c.of_d * fz(i);
       for(std::size_t j = 0; j < m; ++j)
-        yp += c.of_z[j] * slot.zy[m_order[j]];
+        yp += c.of_z[j] * zy(i, j);
       for(std::size_t j = 0; j < i; ++j)
         yp += c.of_s[j] * m_slots[m_order[j]].sy[m_order[i]];
       c.of_s[i] = alpha[i] - yp / slot.sy[m_order[i]];
@@ -295,6 +340,7 @@ private:
   }
 
   std::size_t m_length; // of the vectors
+  Coarse_pairs m_coarse;
   double m_unit = 0;    // 0: not yet known
   std::array<Slot, capacity> m_slots;
   std::array<std::size_t, capacity> m_order{}; // the slots of the pairs, the oldest one first

@@ -15,8 +15,10 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -34,8 +36,9 @@ namespace ARAP {
 namespace internal {
 
 // A look at the second derivative 2 A of the energy where a run would end, by conjugate gradients
-// for A s = f + e, with the Laplacian L for the preconditioner, f the force and e a small
-// pseudorandom one, without which what the symmetry of shape and targets hides would not be seen.
+// for A s = f + e, with the metric M of the minimizer for the preconditioner: the Laplacian L, on
+// large shapes completed by a coarse metric. f is the force and e a small pseudorandom one, without
+// which what the symmetry of shape and targets hides would not be seen.
 // As long as all directions have positive curvature, the model of the energy decreases, and what it
 // tends to is the gap that is left. A direction p with p A p < 0 is found if there is one in the
 // space that the steps span (Steihaug 1983); the residual cannot become small as long as it has a
@@ -45,7 +48,14 @@ class Second_look
 public:
   enum class Finding { nothing_yet, negative_curvature, positive_curvature, failure };
 
-  explicit Second_look(Minimization& run) : m_run(run) { m_run.prepare_second_derivative(); }
+  explicit Second_look(Minimization& run) : m_run(run)
+  {
+    {
+      Scoped_seconds global(m_run.report.seconds.global_steps);
+      m_coarse_metric = m_run.build_coarse_metric();
+    }
+    m_run.prepare_second_derivative();
+  }
   ~Second_look() { m_run.clear_second_derivative(); }
   Second_look(const Second_look&) = delete;
   Second_look& operator=(const Second_look&) = delete;
@@ -63,7 +73,7 @@ public:
         entry = state / 4294967296.0 - 0.5;
       }
     m_run.leave_free(m_r);
-    if(!solve())
+    if(!solve_laplacian())
       return Finding::failure;
     const double square = dot_product(m_r, m_z);
     const double factor = square > 0 ? std::sqrt(disturbance / square) : 0;
@@ -75,7 +85,7 @@ public:
       }
     });
     m_p.assign(m_run.x.size(), Coordinates{0, 0, 0});
-    m_lp.assign(n, Coordinates{0, 0, 0});
+    m_mp.assign(n, Coordinates{0, 0, 0});
     m_s.assign(n, Coordinates{0, 0, 0});
     return next_direction();
   }
@@ -101,7 +111,7 @@ public:
 
   // A direction of negative curvature is a mix of many. Turns it towards the most negative one, by
   // a step of the locally optimal preconditioned conjugate gradients of Knyazev (2001): to the best
-  // combination of the direction p, of w = L^-1 (A p - c L p) with its curvature c, and of the
+  // combination of the direction p, of w = M^-1 (A p - c M p) with its curvature c, and of the
   // change q in the last step. False if there is little left to turn, or if it fails.
   bool sharpen()
   {
@@ -111,14 +121,14 @@ public:
       m_ap.swap(m_z); // step() has left it there, with another sign
       combine(m_ap, -1, m_ap, 0, m_ap);
       m_w.assign(m_p.size(), Coordinates{0, 0, 0});
-      m_q = m_aq = m_lq = std::vector<Coordinates>(n, Coordinates{0, 0, 0});
+      m_q = m_aq = m_mq = std::vector<Coordinates>(n, Coordinates{0, 0, 0});
     }
-    const double c = dot_product(m_p, m_ap) / dot_product(m_p, m_lp);
-    combine(m_r, 1, m_ap, -c, m_lp);
+    const double c = dot_product(m_p, m_ap) / dot_product(m_p, m_mp);
+    combine(m_r, 1, m_ap, -c, m_mp);
     if(!solve())
       return false;
-    const double square = dot_product(m_r, m_z); // of w, in the metric of L
-    if(!(square > 0.01 * c * c * dot_product(m_p, m_lp)))
+    const double square = dot_product(m_r, m_z); // of w, in the metric
+    if(!(square > 0.01 * c * c * dot_product(m_p, m_mp)))
       return false;
     std::copy(m_z.begin(), m_z.end(), m_w.begin());
     m_run.change_of_force(m_w, m_z);
@@ -126,23 +136,23 @@ public:
 
     const std::vector<Coordinates>* const vectors[] = {&m_p, &m_w, &m_q};
     const std::vector<Coordinates>* const a_vectors[] = {&m_ap, &m_z, &m_aq};
-    const std::vector<Coordinates>* const l_vectors[] = {&m_lp, &m_r, &m_lq};
+    const std::vector<Coordinates>* const m_vectors[] = {&m_mp, &m_r, &m_mq};
     Eigen::Matrix3d a, l;
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j <= i; ++j)
       {
         a(i, j) = a(j, i) = dot_product(*vectors[i], *a_vectors[j]);
-        l(i, j) = l(j, i) = dot_product(*vectors[i], *l_vectors[j]);
+        l(i, j) = l(j, i) = dot_product(*vectors[i], *m_vectors[j]);
       }
     const Eigen::Vector3d best = lowest_combination(a, l);
     if(!best.allFinite() || best[0] == 0)
       return false;
     combine(m_q, best[1], m_w, best[2], m_q);
     combine(m_aq, best[1], m_z, best[2], m_aq);
-    combine(m_lq, best[1], m_r, best[2], m_lq);
+    combine(m_mq, best[1], m_r, best[2], m_mq);
     combine(m_p, best[0], m_p, 1, m_q);
     combine(m_ap, best[0], m_ap, 1, m_aq);
-    combine(m_lp, best[0], m_lp, 1, m_lq);
+    combine(m_mp, best[0], m_mp, 1, m_mq);
     return true;
   }
 
@@ -189,10 +199,18 @@ private:
     return basis * Eigen_solver(form).eigenvectors().col(0);
   }
 
-  bool solve()
+  bool solve_laplacian()
   {
     Scoped_seconds global(m_run.report.seconds.global_steps);
     return m_run.solve_for(m_r, m_z);
+  }
+
+  bool solve() // z := M^-1 r
+  {
+    if(!solve_laplacian())
+      return false;
+    Scoped_seconds global(m_run.report.seconds.global_steps);
+    return !m_coarse_metric || m_coarse_metric->add_solution(m_r, m_z);
   }
 
   Finding next_direction()
@@ -210,8 +228,8 @@ private:
       {
         m_p[v] = scaled(m_p[v], beta);
         add(m_p[v], 1, m_z[v]);
-        m_lp[v] = scaled(m_lp[v], beta);
-        add(m_lp[v], 1, m_r[v]);
+        m_mp[v] = scaled(m_mp[v], beta);
+        add(m_mp[v], 1, m_r[v]);
       }
     });
     if(!(square > 0))
@@ -224,10 +242,11 @@ private:
   }
 
   Minimization& m_run;
-  std::vector<Coordinates> m_r, m_z, m_s; // residual, what L makes of it, solution
-  std::vector<Coordinates> m_p, m_lp;     // direction and L p
-  std::vector<Coordinates> m_ap, m_w, m_q, m_aq, m_lq; // of sharpen(): A p and so on
-  double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric of L
+  Coarse_metric* m_coarse_metric = nullptr; // if there is one
+  std::vector<Coordinates> m_r, m_z, m_s; // residual, M^-1 times it, solution
+  std::vector<Coordinates> m_p, m_mp;     // direction and M p
+  std::vector<Coordinates> m_ap, m_w, m_q, m_aq, m_mq; // of sharpen(): A p and so on
+  double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric
   double m_curvature = 0;
 };
 

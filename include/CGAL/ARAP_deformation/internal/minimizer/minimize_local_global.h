@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 

@@ -92,6 +92,9 @@ public:
   // metric of the matrix.
   bool meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x);
 
+  // the Laplacian with such rows
+  Sparse_matrix with_rows(const Weighted_rows& rows) const;
+
   const Hard_rows& hard_rows() const { return m_hard_rows; }
 
 private:
@@ -101,7 +104,6 @@ private:
   bool eliminate_hard_rows();
   bool factorize(const Constraints& constraints, Work& work);
   bool solve_matrix(std::vector<Coordinates>& x, const std::vector<Coordinates>& values);
-  Sparse_matrix with_rows(const Weighted_rows& rows) const;
 
   Laplacian m_laplacian;
   std::unique_ptr<Linear_solver> m_prototype; // nothing is analyzed

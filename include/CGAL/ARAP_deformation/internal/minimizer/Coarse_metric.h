@@ -1,0 +1,87 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_METRIC_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_METRIC_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_matrix.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// What makes a better metric of the Laplacian L. L^-1 knows nothing of the rotations that follow a
+// step: long bends, which cost next to nothing, are as stiff for it as stretching, and a run needs
+// hundreds of iterations for them. L^-1 + P C^-1 P^T has their true stiffness C on a coarse space
+// of deformations P, where each node moves rigidly, and vertices as the weighted mean of what their
+// nodes would do with them. C follows the shape: it is built anew as the run goes.
+class Coarse_metric
+{
+public:
+  // what depends on neither positions nor constraints
+  Coarse_metric(const Deformation_energy& energy, const Sparse_matrix& laplacian)
+    : m_transfer(Coarse_space(laplacian)), m_matrix(m_transfer, energy, laplacian)
+  {}
+
+  // Computes P and the factor of C at the positions x; false if there is none. `matrix` is L with
+  // the rows of the constraints.
+  bool build(const Deformation_energy& energy, const Sparse_matrix& matrix,
+             const Array<char>& is_fixed, const std::vector<Coordinates>& x,
+             const std::vector<Matrix_3x3>& rotations)
+  {
+    m_transfer.place(is_fixed, x);
+    return m_matrix.build(m_transfer, energy, matrix, rotations);
+  }
+
+  // step += P C^-1 P^T f
+  bool add_solution(const std::vector<Coordinates>& force, std::vector<Coordinates>& step)
+  {
+    std::vector<Coordinates> u = restricted(force);
+    if(!solve(u))
+      return false;
+    add_prolonged(u, step);
+    return true;
+  }
+
+  // P^T f: two vectors for each node
+  std::vector<Coordinates> restricted(const std::vector<Coordinates>& force) const
+  {
+    return m_transfer.restricted(force);
+  }
+
+  // u := C^-1 u
+  bool solve(std::vector<Coordinates>& u) { return m_matrix.solve(u); }
+
+  // step += P u
+  void add_prolonged(const std::vector<Coordinates>& u, std::vector<Coordinates>& step) const
+  {
+    m_transfer.add_prolonged(u, step);
+  }
+
+private:
+  Coarse_transfer m_transfer;
+  Coarse_matrix m_matrix;
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_METRIC_H
