@@ -268,7 +268,7 @@ void plot_energy(std::ostream& out, const Json& results, const std::string& fold
   plot.print(out);
 }
 
-// of the armadillo, for each size that runs from both starts were made with
+// of the armadillo, for each size
 void plot_starts(std::ostream& out, const Json& results, const std::string& folder)
 {
   if(!results.contains("starts"))
@@ -284,8 +284,11 @@ void plot_starts(std::ostream& out, const Json& results, const std::string& fold
     {
       const std::string size = format_number(std::stod(name.substr(shape.size())));
       const std::string& colour = colours[number_of_sizes++ % std::size(colours)];
-      plot.add(size + ", guess", "lines " + colour, curves["default"]);
-      plot.add(size + ", rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+      plot.add(size + ", defaults", "lines " + colour, curves["default"]);
+      plot.add(size + ", from the rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+      if(curves.contains("default, no coarse metric"))
+        plot.add(size + ", no coarse metric", "lines dashtype 3 " + colour,
+                 curves["default, no coarse metric"]);
     }
   plot.print(out);
 }

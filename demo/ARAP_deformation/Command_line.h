@@ -176,7 +176,8 @@ inline boost::program_options::options_description described_options()
     ("verify_minimum", value<std::string>()->default_value("true")->value_name("true|false"),
      "look at the second derivative before the end, and go on if that is not at a minimum")
     ("coarse_metric", value<std::string>()->default_value("true")->value_name("true|false"),
-     "let quasi-Newton runs on 20,000 free vertices or more find long bends sooner, for memory")
+     "complete the metric of quasi-Newton runs where 30,000 vertices or more are free: fewer "
+     "iterations, more memory")
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
      "use at most N threads; 0: one per processor");

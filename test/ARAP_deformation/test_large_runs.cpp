@@ -66,7 +66,7 @@ Scenario twist(const Shape& shape, double angle)
 // the number of threads, nor on what the session has done before.
 void test_runs()
 {
-  const Shape shape = grid("sheet", 220, 100, [](double u, double v) {
+  const Shape shape = grid("sheet", 260, 120, [](double u, double v) {
     return Eigen::Vector3d(4 * u, 1.5 * v, 0.2 * std::sin(3 * v) + 0.1 * std::cos(9 * u));
   });
   for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})

@@ -101,7 +101,7 @@ struct Options
   /// time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
-  /// whether a quasi-Newton run with 20,000 free vertices or more completes the metric of the
+  /// whether a quasi-Newton run with 30,000 free vertices or more completes the metric of the
   /// Laplacian by a coarse one, from its fifth iteration on and where it looks at the second
   /// derivative: see \ref ARAPDeformation_CoarseMetric. It then needs from two thirds to a fifth of
   /// the iterations, and about 200 bytes more for each vertex of the region. It is made when it is

@@ -170,7 +170,7 @@ class Deformation:
     iterations = _option("iterations", int, "the maximum number of iterations of a run")
     tolerance = _option("tolerance", float, "the estimated relative gap that ends a run")
     verify_minimum = _option("verify_minimum", "true".__eq__, "whether saddle points are left")
-    coarse_metric = _option("coarse_metric", "true".__eq__, "of runs on large shapes: faster ends")
+    coarse_metric = _option("coarse_metric", "true".__eq__, "whether large shapes have one")
     threads = _option("threads", int, "the maximum number of threads; 0 for all")
     bending_length = _option("bending_length", float, "over which a bend is spread; 0 for none")
     smoothing_length = _option("smoothing_length", float, "of smooth rotations; 0 for none")

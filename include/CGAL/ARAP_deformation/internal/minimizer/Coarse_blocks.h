@@ -161,15 +161,26 @@ class Coarse_blocks
 public:
   using Block = std::array<double, 36>; // row by row
 
-  void begin(std::vector<Double4> origins)
+  // Forgets all blocks, and gives these nodes slots, of so many; `origins` are their positions.
+  void begin(int number_of_nodes, Array<int> nodes, std::vector<Double4> origins)
   {
+    m_slot_of.resize(static_cast<std::size_t>(number_of_nodes), -1);
+    for(int node : m_nodes)
+      m_slot_of[node] = -1;
+    m_nodes = std::move(nodes);
     m_origins = std::move(origins);
-    const std::size_t n = m_origins.size(), pairs = n * (n + 1) / 2;
+    const std::size_t n = m_nodes.size(), pairs = n * (n + 1) / 2;
+    for(std::size_t slot = 0; slot < n; ++slot)
+      m_slot_of[m_nodes[slot]] = static_cast<int>(slot);
     m_is_found.assign(n, false);
     m_sums.assign(3 * n, Double4::zero());
     m_blocks.assign(48 * pairs, 0);
     m_moments.assign(16 * pairs, 0);
   }
+
+  int size() const { return static_cast<int>(m_nodes.size()); }
+  int node(int slot) const { return m_nodes[slot]; }
+  const Array<int>& slot_of() const { return m_slot_of; } // each node, -1 for none
 
   // A cell that has more nodes is left out, which only makes the matrix stiffer: where many cells
   // are one rigid part, it would become dense. Nodes that are not coupled have the slot -1.
@@ -239,6 +250,7 @@ private:
     return are_all_known;
   }
 
+  Array<int> m_slot_of, m_nodes;
   std::vector<Double4> m_origins;          // of the nodes; the fourth lane is 0
   std::vector<double> m_blocks, m_moments; // of each pair: what cells subtract, what columns add
   std::vector<Double4> m_sums;             // scratch, three for each slot

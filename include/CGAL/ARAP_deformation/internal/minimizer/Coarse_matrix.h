@@ -25,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 
 #include <Eigen/SparseCore>
 
@@ -51,7 +52,7 @@ public:
                 const Sparse_matrix& laplacian)
   {
     find_cells(transfer.space(), energy);
-    find_pattern(transfer, energy, laplacian);
+    set_pattern(transfer.space().number_of_nodes(), find_coupled(transfer, energy, laplacian));
   }
 
   // Computes C at the positions of `transfer` and factorizes it. `matrix` is L with the rows of the
@@ -68,25 +69,24 @@ public:
       const int count = (std::min)(batch_size, m_cells.size() - first);
       for_each_task(static_cast<std::size_t>(count), [&](std::size_t k) {
         const int group = first + static_cast<int>(k);
-        const int* const nodes = m_nodes_of.items.data() + m_nodes_of.begin[group];
-        Array<int> slot_of(m_cells.size(), -1);
+        Array<int> nodes(m_nodes_of.items.begin() + m_nodes_of.begin[group],
+                         m_nodes_of.items.begin() + m_nodes_of.begin[group + 1]);
         std::vector<Double4> origins;
-        for(int slot = 0; slot < number_of_slots(group); ++slot)
-        {
-          slot_of[nodes[slot]] = slot;
-          origins.push_back(transfer.origin(nodes[slot]));
-        }
-        batch[k].begin(std::move(origins));
-        subtract_cells(group, energy, is_fitted, rotations, transfer, slot_of, batch[k]);
-        add_columns(group, matrix, transfer, slot_of, batch[k]);
+        for(int node : nodes)
+          origins.push_back(transfer.origin(node));
+        batch[k].begin(m_cells.size(), std::move(nodes), std::move(origins));
+        subtract_cells(group, energy, is_fitted, rotations, transfer, batch[k]);
+        add_columns(group, matrix, transfer, batch[k]);
       });
       for(int k = 0; k < count; ++k)
-        add_blocks(first + k, transfer, batch[static_cast<std::size_t>(k)]);
+        add_blocks(transfer, batch[static_cast<std::size_t>(k)]);
     }
     // where the vertices of a node are few, or in a row, some of its motions are the same
     for(int c = 0; c < m_matrix.cols(); ++c)
     {
-      double& diagonal = m_matrix.valuePtr()[m_matrix.outerIndexPtr()[c]];
+      double& diagonal = diagonal_entry(m_matrix, c);
+      if(!is_finite(diagonal)) // as where positions are too large for single precision
+        return false;
       diagonal = diagonal > 0 ? diagonal * (1 + 1e-6) : 1;
     }
     m_is_analyzed = m_is_analyzed || m_solver.analyze(m_matrix);
@@ -111,11 +111,6 @@ public:
   }
 
 private:
-  int number_of_slots(int group) const
-  {
-    return m_nodes_of.begin[group + 1] - m_nodes_of.begin[group];
-  }
-
   // each cell belongs to the node next to one of its vertices
   void find_cells(const Coarse_space& space, const Deformation_energy& energy)
   {
@@ -135,13 +130,15 @@ private:
     m_cells = lists_with(node_of, space.number_of_nodes());
   }
 
-  // Nodes are coupled that move vertices of one cell or column.
-  void find_pattern(const Coarse_transfer& transfer, const Deformation_energy& energy,
-                    const Sparse_matrix& laplacian)
+  // Nodes are coupled that move vertices of one cell or column: pairs of these, in order, the
+  // smaller one first.
+  Array<std::pair<int, int>> find_coupled(const Coarse_transfer& transfer,
+                                          const Deformation_energy& energy,
+                                          const Sparse_matrix& laplacian)
   {
     const Coarse_space& space = transfer.space();
     const int m = space.number_of_nodes();
-    Array<std::pair<int, int>> pairs; // columns and rows
+    Array<std::pair<int, int>> pairs;
     Array<int> slot_of(m), last_group(m, -1), near;
     Array<char> is_coupled; // for each pair of slots
     const auto add_nodes = [&](int v) {
@@ -189,7 +186,7 @@ private:
       }
       const int* const nodes = m_nodes_of.items.data() + m_nodes_of.begin[group];
       m_nodes_of.begin.push_back(static_cast<int>(m_nodes_of.items.size()));
-      for(int a = 0; a < number_of_slots(group); ++a)
+      for(int a = 0; a < m_nodes_of.begin[group + 1] - m_nodes_of.begin[group]; ++a)
         for(int b = 0; b <= a; ++b)
           if(is_coupled[place_of_pair(a, b)])
             pairs.push_back(std::minmax({nodes[a], nodes[b]}));
@@ -197,7 +194,11 @@ private:
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
 
+  void set_pattern(int m, const Array<std::pair<int, int>>& pairs)
+  {
     m_rows.begin = Array<int>(m + 1, 0);
     for(const auto& [column, row] : pairs)
     {
@@ -219,7 +220,7 @@ private:
 
   void subtract_cells(int group, const Deformation_energy& energy, const Array<char>& is_fitted,
                       const std::vector<Matrix_3x3>& rotations, const Coarse_transfer& transfer,
-                      const Array<int>& slot_of, Coarse_blocks& blocks) const
+                      Coarse_blocks& blocks) const
   {
     Covariance_coefficients coefficients;
     std::vector<Coarse_vertex> vertices;
@@ -237,7 +238,7 @@ private:
         if(const int v = coefficients.vertices[i]; v < transfer.space().number_of_vertices())
         {
           const Double4& s = coefficients.vectors[i];
-          vertices.push_back(transfer.vertex(v, slot_of));
+          vertices.push_back(transfer.vertex(v, blocks.slot_of()));
           turned.push_back(product(rotation, Coordinates{s[0], s[1], s[2]}));
         }
       const Matrix_3x3 inverse = inverse_stiffness(energy.rest_covariance(coefficients), rotation);
@@ -267,7 +268,7 @@ private:
   }
 
   static void add_columns(int group, const Sparse_matrix& matrix, const Coarse_transfer& transfer,
-                          const Array<int>& slot_of, Coarse_blocks& blocks)
+                          Coarse_blocks& blocks)
   {
     std::vector<Coarse_vertex> vertices;
     Array<double> entries;
@@ -276,29 +277,28 @@ private:
       entries.clear();
       for(Sparse_matrix::InnerIterator entry(matrix, v); entry; ++entry)
       {
-        vertices.push_back(transfer.vertex(static_cast<int>(entry.row()), slot_of));
+        vertices.push_back(transfer.vertex(static_cast<int>(entry.row()), blocks.slot_of()));
         entries.push_back(entry.row() == v ? 0.5 * entry.value() : entry.value());
       }
       blocks.add_column(vertices, entries);
     });
   }
 
-  void add_blocks(int group, const Coarse_transfer& transfer, const Coarse_blocks& blocks)
+  void add_blocks(const Coarse_transfer& transfer, const Coarse_blocks& blocks)
   {
-    const int* const nodes = m_nodes_of.items.data() + m_nodes_of.begin[group];
-    for(int a = 0; a < number_of_slots(group); ++a)
+    for(int a = 0; a < blocks.size(); ++a)
       for(int b = 0; b <= a; ++b)
       {
-        if(transfer.is_fixed(nodes[a]) || transfer.is_fixed(nodes[b]))
+        if(transfer.is_fixed(blocks.node(a)) || transfer.is_fixed(blocks.node(b)))
           continue;
-        const auto [column, row] = std::minmax({nodes[a], nodes[b]});
+        const auto [column, row] = std::minmax({blocks.node(a), blocks.node(b)});
         const int* const begin = m_rows.items.data() + m_rows.begin[column];
         const int* const end = m_rows.items.data() + m_rows.begin[column + 1];
         const int* const found = std::lower_bound(begin, end, row);
         if(found == end || *found != row)
           continue;
         const Coarse_blocks::Block block = blocks.block(a, b);
-        const bool is_transposed = nodes[a] != row;
+        const bool is_transposed = blocks.node(a) != row;
         for(int c = 0; c < 6; ++c)
         {
           double* const value = m_matrix.valuePtr() + m_matrix.outerIndexPtr()[6 * column + c] +

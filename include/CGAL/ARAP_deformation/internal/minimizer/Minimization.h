@@ -201,7 +201,7 @@ public:
   // few vertices, for which it costs more than it saves, and where it would not be definite.
   Coarse_metric* build_coarse_metric()
   {
-    constexpr std::size_t least_vertices = 20000;
+    constexpr std::size_t least_vertices = 30000;
     if(!options.coarse_metric ||
        number_of_vertices - m_fixed_vertices.size() < least_vertices ||
        !has_second_derivative() || !m_system.laplacian().is_sum_of_squares ||

@@ -68,8 +68,8 @@ public:
     return set_next_force(force);
   }
 
-  // About what the metric takes the last step for, divided by what it was: well below 1 where the
-  // coarse metric was made at other rotations, and finds what was soft there still soft.
+  // s y / y M^-1 y of the last pair, with the metric M: far below 1 where the coarse metric was
+  // made at other rotations, and takes for soft what was soft there. 1 if there is no pair.
   double trust() const
   {
     const std::size_t newest = m_number_of_pairs - 1;
