@@ -66,7 +66,7 @@ Scenario twist(const Shape& shape, double angle)
 // the number of threads, nor on what the session has done before.
 void test_runs()
 {
-  const Shape shape = grid("sheet", 260, 120, [](double u, double v) {
+  const Shape shape = grid("sheet", 270, 124, [](double u, double v) {
     return Eigen::Vector3d(4 * u, 1.5 * v, 0.2 * std::sin(3 * v) + 0.1 * std::cos(9 * u));
   });
   for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
@@ -74,13 +74,13 @@ void test_runs()
     test_case() = "runs";
     const Scenario s = twist(shape, 1.5);
     Options options = options_for(cells);
-    options.tolerance = 1e-3;
+    options.tolerance = 1e-2;
     options.coarse_metric = false;
     const Run without(shape, s, options);
     options.coarse_metric = true;
     options.threads = 1;
     const Run with(shape, s, options);
-    CHECK_AT_MOST(with.report.final_energy(), 1.001 * without.report.final_energy());
+    CHECK_AT_MOST(with.report.final_energy(), 1.01 * without.report.final_energy());
     CHECK_AT_MOST(with.report.iterations, 0.8 * without.report.iterations);
     if(cells == Cell_scheme::spokes())
       continue;

@@ -104,7 +104,7 @@ struct Options
   /// whether a quasi-Newton run with 30,000 free vertices or more completes the metric of the
   /// Laplacian by a coarse one, from its fifth iteration on and where it looks at the second
   /// derivative: see \ref ARAPDeformation_CoarseMetric. It then needs from two thirds to a fifth of
-  /// the iterations, and about 200 bytes more for each vertex of the region. It is made when it is
+  /// the iterations, and about 160 bytes more for each vertex of the region. It is made when it is
   /// first needed, which takes as long as some ten iterations, and kept until the weights change.
   /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are
   /// not soft, and weights for which the energy may be negative, do without.
