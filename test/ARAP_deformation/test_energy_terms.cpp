@@ -1354,9 +1354,7 @@ void test_all()
         const Report with = run(shape, s, Initial_guess::automatic, cells, 300, points);
         const Report without = run(shape, s, Initial_guess::previous, cells, 300, points);
         CHECK(with && without);
-        // a membrane, which elements are, folds in many ways: to the tolerance of the runs
-        CHECK_AT_MOST(with.final_energy() / without.final_energy(),
-                      1 + (cells == Cell_scheme::elements() ? 1e-3 : 1e-4));
+        CHECK_AT_MOST(with.final_energy() / without.final_energy(), 1 + 1e-4);
       }
     }
   }

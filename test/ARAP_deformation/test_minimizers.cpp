@@ -104,6 +104,8 @@ void test_step()
       const std::vector<Coordinates> new_d = points(f.cwiseQuotient(metric));
       if(iteration > 0)
         memory.remember(iteration == 3 ? 0.5 : 1, points(f), d, new_d, 1, 0); // exact forces
+      if(iteration == 2) // no coarse metric, neither before nor after: nothing is forgotten
+        CHECK(memory.set_coarse_metric(nullptr, points(f)) && !memory.is_empty());
       d = new_d;
 
       // the inverse Hessian times f, by the two loops over vectors; the last pairs only

@@ -261,9 +261,9 @@ void test_minima()
       options.minimizer = Minimizer::quasi_newton;
       const Run all = run<Single_precision_solver>(shape, options, 2000, 1e-10);
       const Run all_expected = run<Multifrontal_cholesky_solver>(shape, options, 2000, 1e-10);
+      CHECK(all.report.status == all_expected.report.status);
       if(cells == Cell_scheme::elements())
         continue; // a surface that may be folded in many ways, with energies close to each other
-      CHECK(all.report.status == all_expected.report.status);
       ++number_of_minima;
       CHECK_AT_MOST(std::abs(all.report.energy.back() - all_expected.report.energy.back()),
                     1e-9 * all_expected.report.energy.back() + 1e-15 * all.report.energy_scale);

@@ -101,13 +101,13 @@ struct Options
   /// time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
-  /// whether a quasi-Newton run with 30,000 free vertices or more completes the metric of the
-  /// Laplacian by a coarse one, from its fifth iteration on and where it looks at the second
-  /// derivative: see \ref ARAPDeformation_CoarseMetric. It then needs from two thirds to a fifth of
-  /// the iterations, and about 160 bytes more for each vertex of the region. It is made when it is
-  /// first needed, which takes as long as some ten iterations, and kept until the weights change.
-  /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are
-  /// not soft, and weights for which the energy may be negative, do without.
+  /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of
+  /// the Laplacian, after its first five iterations and where it looks at the second derivative:
+  /// see \ref ARAPDeformation_CoarseMetric. It then takes between two thirds and a sixth of the
+  /// iterations, and about 160 bytes more for each vertex of the region. To prepare it takes as
+  /// long as some ten iterations; this is done when it is first needed, and kept until the weights
+  /// change. Local/global runs, time steps, runs with `smoothing_length` or with control points
+  /// that are not soft, and weights for which the energy may be negative, do without.
   bool coarse_metric = true;
 
   /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro

@@ -182,16 +182,11 @@ public:
   int node(int slot) const { return m_nodes[slot]; }
   const Array<int>& slot_of() const { return m_slot_of; } // each node, -1 for none
 
-  // A cell that has more nodes is left out, which only makes the matrix stiffer: where many cells
-  // are one rigid part, it would become dense. Nodes that are not coupled have the slot -1.
-  static constexpr std::size_t most_nodes_of_cell = 24;
-
   // of a cell with these vectors R s of its vertices, and the inverse of its K
   void subtract_cell(const std::vector<Coarse_vertex>& vertices,
                      const std::vector<Coordinates>& turned, const Matrix_3x3& inverse)
   {
-    if(!find_slots(vertices) || m_slots.size() > most_nodes_of_cell)
-      return;
+    find_slots(vertices);
     m_derivatives.resize(m_slots.size());
     run_kernel<Cell_blocks_kernel>(vertices, turned.data()->data(), inverse.data(), m_slots,
                                    m_origins.data(), m_sums.data(), m_derivatives.data(),
@@ -201,9 +196,9 @@ public:
   // The first vertex is that of the diagonal, half of whose entry is given.
   void add_column(const std::vector<Coarse_vertex>& vertices, const Array<double>& entries)
   {
-    if(find_slots(vertices))
-      run_kernel<Column_moments_kernel>(vertices, entries.data(), m_slots, m_sums.data(),
-                                        m_moments.data());
+    find_slots(vertices);
+    run_kernel<Column_moments_kernel>(vertices, entries.data(), m_slots, m_sums.data(),
+                                      m_moments.data());
   }
 
   // the block in the rows of slot a and the columns of b, a >= b
@@ -231,23 +226,19 @@ public:
   }
 
 private:
-  // those of some vertices, each once; false if there is none for a node
-  bool find_slots(const std::vector<Coarse_vertex>& vertices)
+  // those of some vertices, each once
+  void find_slots(const std::vector<Coarse_vertex>& vertices)
   {
     m_slots.clear();
-    bool are_all_known = true;
     for(const Coarse_vertex& vertex : vertices)
       for(int slot : vertex.slots)
-        if(slot < 0)
-          are_all_known = false;
-        else if(!m_is_found[slot])
+        if(!m_is_found[slot])
         {
           m_is_found[slot] = true;
           m_slots.push_back(slot);
         }
     for(int slot : m_slots)
       m_is_found[slot] = false;
-    return are_all_known;
   }
 
   Array<int> m_slot_of, m_nodes;

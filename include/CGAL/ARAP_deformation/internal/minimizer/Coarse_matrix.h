@@ -111,20 +111,34 @@ public:
   }
 
 private:
+  // A cell with more nodes is left out, which only makes the matrix stiffer: where many cells are
+  // one rigid part, it would become dense.
+  static constexpr std::size_t most_nodes_of_cell = 24;
+
+  // adds those of a vertex to a list of different ones
+  static void add_nodes(const Coarse_space& space, int v, Array<int>& nodes)
+  {
+    if(v < space.number_of_vertices() && space.has_nodes(v))
+      for(int k = 0; k < Coarse_space::most_nodes; ++k)
+        if(const int node = space.nodes(v)[k];
+           std::find(nodes.begin(), nodes.end(), node) == nodes.end())
+          nodes.push_back(node);
+  }
+
   // each cell belongs to the node next to one of its vertices
   void find_cells(const Coarse_space& space, const Deformation_energy& energy)
   {
     Index_lists node_of;
     Covariance_coefficients coefficients;
+    Array<int> nodes;
     for(int c = 0; c < energy.number_of_cells(); ++c)
     {
       energy.coefficients(c, coefficients);
-      int node = -1;
-      for(std::size_t k = 0; k < coefficients.size() && node < 0; ++k)
-        if(const int v = coefficients.vertices[k]; v < space.number_of_vertices())
-          node = space.has_nodes(v) ? space.nodes(v)[0] : -1;
-      if(node >= 0)
-        node_of.items.push_back(node);
+      nodes.clear();
+      for(std::size_t k = 0; k < coefficients.size() && nodes.size() <= most_nodes_of_cell; ++k)
+        add_nodes(space, coefficients.vertices[k], nodes);
+      if(!nodes.empty() && nodes.size() <= most_nodes_of_cell)
+        node_of.items.push_back(nodes[0]);
       node_of.begin.push_back(static_cast<int>(node_of.items.size()));
     }
     m_cells = lists_with(node_of, space.number_of_nodes());
@@ -141,13 +155,6 @@ private:
     Array<std::pair<int, int>> pairs;
     Array<int> slot_of(m), last_group(m, -1), near;
     Array<char> is_coupled; // for each pair of slots
-    const auto add_nodes = [&](int v) {
-      if(v < space.number_of_vertices() && space.has_nodes(v))
-        for(int k = 0; k < Coarse_space::most_nodes; ++k)
-          if(const int node = space.nodes(v)[k];
-             std::find(near.begin(), near.end(), node) == near.end())
-            near.push_back(node);
-    };
     const auto couple = [&](int group) {
       for(int& node : near)
       {
@@ -171,17 +178,14 @@ private:
     {
       transfer.for_each_vertex(group, [&](int v) {
         for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
-          add_nodes(static_cast<int>(entry.row()));
+          add_nodes(space, static_cast<int>(entry.row()), near);
         couple(group);
       });
       for(int k = m_cells.begin[group]; k < m_cells.begin[group + 1]; ++k)
       {
         energy.coefficients(m_cells.items[k], coefficients);
-        for(std::size_t i = 0;
-            i < coefficients.size() && near.size() <= Coarse_blocks::most_nodes_of_cell; ++i)
-          add_nodes(coefficients.vertices[i]);
-        if(near.size() > Coarse_blocks::most_nodes_of_cell)
-          near.clear();
+        for(int v : coefficients.vertices)
+          add_nodes(space, v, near);
         couple(group);
       }
       const int* const nodes = m_nodes_of.items.data() + m_nodes_of.begin[group];
@@ -277,7 +281,11 @@ private:
       entries.clear();
       for(Sparse_matrix::InnerIterator entry(matrix, v); entry; ++entry)
       {
-        vertices.push_back(transfer.vertex(static_cast<int>(entry.row()), blocks.slot_of()));
+        const Coarse_vertex vertex =
+          transfer.vertex(static_cast<int>(entry.row()), blocks.slot_of());
+        if(std::find(vertex.slots.begin(), vertex.slots.end(), -1) != vertex.slots.end())
+          continue; // rows of constraints may couple what nothing else does
+        vertices.push_back(vertex);
         entries.push_back(entry.row() == v ? 0.5 * entry.value() : entry.value());
       }
       blocks.add_column(vertices, entries);

@@ -27,7 +27,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// What makes a better metric of the Laplacian L. L^-1 knows nothing of the rotations that follow a
+// Improves the Laplacian L as a metric. L^-1 knows nothing of the rotations that follow a
 // step: long bends, which cost next to nothing, are as stiff for it as stretching, and a run needs
 // hundreds of iterations for them. L^-1 + P C^-1 P^T has their true stiffness C on a coarse space
 // of deformations P, where each node moves rigidly, and vertices as the weighted mean of what their
@@ -46,6 +46,8 @@ public:
              const Array<char>& is_fixed, const std::vector<Coordinates>& x,
              const std::vector<Matrix_3x3>& rotations)
   {
+    if(m_transfer.space().number_of_nodes() == 0)
+      return false;
     m_transfer.place(is_fixed, x);
     return m_matrix.build(m_transfer, energy, matrix, rotations);
   }

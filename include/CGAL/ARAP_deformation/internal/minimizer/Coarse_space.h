@@ -102,7 +102,7 @@ private:
     }
   }
 
-  // The weights are (1 - d / D)^2, D the distance of one node more, where all are zero.
+  // The weights are (1 - d / D)^2, D a little more than the distance of one node more.
   void weigh_nodes(const Index_lists& graph)
   {
     struct Label { int node = -1, distance = 0; };

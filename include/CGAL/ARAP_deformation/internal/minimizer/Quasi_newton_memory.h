@@ -63,18 +63,17 @@ public:
   // of the metric before, and to keep them saves no iterations.
   bool set_coarse_metric(Coarse_metric* metric, const std::vector<Coordinates>& force)
   {
+    if(!metric && !has_coarse_metric())
+      return true;
     m_number_of_pairs = 0;
+    m_trust = 1;
     m_coarse.set_metric(metric);
     return set_next_force(force);
   }
 
-  // s y / y M^-1 y of the last pair, with the metric M: far below 1 where the coarse metric was
-  // made at other rotations, and takes for soft what was soft there. 1 if there is no pair.
-  double trust() const
-  {
-    const std::size_t newest = m_number_of_pairs - 1;
-    return is_empty() ? 1 : m_slots[m_order[newest]].sy[m_order[newest]] / zy(newest, newest);
-  }
+  // s y / y M^-1 y of the last move, with the metric M: far below 1 where the coarse metric was
+  // made at other rotations, and takes for soft what was soft only there. 1 before the first move.
+  double trust() const { return m_trust; }
 
   // Adds to x the step p to the minimum of the model of the energy, after `before` has become a
   // copy of x; both as far as d reaches. Returns the dot product f p: the model decreases by that
@@ -144,6 +143,7 @@ public:
       }
     }, block_size);
     m_number_of_pairs = 0;
+    m_trust = 1;
     m_longest_shift = largest_entry(d);
     m_slope = m_d_slope;
     return m_slope;
@@ -202,6 +202,7 @@ public:
     }
     m_coarse.remember(m_next, m_unit);
     const double own_zy = next.zy[m_next] + m_coarse.zy(m_next, m_next);
+    m_trust = next.sy[m_next] / own_zy;
     // Where the energy is convex and its rotations are free, L bounds its curvature, and s y is at
     // least z y, or not much less with a coarse metric. Far less than that is rounding, or not
     // convex. A long step may change the force
@@ -314,7 +315,8 @@ private:
     // last are softer, and to go somewhat too far in the others costs less than to go not far
     // enough there: hence more than the ratio. After a run of local/global it is a hundred and
     // more, and would let the stiff modes explode: hence a bound.
-    c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * trust()));
+    const double ratio = m_slots[m_order[m - 1]].sy[m_order[m - 1]] / zy(m - 1, m - 1);
+    c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * ratio));
 
     std::array<double, capacity> alpha;
     for(std::size_t i = m; i-- > 0;)
@@ -348,6 +350,7 @@ private:
   std::size_t m_next = 0;            // the slot of the last move
   double m_slope = 0, m_d_slope = 0; // f p and f d at the last move
   double m_longest_shift = 0; // of a coordinate, by the last move
+  double m_trust = 1;
 };
 
 } // namespace internal

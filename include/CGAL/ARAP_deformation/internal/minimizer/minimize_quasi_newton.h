@@ -41,9 +41,9 @@ inline void shorten(double ratio, const std::vector<Coordinates>& before,
   });
 }
 
-// When a coarse metric is built: not in the first iterations, which may be all, as of a frame; then
-// where the last one does not hold any more. Over armadillos of 26,002 and 104,002 vertices, other
-// numbers than these gained nothing.
+// When a coarse metric is built: not in the first iterations, which may be all, as of a frame;
+// afterwards, where the last one no longer fits. Other numbers gained nothing on armadillos of
+// 26,002 and 104,002 vertices.
 class Coarse_schedule
 {
 public:
