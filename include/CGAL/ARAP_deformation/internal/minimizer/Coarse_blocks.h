@@ -21,7 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>

@@ -38,7 +38,8 @@ public:
 
   bool is_active() const { return m_metric != nullptr; }
 
-  void set_metric(Coarse_metric* metric) { m_metric = metric; } // or none; forgets all
+  // another metric, or none; no slot is in use until it is remembered anew
+  void set_metric(Coarse_metric* metric) { m_metric = metric; }
 
   bool set_next_force(const std::vector<Coordinates>& force)
   {

@@ -205,9 +205,8 @@ public:
     m_trust = next.sy[m_next] / own_zy;
     // Where the energy is convex and its rotations are free, L bounds its curvature, and s y is at
     // least z y, or not much less with a coarse metric. Far less than that is rounding, or not
-    // convex. A long step may change the force
-    // by rounding errors only: a part that almost nothing ties would then move far away, to where
-    // these errors happen to vanish.
+    // convex. A long step may change the force by rounding errors only: a part that almost nothing
+    // ties would then move far away, to where these errors happen to vanish.
     const double least = t * m_longest_shift > 1e-8 * diameter
                        ? force_error / m_unit * std::sqrt(sums.ss) : 0;
     if(own_zy > 0 && next.sy[m_next] > (std::max)(0.1 * own_zy, least))

@@ -136,13 +136,13 @@ public:
 
     const std::vector<Coordinates>* const vectors[] = {&m_p, &m_w, &m_q};
     const std::vector<Coordinates>* const a_vectors[] = {&m_ap, &m_z, &m_aq};
-    const std::vector<Coordinates>* const m_vectors[] = {&m_mp, &m_r, &m_mq};
+    const std::vector<Coordinates>* const metric_vectors[] = {&m_mp, &m_r, &m_mq};
     Eigen::Matrix3d a, l;
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j <= i; ++j)
       {
         a(i, j) = a(j, i) = dot_product(*vectors[i], *a_vectors[j]);
-        l(i, j) = l(j, i) = dot_product(*vectors[i], *m_vectors[j]);
+        l(i, j) = l(j, i) = dot_product(*vectors[i], *metric_vectors[j]);
       }
     const Eigen::Vector3d best = lowest_combination(a, l);
     if(!best.allFinite() || best[0] == 0)
