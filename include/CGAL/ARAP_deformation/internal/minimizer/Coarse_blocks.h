@@ -16,6 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pattern.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -30,26 +32,50 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The sums of w v p^T over the vertices of a cell or column, for each slot: with p = (x, y, z, 1)
-// and one to three rows of v.
-template <int Rows>
-CGAL_ARAP_ALWAYS_INLINE void add_moments(const Coarse_vertex& vertex, const double* v,
-                                         Double4* sums)
+// The slots of some nodes, with sums over the vertices of a cell or column, each of w s p^T, with a
+// vector s, p = (x, y, z, 1), and the weight w of the vertex at the node.
+struct Coarse_slots
 {
-  for(std::size_t k = 0; k < Coarse_space::most_nodes; ++k)
-  {
-    const Double4 p = Double4::all(vertex.weights[k]) * vertex.point;
-    Double4* const sum = sums + 3 * vertex.slots[k];
-    for(int r = 0; r < Rows; ++r)
-      sum[r] = multiply_add(Double4::all(v[r]), p, sum[r]);
-  }
-}
+  const int* slot_of; // each node, -1 for none
+  Double4* sums;      // three for each slot, zero where it is not in use
+  char* is_used;      // for each slot
+  int* used;          // those in use
 
-// Where the pair of two slots is, the larger one first.
-CGAL_ARAP_ALWAYS_INLINE std::ptrdiff_t place_of_pair(int a, int b)
-{
-  return std::ptrdiff_t(a) * (a + 1) / 2 + b;
-}
+  // adds a vertex, with one to three entries of s
+  template <int Rows>
+  CGAL_ARAP_ALWAYS_INLINE void add_moments(const Coarse_view& view, int v, const double* s,
+                                           int& number_used) const
+  {
+    const Double4 point = view.point(v, 1);
+    const std::ptrdiff_t first = Coarse_space::most_nodes * std::ptrdiff_t(v);
+    for(int k = 0; k < Coarse_space::most_nodes; ++k)
+    {
+      if(view.weights[first + k] == 0)
+        continue;
+      const int slot = slot_of[view.nodes[first + k]];
+      if(!is_used[slot])
+      {
+        is_used[slot] = true;
+        used[number_used++] = slot;
+      }
+      const Double4 p = Double4::all(view.weights[first + k]) * point;
+      for(int r = 0; r < Rows; ++r)
+        sums[3 * slot + r] = multiply_add(Double4::all(s[r]), p, sums[3 * slot + r]);
+    }
+  }
+
+  // Takes the sums of a slot, and leaves zeros.
+  template <int Rows>
+  CGAL_ARAP_ALWAYS_INLINE void take(int slot, Double4* taken) const
+  {
+    for(int r = 0; r < Rows; ++r)
+    {
+      taken[r] = sums[3 * slot + r];
+      sums[3 * slot + r] = Double4::zero();
+    }
+    is_used[slot] = false;
+  }
+};
 
 // What a cell takes from the blocks of its nodes: B_a^T K^-1 B_b, with the derivative B of the axis
 // sum of (R s) x (change of x) over its coefficients s, in the translation and the rotation of a
@@ -58,28 +84,37 @@ struct Cell_blocks_kernel
 {
   struct Derivative { Double4 translation[3], rotation[3]; };
 
-  CGAL_ARAP_ALWAYS_INLINE static void run(const std::vector<Coarse_vertex>& vertices,
-                                          const double* turned, const double* inverse,
-                                          const Array<int>& slots, const Double4* origins,
-                                          Double4* sums, Derivative* derivatives, double* blocks)
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Coarse_view& view, const int* vertices,
+                                          const Double4* vectors, int number_of_vertices,
+                                          const double* rotation, const double* inverse,
+                                          const Coarse_slots& slots, const Double4* origins,
+                                          Derivative* derivatives, double* blocks)
   {
-    for(std::size_t k = 0; k < vertices.size(); ++k)
-      add_moments<3>(vertices[k], turned + 3 * k, sums);
-    const int n = static_cast<int>(slots.size());
+    int n = 0;
+    for(int k = 0; k < number_of_vertices; ++k)
+      if(view.is_moving(vertices[k]))
+      {
+        const double s[3] = {vectors[k][0], vectors[k][1], vectors[k][2]};
+        slots.add_moments<3>(view, vertices[k], s, n);
+      }
     for(int k = 0; k < n; ++k)
     {
-      Double4* const sum = sums + 3 * slots[k];
-      Double4 d[3]; // about the node
+      Double4 sum[3], d[3];
+      slots.take<3>(slots.used[k], sum);
       for(int r = 0; r < 3; ++r)
-        d[r] = negative_multiply_add(Double4::all(sum[r][3]), origins[slots[k]], sum[r]);
-      const double c0 = sum[0][3], c1 = sum[1][3], c2 = sum[2][3];
+      {
+        d[r] = Double4::zero(); // of R s instead of s
+        for(int q = 0; q < 3; ++q)
+          d[r] = multiply_add(Double4::all(rotation[3 * r + q]), sum[q], d[r]);
+      }
+      const double c0 = d[0][3], c1 = d[1][3], c2 = d[2][3];
+      for(int r = 0; r < 3; ++r) // about the node
+        d[r] = negative_multiply_add(Double4::all(d[r][3]), origins[slots.used[k]], d[r]);
       const double trace = d[0][0] + d[1][1] + d[2][2];
       derivatives[k] = {{Double4::of(0, -c2, c1), Double4::of(c2, 0, -c0), Double4::of(-c1, c0, 0)},
                         {Double4::of(trace - d[0][0], -d[1][0], -d[2][0]),
                          Double4::of(-d[0][1], trace - d[1][1], -d[2][1]),
                          Double4::of(-d[0][2], -d[1][2], trace - d[2][2])}};
-      for(int r = 0; r < 3; ++r)
-        sum[r] = Double4::zero();
     }
     for(int k = 0; k < n; ++k)
     {
@@ -95,10 +130,10 @@ struct Cell_blocks_kernel
         }
       }
       for(int l = 0; l < n; ++l)
-        if(slots[l] <= slots[k])
+        if(slots.used[l] <= slots.used[k])
         {
           const Derivative& other = derivatives[l];
-          double* row = blocks + 48 * place_of_pair(slots[k], slots[l]);
+          double* row = blocks + 48 * place_of_pair(slots.used[k], slots.used[l]);
           for(int i = 0; i < 6; ++i, row += 8)
           {
             const Double4* const column = scaled + (i < 3 ? 0 : 3);
@@ -118,34 +153,53 @@ struct Cell_blocks_kernel
 };
 
 // What a column of a lower triangle adds to the moments of its nodes: the sum of A_ij (w p)(w q)^T
-// over its entries and their transposes, with p, q = (x, y, z, 1) of i and j, w of two nodes.
+// over its entries and their transposes, with p, q = (x, y, z, 1) of i and j, w of two nodes. The
+// first entry is the diagonal one.
 struct Column_moments_kernel
 {
-  CGAL_ARAP_ALWAYS_INLINE static void run(const std::vector<Coarse_vertex>& vertices,
-                                          const double* entries, const Array<int>& slots,
-                                          Double4* sums, double* moments)
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Coarse_view& view, const int* rows,
+                                          const double* entries, int number_of_entries,
+                                          const Coarse_slots& slots, double* moments)
   {
-    for(std::size_t k = 0; k < vertices.size(); ++k)
-      add_moments<1>(vertices[k], entries + k, sums);
-    const Coarse_vertex& own = vertices[0];
-    for(std::size_t k = 0; k < Coarse_space::most_nodes; ++k)
-    {
-      const int a = own.slots[k];
-      const Double4 p = Double4::all(own.weights[k]) * own.point;
-      for(int b : slots)
+    int n = 0;
+    for(int k = 0; k < number_of_entries; ++k)
+      if(view.is_moving(rows[k]) && has_slots(view, rows[k], slots.slot_of))
       {
-        const Double4 q = sums[3 * b];
+        const double entry = k == 0 ? 0.5 * entries[0] : entries[k];
+        slots.add_moments<1>(view, rows[k], &entry, n);
+      }
+    const Double4 point = view.point(rows[0], 1);
+    const std::ptrdiff_t first = Coarse_space::most_nodes * std::ptrdiff_t(rows[0]);
+    for(int i = 0; i < n; ++i)
+    {
+      const int b = slots.used[i];
+      Double4 q;
+      slots.take<1>(b, &q);
+      for(int k = 0; k < Coarse_space::most_nodes; ++k)
+      {
+        if(view.weights[first + k] == 0)
+          continue;
+        const int a = slots.slot_of[view.nodes[first + k]];
+        const Double4 p = Double4::all(view.weights[first + k]) * point;
         if(a >= b)
           add_product(p, q, moments + 16 * place_of_pair(a, b));
         if(b >= a)
           add_product(q, p, moments + 16 * place_of_pair(b, a));
       }
     }
-    for(int b : slots)
-      sums[3 * b] = Double4::zero();
   }
 
 private:
+  // rows of constraints may couple what nothing else does
+  CGAL_ARAP_ALWAYS_INLINE static bool has_slots(const Coarse_view& view, int v, const int* slot_of)
+  {
+    const int* const nodes = view.nodes + Coarse_space::most_nodes * std::ptrdiff_t(v);
+    for(int k = 0; k < Coarse_space::most_nodes; ++k)
+      if(slot_of[nodes[k]] < 0)
+        return false;
+    return true;
+  }
+
   CGAL_ARAP_ALWAYS_INLINE static void add_product(const Double4& p, const Double4& q, double* sum)
   {
     for(int r = 0; r < 4; ++r, sum += 4)
@@ -171,7 +225,9 @@ public:
     const std::size_t n = m_nodes.size(), pairs = n * (n + 1) / 2;
     for(std::size_t slot = 0; slot < n; ++slot)
       m_slot_of[m_nodes[slot]] = static_cast<int>(slot);
-    m_is_found.assign(n, false);
+    m_is_used.assign(n, false);
+    m_used.resize(n);
+    m_derivatives.resize(n);
     m_sums.assign(3 * n, Double4::zero());
     m_blocks.assign(48 * pairs, 0);
     m_moments.assign(16 * pairs, 0);
@@ -181,23 +237,23 @@ public:
   int node(int slot) const { return m_nodes[slot]; }
   const Array<int>& slot_of() const { return m_slot_of; } // each node, -1 for none
 
-  // of a cell with these vectors R s of its vertices, and the inverse of its K
-  void subtract_cell(const std::vector<Coarse_vertex>& vertices,
-                     const std::vector<Coordinates>& turned, const Matrix_3x3& inverse)
+  // Subtracts what a cell with the rotation R adds; `inverse` is R K^-1 R^T.
+  void subtract_cell(const Coarse_view& view, const Covariance_coefficients& coefficients,
+                     const Matrix_3x3& rotation, const Matrix_3x3& inverse)
   {
-    find_slots(vertices);
-    m_derivatives.resize(m_slots.size());
-    run_kernel<Cell_blocks_kernel>(vertices, turned.data()->data(), inverse.data(), m_slots,
-                                   m_origins.data(), m_sums.data(), m_derivatives.data(),
-                                   m_blocks.data());
+    run_kernel<Cell_blocks_kernel>(view, coefficients.vertices.data(), coefficients.vectors.data(),
+                                   static_cast<int>(coefficients.size()), rotation.data(),
+                                   inverse.data(), slots(), m_origins.data(),
+                                   m_derivatives.data(), m_blocks.data());
   }
 
-  // The first vertex is that of the diagonal, half of whose entry is given.
-  void add_column(const std::vector<Coarse_vertex>& vertices, const Array<double>& entries)
+  // adds a column of a lower triangle, whose first entry is that of the diagonal
+  void add_column(const Coarse_view& view, const int* rows, const double* entries,
+                  int number_of_entries)
   {
-    find_slots(vertices);
-    run_kernel<Column_moments_kernel>(vertices, entries.data(), m_slots, m_sums.data(),
-                                      m_moments.data());
+    if(view.is_moving(rows[0]))
+      run_kernel<Column_moments_kernel>(view, rows, entries, number_of_entries, slots(),
+                                        m_moments.data());
   }
 
   // the block in the rows of slot a and the columns of b, a >= b
@@ -225,27 +281,17 @@ public:
   }
 
 private:
-  // those of some vertices, each once
-  void find_slots(const std::vector<Coarse_vertex>& vertices)
+  Coarse_slots slots()
   {
-    m_slots.clear();
-    for(const Coarse_vertex& vertex : vertices)
-      for(int slot : vertex.slots)
-        if(!m_is_found[slot])
-        {
-          m_is_found[slot] = true;
-          m_slots.push_back(slot);
-        }
-    for(int slot : m_slots)
-      m_is_found[slot] = false;
+    return {m_slot_of.data(), m_sums.data(), m_is_used.data(), m_used.data()};
   }
 
   Array<int> m_slot_of, m_nodes;
   std::vector<Double4> m_origins;          // of the nodes; the fourth lane is 0
   std::vector<double> m_blocks, m_moments; // of each pair: what cells subtract, what columns add
   std::vector<Double4> m_sums;             // scratch, three for each slot
-  Array<int> m_slots;
-  Array<char> m_is_found; // for each slot
+  Array<int> m_used;
+  Array<char> m_is_used; // for each slot
   std::vector<Cell_blocks_kernel::Derivative> m_derivatives;
 };
 

@@ -32,40 +32,24 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A vertex as its nodes move it: by the sum of w (t + a x (p - y)), with the translation t and the
-// rotation vector a of a node at y, and its weight w.
-struct Coarse_vertex
-{
-  Double4 point; // x, y, z, 1
-  std::array<int, Coarse_space::most_nodes> slots; // of its nodes in some list; 0 for a weight of 0
-  std::array<double, Coarse_space::most_nodes> weights;
-};
-
-// the vertices as the kernels read them
+// The vertices as the kernels read them: a vertex moves by the sum of w (t + a x (p - y)), with the
+// translation t and the rotation vector a of a node at y, and its weight w. Fixed ones do not.
 struct Coarse_view
 {
   const int* nodes;
   const float* weights;
   const std::array<float, 3>* points;
+  const char* is_fixed;
+  int number_of_vertices;
+
+  CGAL_ARAP_ALWAYS_INLINE bool is_moving(int v) const
+  {
+    return v < number_of_vertices && !is_fixed[v];
+  }
 
   CGAL_ARAP_ALWAYS_INLINE Double4 point(int v, double last) const
   {
     return Double4::of(points[v][0], points[v][1], points[v][2], last);
-  }
-
-  // with the slot that slot_of has for each node; a fixed vertex has no weights
-  CGAL_ARAP_ALWAYS_INLINE Coarse_vertex vertex(int v, const int* slot_of, bool is_fixed) const
-  {
-    Coarse_vertex result;
-    result.point = point(v, 1);
-    const std::ptrdiff_t first = Coarse_space::most_nodes * std::ptrdiff_t(v);
-    for(int k = 0; k < Coarse_space::most_nodes; ++k)
-    {
-      const double w = is_fixed ? 0 : weights[first + k];
-      result.slots[std::size_t(k)] = w == 0 ? 0 : slot_of[nodes[first + k]];
-      result.weights[std::size_t(k)] = w;
-    }
-    return result;
   }
 };
 
@@ -102,12 +86,11 @@ struct Restriction_kernel
 struct Prolongation_kernel
 {
   CGAL_ARAP_ALWAYS_INLINE static void run(const Coarse_view& view, int begin, int end,
-                                          const Double4* motions, const char* is_fixed,
-                                          Coordinates* step)
+                                          const Double4* motions, Coordinates* step)
   {
     for(int v = begin; v < end; ++v)
     {
-      if(is_fixed[v])
+      if(!view.is_moving(v))
         continue;
       Double4 translation = Double4::zero(), rotation = translation;
       const std::ptrdiff_t first = Coarse_space::most_nodes * std::ptrdiff_t(v);
@@ -161,11 +144,6 @@ public:
         m_points[v][k] = static_cast<float>(x[v][k] - x[0][k]);
   }
 
-  Coarse_vertex vertex(int v, const Array<int>& slot_of) const
-  {
-    return view().vertex(v, slot_of.data(), m_is_fixed[v] != 0);
-  }
-
   bool is_fixed(int node) const { return m_is_fixed[m_space.vertex_of(node)] != 0; }
   Double4 origin(int node) const { return view().point(m_space.vertex_of(node), 0); }
 
@@ -213,16 +191,17 @@ public:
     }
     for_each_block(m_points.size(), [&](std::size_t begin, std::size_t end) {
       run_kernel<Prolongation_kernel>(view(), static_cast<int>(begin), static_cast<int>(end),
-                                      motions.data(), m_is_fixed.data(), step.data());
+                                      motions.data(), step.data());
     });
   }
 
-private:
   Coarse_view view() const
   {
-    return {m_space.nodes(0), m_space.weights(0), m_points.data()};
+    return {m_space.nodes(0), m_space.weights(0), m_points.data(), m_is_fixed.data(),
+            m_space.number_of_vertices()};
   }
 
+private:
   Coarse_space m_space;
   Index_lists m_vertices_of; // each group
   Array<char> m_is_fixed;    // for each vertex
