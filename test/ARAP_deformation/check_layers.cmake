@@ -7,8 +7,8 @@ cmake_minimum_required(VERSION 3.12...3.31)
 if(NOT DEFINED INCLUDE_DIR)
   set(INCLUDE_DIR ${CMAKE_CURRENT_LIST_DIR}/../../include)
 endif()
-set(floors parallel simd cholesky region rotation constraints solver energy minimizer domain session
-           drop_in) # from the ground up
+set(floors parallel simd cholesky region rotation constraints solver energy coarse minimizer domain
+           session drop_in) # from the ground up
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE_DIR} ${INCLUDE_DIR}/CGAL/*.h)
 list(FILTER headers INCLUDE REGEX "ARAP_deformation|arap_deform") # a release has all headers in one folder
 if(NOT headers)

@@ -18,9 +18,9 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_matrix.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_matrix.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 
 #include <Eigen/Dense>

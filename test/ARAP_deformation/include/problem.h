@@ -17,9 +17,9 @@
 #include "check.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
 #include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/session/core_models.h>
 

@@ -15,7 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 

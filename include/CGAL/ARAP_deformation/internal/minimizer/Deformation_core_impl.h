@@ -14,12 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
 #include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>

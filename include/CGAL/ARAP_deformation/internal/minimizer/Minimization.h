@@ -18,9 +18,9 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>

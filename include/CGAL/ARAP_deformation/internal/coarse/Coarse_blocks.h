@@ -9,17 +9,17 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_BLOCKS_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_BLOCKS_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_BLOCKS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_BLOCKS_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_pattern.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pattern.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
@@ -299,4 +299,4 @@ private:
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_BLOCKS_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_BLOCKS_H

@@ -9,19 +9,19 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_MATRIX_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_MATRIX_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_MATRIX_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_MATRIX_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_blocks.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_pattern.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_blocks.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pattern.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -204,4 +204,4 @@ private:
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_MATRIX_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_MATRIX_H

@@ -9,17 +9,17 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_PATTERN_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_PATTERN_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_PATTERN_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_PATTERN_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -211,4 +211,4 @@ private:
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_PATTERN_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_PATTERN_H

@@ -9,14 +9,14 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_TRANSFER_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_TRANSFER_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_TRANSFER_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_TRANSFER_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
@@ -213,4 +213,4 @@ private:
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_COARSE_TRANSFER_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_COARSE_COARSE_TRANSFER_H
