@@ -215,6 +215,7 @@ struct Steps
           const auto n = std::distance(std::begin(corners), std::end(corners));
           coordinates.assign(std::size_t(n), 1 / double(n));
         });
+      s.deformation->clear_control_points(); // of an attempt that failed after its insertion
       const auto inserted = s.deformation->insert_control_point(*first, coordinates);
       return inserted && s.deformation->translate(inserted.point, Eigen::Vector3d(0, 0, 0.1));
     }, false};
