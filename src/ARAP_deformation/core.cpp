@@ -14,6 +14,7 @@
 #define CGAL_ARAP_DEFORMATION_COMPILED
 #endif
 
+#include <CGAL/ARAP_deformation/internal/Options_impl.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>

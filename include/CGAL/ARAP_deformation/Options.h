@@ -17,9 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/Status.h>
-
-#include <cmath>
-#include <string>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
 
 namespace CGAL {
 namespace ARAP {
@@ -116,28 +114,14 @@ struct Options
   unsigned int threads = 0;
 
   /// returns `Status::success`, or `Status::invalid_option` and a message that names the option.
-  Outcome check() const
-  {
-    if(!(tolerance >= 0) || !std::isfinite(tolerance))
-      return Outcome(Status::invalid_option, "the option tolerance is " +
-                     std::to_string(tolerance) + "; it must be finite and not negative");
-    const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
-    const char* const wrong = !is_length(bending_length)     ? "bending_length"
-                              : !is_length(smoothing_length) ? "smoothing_length" : nullptr;
-    if(wrong)
-      return Outcome(Status::invalid_option,
-                     "the option " + std::string(wrong) + " must be finite and not negative");
-    if(cells.rings() > 100)
-      return Outcome(Status::invalid_option, "the option cells is k_ring(" +
-                     std::to_string(cells.rings()) + "); it can be at most k_ring(100)");
-    if(bending_length > 0 && !cells.has_vertex_cells())
-      return Outcome(Status::invalid_option, "the option bending_length needs cells at vertices; "
-                     "choose spokes, k_ring or spokes_and_rims for the option cells");
-    return Outcome(Status::success, "the options are valid");
-  }
+  Outcome check() const;
 };
 
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/Options_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_OPTIONS_H
