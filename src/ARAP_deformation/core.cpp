@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/Options_impl.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
@@ -24,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
 

@@ -16,16 +16,14 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <vector>
 
 namespace CGAL {
@@ -47,33 +45,13 @@ public:
   }
 
   // adds the row of one vertex
-  void append(int vertex, double weight)
-  {
-    m_vertices.items.push_back(vertex);
-    m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
-    m_coefficients.push_back(1);
-    m_weights.push_back(weight);
-  }
+  void append(int vertex, double weight);
 
   // adds a row; its vertices differ
-  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight)
-  {
-    m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
-    m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
-    m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
-    m_weights.push_back(weight);
-    m_is_diagonal &= vertices.size() == 1;
-  }
+  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight);
 
   // adds a row of others
-  void append(const Weighted_rows& others, int r)
-  {
-    const auto begin = others.m_vertices.begin[r], end = others.m_vertices.begin[r + 1];
-    append(Array<int>(others.m_vertices.items.begin() + begin,
-                      others.m_vertices.items.begin() + end),
-           Array<double>(others.m_coefficients.begin() + begin,
-                         others.m_coefficients.begin() + end), others.m_weights[r]);
-  }
+  void append(const Weighted_rows& others, int r);
 
   double weight(int r) const { return m_weights[r]; }
 
@@ -146,54 +124,13 @@ public:
   // Returns the energy at x for these targets, one for each row, and adds minus half its gradient
   // to the forces.
   double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
-              std::vector<Coordinates>& force) const
-  {
-    const Coordinates* const positions = x.data();
-    Coordinates* const forces = force.data();
-    Array<Coordinates> pulls(m_weights.size());
-    const double energy = sum_over_blocks(pulls.size(), [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for(std::size_t r = begin; r < end; ++r)
-      {
-        const Coordinates residual =
-          difference(targets[r], value(static_cast<int>(r), positions));
-        pulls[r] = scaled(residual, m_weights[r]);
-        sum += dot(pulls[r], residual);
-      }
-      return sum;
-    });
-    for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
-      for_each_coefficient(r, [&](int v, double b) { add(forces[v], b, pulls[r]); });
-    return energy;
-  }
+              std::vector<Coordinates>& force) const;
 
 private:
   // the rows in an order by their contents
-  Array<int> order() const
-  {
-    Array<int> rows(m_weights.size());
-    for(int r = 0; r < size(); ++r)
-      rows[r] = r;
-    std::sort(rows.begin(), rows.end(),
-              [this](int r, int s) { return is_less(*this, r, *this, s); });
-    return rows;
-  }
+  Array<int> order() const;
 
-  static bool is_less(const Weighted_rows& a, int r, const Weighted_rows& b, int s)
-  {
-    const int a_begin = a.m_vertices.begin[r], a_end = a.m_vertices.begin[r + 1];
-    const int b_begin = b.m_vertices.begin[s], b_end = b.m_vertices.begin[s + 1];
-    if(a_end - a_begin != b_end - b_begin)
-      return a_end - a_begin < b_end - b_begin;
-    for(int k = a_begin, l = b_begin; k < a_end; ++k, ++l)
-    {
-      const auto left = std::tie(a.m_vertices.items[k], a.m_coefficients[k]);
-      const auto right = std::tie(b.m_vertices.items[l], b.m_coefficients[l]);
-      if(left != right)
-        return left < right;
-    }
-    return a.m_weights[r] < b.m_weights[s];
-  }
+  static bool is_less(const Weighted_rows& a, int r, const Weighted_rows& b, int s);
 
   Index_lists m_vertices;             // of each row
   Array<double> m_coefficients; // of each item of these lists
@@ -229,10 +166,7 @@ struct Constraints
     });
   }
 
-  std::size_t number_of_free_vertices() const
-  {
-    return static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), 0));
-  }
+  std::size_t number_of_free_vertices() const;
 };
 
 // The targets of the rows of constraints.
@@ -250,15 +184,24 @@ struct Targets
   std::vector<Set> sets;               // of soft rows, in their order
   std::vector<Frame> frames;           // the rotations that are given to cells
 
-  void project(const Weighted_rows& rows, const std::vector<Coordinates>& x)
-  {
-    for(const Set& set : sets)
-      soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));
-  }
+  void project(const Weighted_rows& rows, const std::vector<Coordinates>& x);
+
+  // the target of the next soft or hard row
+  void add_soft(const Coordinates& target);
+  void add_hard(const Coordinates& target);
+
+  // makes the target of the last soft row a set
+  void add_set(std::function<Coordinates(const Coordinates&)> projection);
+
+  void add_frame(int vertex, const Matrix_3x3& rotation);
 };
 
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_CONSTRAINTS_CONSTRAINTS_H

@@ -14,18 +14,16 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
-#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
+#include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
@@ -39,16 +37,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// Whose targets the rows of the constraints have.
-struct Region_rows
-{
-  std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
-  std::vector<Control_point> soft_points, hard_points; // the next ones, and the hard rows
-  // If there is inertia, for each movable vertex its share in the area or volume, or 0 if it is
-  // fixed. Those of the others are the last soft rows.
-  Array<double> contents;
-};
 
 // Rotations with the region whose cells they are of, or nothing.
 template <typename Domain>
@@ -121,66 +109,40 @@ struct Built_region
     return explain(core->diagnosis(), domain);
   }
 
-  // With the weight of the inertia of a unit of area or volume, or 0. Also finds whose targets the
-  // rows have, and the control vertices that have no incident simplex, by index.
-  Constraints collect_constraints(const Vertices& vertices, const Session_rules& rules,
-                                  double inertia, Region_rows& rows,
-                                  std::vector<std::size_t>& isolated_controls) const
+  // with the weight of the inertia of a unit of area or volume, or 0
+  void collect_constraints(const Vertices& vertices, const Session_rules& rules, double inertia,
+                           Region_constraints& constraints) const
   {
-    Constraints constraints;
-    constraints.is_fixed = Array<char>(core->region().number_of_movable_vertices, false);
+    const Domain& domain = vertices.domain();
     for(const auto& entry : vertices.entries())
     {
-      const int v =
-        entry.is_roi ? region->find_vertex(vertices.domain(), entry.vertex) : -1;
+      if(!entry.is_roi)
+        continue;
+      const int v = region->find_vertex(domain, entry.vertex);
       const bool can_move = is_movable(v);
-      if(entry.is_control && (can_move ? core->is_isolated(v)
-                                         : vertices.domain().is_isolated(entry.vertex)))
-        isolated_controls.push_back(vertices.domain().index(entry.vertex));
+      const bool is_isolated = can_move ? core->is_isolated(v)
+                                        : entry.is_control && domain.is_isolated(entry.vertex);
+      if(entry.is_control && is_isolated)
+        constraints.add_isolated_control(domain.index(entry.vertex));
       if(!can_move)
         continue;
-      if(vertices.is_hard_control(entry))
-        constraints.is_fixed[v] = true;
-      else if(vertices.is_pulled(entry))
-      {
-        constraints.rows.append(v, vertices.weight(entry));
-        rows.soft_vertices.push_back(v);
-      }
-      else if(core->is_isolated(v) && !rules.are_unconstrained_refused)
-        constraints.is_fixed[v] = true;
+      if(vertices.is_pulled(entry))
+        constraints.pull(v, vertices.weight(entry));
+      else if(vertices.is_hard_control(entry) || (is_isolated && !rules.are_unconstrained_refused))
+        constraints.fix(v);
     }
     for(const auto& [point, held] : vertices.points())
     {
-      const double weight = held.target.weight;
-      if(weight == 0)
-        continue;
-      Array<int> corners;
-      Array<double> coefficients;
-      for(std::size_t k = 0; k < held.corners.size(); ++k)
-        if(const int v = region->find_vertex(vertices.domain(), held.corners[k]);
-           is_movable(v))
-        {
-          corners.push_back(v);
-          coefficients.push_back(held.coordinates[k]);
-        }
-      const bool is_pull = Vertices::is_pull(weight);
-      (is_pull ? constraints.rows : constraints.hard_rows).append(corners, coefficients, weight);
-      (is_pull ? rows.soft_points : rows.hard_points).push_back(point);
+      std::vector<int> corners;
+      for(vertex_descriptor corner : held.corners)
+        corners.push_back(region->find_vertex(domain, corner));
+      if(Vertices::is_pull(held.target.weight))
+        constraints.pull(point, corners, held.coordinates, held.target.weight);
+      else if(held.target.weight == Vertices::hard)
+        constraints.fix(point, corners, held.coordinates);
     }
     if(inertia > 0)
-    {
-      rows.contents = contents_at_centres(core->region());
-      rows.contents.resize(constraints.is_fixed.size());
-      for(int v = 0; v < static_cast<int>(rows.contents.size()); ++v)
-        if(constraints.is_fixed[v])
-          rows.contents[v] = 0;
-        else if(rows.contents[v] > 0)
-        {
-          constraints.rows.append(v, inertia * rows.contents[v]);
-          constraints.inertia += inertia * rows.contents[v];
-        }
-    }
-    return constraints;
+      constraints.add_inertia(inertia);
   }
 
   // The rotations that these cells have elsewhere, the identity where they have none. None if there

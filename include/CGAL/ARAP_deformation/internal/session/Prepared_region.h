@@ -23,13 +23,14 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
+#include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -99,11 +100,9 @@ public:
         positions[v] = Domain::coordinates(point);
   }
 
-  // how many vertices are in the region of interest, how many controls there are, and those that
-  // have no incident simplex, by index
+  // how many vertices are in the region of interest, and how many controls there are
   std::size_t roi_size() const { return m_roi_size; }
   std::size_t number_of_controls() const { return m_number_of_controls; }
-  const std::vector<std::size_t>& isolated_controls() const { return m_isolated_controls; }
 
   const Region_rows& rows() const { return m_rows; }
 
@@ -257,13 +256,14 @@ private:
        }))
       return outcome(Status::no_simplex);
 
-    std::optional<Built_region<Domain>> next;
+    std::unique_ptr<Built_region<Domain>> next;
     if(needs_region(vertices, roi_size, number_of_fixed))
     {
       stages.region = stages.weights = true;
       if(m_prepared)
         m_prepared->core->release_factor(); // there are never two
-      next.emplace(++m_last_numbering, is_whole(roi_size, number_of_fixed));
+      next = std::make_unique<Built_region<Domain>>(++m_last_numbering,
+                                                    is_whole(roi_size, number_of_fixed));
       if(Outcome made = next->make(vertices, values, models, options, m_rules); !made)
         return made;
       const bool are_kept =
@@ -273,18 +273,17 @@ private:
         vertices.domain()));
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
-    Region_rows rows;
-    std::vector<std::size_t> isolated_controls;
-    const Diagnosis diagnosis = prepared.core->set_constraints(
-      prepared.collect_constraints(vertices, m_rules, m_inertia, rows, isolated_controls),
+    Region_constraints constraints(*prepared.core);
+    prepared.collect_constraints(vertices, m_rules, m_inertia, constraints);
+    const Diagnosis diagnosis = constraints.prepare(
       m_rules.are_unconstrained_refused ? Unconstrained_components::refused
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
       options.threads, stages);
     if(diagnosis.hard_row >= 0)
       return outcome(diagnosis.status,
-                     control_point_name(
-                       rows.hard_points[static_cast<std::size_t>(diagnosis.hard_row)]));
+                     control_point_name(constraints.rows().hard_points[
+                       static_cast<std::size_t>(diagnosis.hard_row)]));
     Outcome result = prepared.explain(diagnosis, vertices.domain());
     if(!result)
       return result;
@@ -296,8 +295,7 @@ private:
       m_restored = Cell_rotations<Domain>();
       m_prepared = std::move(next);
     }
-    m_rows = std::move(rows);
-    m_isolated_controls = std::move(isolated_controls);
+    m_rows = std::move(constraints.rows());
     m_roi_size = roi_size;
     m_number_of_controls = number_of_controls + vertices.points().size();
     m_ready = m_present;
@@ -332,10 +330,9 @@ private:
 
   Session_rules m_rules;
   Outcome m_outcome;
-  std::optional<Built_region<Domain>> m_prepared; // what was last prepared with success
+  std::unique_ptr<Built_region<Domain>> m_prepared; // what was last prepared with success
   Cell_rotations<Domain> m_restored; // those of a state, until there is a region for it again
   Region_rows m_rows;
-  std::vector<std::size_t> m_isolated_controls;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
   bool m_are_rotations_coupled = false;
   double m_inertia = 0;

@@ -78,9 +78,9 @@ public:
         if(points == &rows.soft_points)
           append_target(held.target, fixed, targets);
         else
-          targets.hard.push_back(difference(Domain::coordinates(held.target.point), fixed));
+          targets.add_hard(difference(Domain::coordinates(held.target.point), fixed));
       }
-    targets.frames = frames();
+    add_frames(targets);
     return outcome(Status::success);
   }
 
@@ -102,7 +102,7 @@ public:
       if(!is_finite(step.goals[v]))
         return outcome(Status::non_finite_point,
                        "where velocity and forces take " + name(vertex));
-      targets.soft.push_back(step.goals[v]);
+      targets.add_soft(step.goals[v]);
     }
     positions = step.goals;
     return outcome(Status::success);
@@ -140,14 +140,12 @@ public:
 
 private:
   // the rotations that are given to cells at control vertices
-  std::vector<Frame> frames() const
+  void add_frames(Targets& targets) const
   {
-    std::vector<Frame> frames;
     for(const auto& entry : m_vertices.entries())
       if(entry.is_control && m_vertices.rotation(entry))
         if(const int v = m_prepared.region().find_vertex(domain(), entry.vertex); v >= 0)
-          frames.push_back({v, *m_vertices.rotation(entry)});
-    return frames;
+          targets.add_frame(v, *m_vertices.rotation(entry));
   }
 
   // What corners that are not movable add to the position of a control point: they are no part of
@@ -170,13 +168,12 @@ private:
   static void append_target(const typename Vertices::Target& target, const Coordinates& share,
                             Targets& targets)
   {
+    targets.add_soft(difference(Domain::coordinates(target.point), share));
     if(target.set)
-      targets.sets.push_back(
-        {static_cast<int>(targets.soft.size()), [&target, share](Coordinates c) {
-           add(c, 1, share);
-           return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
-         }});
-    targets.soft.push_back(difference(Domain::coordinates(target.point), share));
+      targets.add_set([&target, share](Coordinates c) {
+        add(c, 1, share);
+        return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
+      });
   }
 
   const Domain& domain() const { return m_vertices.domain(); }

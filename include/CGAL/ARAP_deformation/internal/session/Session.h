@@ -272,7 +272,7 @@ private:
     else if(m_prepared.number_of_controls() == 0 && !is_time_step)
       result.message += "; there is no control vertex";
     result.message += about_end(report);
-    result.message += about_isolated_controls(m_prepared.isolated_controls());
+    result.message += about_isolated_controls(m_prepared.rows().isolated_controls);
     result.message += about_unconstrained_components(report.unconstrained_components);
   }
 

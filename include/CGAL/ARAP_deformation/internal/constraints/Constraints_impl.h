@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_CONSTRAINTS_CONSTRAINTS_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_CONSTRAINTS_CONSTRAINTS_IMPL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+CGAL_ARAP_INLINE_FUNCTION
+void Weighted_rows::append(int vertex, double weight)
+{
+  m_vertices.items.push_back(vertex);
+  m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+  m_coefficients.push_back(1);
+  m_weights.push_back(weight);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Weighted_rows::append(const Array<int>& vertices, const Array<double>& coefficients,
+                           double weight)
+{
+  m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
+  m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+  m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
+  m_weights.push_back(weight);
+  m_is_diagonal &= vertices.size() == 1;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Weighted_rows::append(const Weighted_rows& others, int r)
+{
+  const auto begin = others.m_vertices.begin[r], end = others.m_vertices.begin[r + 1];
+  append(
+    Array<int>(others.m_vertices.items.begin() + begin, others.m_vertices.items.begin() + end),
+    Array<double>(others.m_coefficients.begin() + begin, others.m_coefficients.begin() + end),
+    others.m_weights[r]);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+double Weighted_rows::pull(const std::vector<Coordinates>& targets,
+                           const std::vector<Coordinates>& x,
+                           std::vector<Coordinates>& force) const
+{
+  const Coordinates* const positions = x.data();
+  Coordinates* const forces = force.data();
+  Array<Coordinates> pulls(m_weights.size());
+  const double energy = sum_over_blocks(pulls.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for(std::size_t r = begin; r < end; ++r)
+    {
+      const Coordinates residual =
+        difference(targets[r], value(static_cast<int>(r), positions));
+      pulls[r] = scaled(residual, m_weights[r]);
+      sum += dot(pulls[r], residual);
+    }
+    return sum;
+  });
+  for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
+    for_each_coefficient(r, [&](int v, double b) { add(forces[v], b, pulls[r]); });
+  return energy;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Array<int> Weighted_rows::order() const
+{
+  Array<int> rows(m_weights.size());
+  for(int r = 0; r < size(); ++r)
+    rows[r] = r;
+  std::sort(rows.begin(), rows.end(),
+            [this](int r, int s) { return is_less(*this, r, *this, s); });
+  return rows;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Weighted_rows::is_less(const Weighted_rows& a, int r, const Weighted_rows& b, int s)
+{
+  const int a_begin = a.m_vertices.begin[r], a_end = a.m_vertices.begin[r + 1];
+  const int b_begin = b.m_vertices.begin[s], b_end = b.m_vertices.begin[s + 1];
+  if(a_end - a_begin != b_end - b_begin)
+    return a_end - a_begin < b_end - b_begin;
+  for(int k = a_begin, l = b_begin; k < a_end; ++k, ++l)
+  {
+    const auto left = std::tie(a.m_vertices.items[k], a.m_coefficients[k]);
+    const auto right = std::tie(b.m_vertices.items[l], b.m_coefficients[l]);
+    if(left != right)
+      return left < right;
+  }
+  return a.m_weights[r] < b.m_weights[s];
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+std::size_t Constraints::number_of_free_vertices() const
+{
+  return static_cast<std::size_t>(std::count(is_fixed.begin(), is_fixed.end(), 0));
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Targets::project(const Weighted_rows& rows, const std::vector<Coordinates>& x)
+{
+  for(const Set& set : sets)
+    soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Targets::add_soft(const Coordinates& target)
+{
+  soft.push_back(target);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Targets::add_hard(const Coordinates& target)
+{
+  hard.push_back(target);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Targets::add_set(std::function<Coordinates(const Coordinates&)> projection)
+{
+  sets.push_back({static_cast<int>(soft.size()) - 1, std::move(projection)});
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Targets::add_frame(int vertex, const Matrix_3x3& rotation)
+{
+  frames.push_back({vertex, rotation});
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_CONSTRAINTS_CONSTRAINTS_IMPL_H

@@ -1,0 +1,117 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_CONSTRAINTS_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_CONSTRAINTS_IMPL_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
+#include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+CGAL_ARAP_INLINE_FUNCTION
+Region_constraints::Region_constraints(Deformation_core& core) : m_core(core)
+{
+  m_constraints.is_fixed = Array<char>(core.region().number_of_movable_vertices, false);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Region_constraints::~Region_constraints() = default;
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::fix(int v)
+{
+  m_constraints.is_fixed[v] = true;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::pull(int v, double weight)
+{
+  m_constraints.rows.append(v, weight);
+  m_rows.soft_vertices.push_back(v);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::fix(Control_point point, const std::vector<int>& corners,
+                             const std::vector<double>& coefficients)
+{
+  append(corners, coefficients, std::numeric_limits<double>::infinity(), m_constraints.hard_rows);
+  m_rows.hard_points.push_back(point);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::pull(Control_point point, const std::vector<int>& corners,
+                              const std::vector<double>& coefficients, double weight)
+{
+  append(corners, coefficients, weight, m_constraints.rows);
+  m_rows.soft_points.push_back(point);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::append(const std::vector<int>& corners,
+                                const std::vector<double>& coefficients, double weight,
+                                Weighted_rows& rows) const
+{
+  Array<int> movable_corners;
+  Array<double> their_coefficients;
+  for(std::size_t k = 0; k < corners.size(); ++k)
+    if(0 <= corners[k] && corners[k] < m_core.region().number_of_movable_vertices)
+    {
+      movable_corners.push_back(corners[k]);
+      their_coefficients.push_back(coefficients[k]);
+    }
+  rows.append(movable_corners, their_coefficients, weight);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::add_inertia(double weight)
+{
+  Array<double>& contents = m_rows.contents;
+  contents = contents_at_centres(m_core.region());
+  contents.resize(m_constraints.is_fixed.size());
+  for(int v = 0; v < static_cast<int>(contents.size()); ++v)
+    if(m_constraints.is_fixed[v])
+      contents[v] = 0;
+    else if(contents[v] > 0)
+    {
+      m_constraints.rows.append(v, weight * contents[v]);
+      m_constraints.inertia += weight * contents[v];
+    }
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Region_constraints::add_isolated_control(std::size_t index)
+{
+  m_rows.isolated_controls.push_back(index);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Region_constraints::prepare(Unconstrained_components unconstrained,
+                                      unsigned int number_of_threads, Stages& stages)
+{
+  return m_core.set_constraints(std::move(m_constraints), unconstrained, number_of_threads, stages);
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_REGION_CONSTRAINTS_IMPL_H
