@@ -25,7 +25,9 @@
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/Run_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
 

@@ -44,8 +44,8 @@ struct Domain_region : Numbered_region
   // Collects the region of the given movable vertices, which are distinct, for cells of the stars
   // within `cell_rings` rings; positions are filled in later. Movable vertices are numbered in
   // breadth-first order, so that what is near in the mesh is near in memory. Returns false if there
-  // is something that is not a simplex, or has too many corners: refused_vertex() is at it, and
-  // refusal() says which.
+  // is something that is not a simplex, or has too many corners: refused_vertex() is the index of
+  // the vertex where, and refusal() says which.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices,
                int cell_rings = 0)
   {
@@ -99,9 +99,6 @@ struct Domain_region : Numbered_region
     const auto found = std::find(begin, end, s);
     return found == end ? -1 : static_cast<int>(found - simplices.begin());
   }
-
-  // the vertex at whose faces collect() stopped
-  vertex_descriptor refused_vertex() const { return vertices[first_simplex.size() - 1]; }
 
 private:
   int number(const Domain& domain, vertex_descriptor v)

@@ -36,8 +36,9 @@ public:
   Array<int> first_simplex;
   Paged_index_map numbers; // from the index in the mesh to the number in the region
 
-  // what is wrong with the last simplex, if is_refused()
+  // what is wrong with the last simplex, if it is refused, and the index of a vertex of it
   Status refusal() const { return m_refusal; }
+  std::size_t refused_vertex() const { return flat.indices[first_simplex.size() - 1]; }
 
 protected:
   // a movable vertex, which gets a number when it is found

@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
@@ -29,7 +30,6 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -48,26 +48,16 @@ struct Cell_rotations
 
 // A region with its positions and its core.
 template <typename Domain>
-struct Built_region
+struct Built_region : Built_core
 {
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
-  using Models = std::function<Core_models()>; // makes those of one region
 
-  std::size_t numbering; // of the vertices: no other region has the same
   // without its flat part, which the core owns
   std::shared_ptr<Domain_region<Domain>> region = std::make_shared<Domain_region<Domain>>();
-  Array<Coordinates> positions;
-  std::unique_ptr<Deformation_core> core;
-  bool is_whole; // whether all of the region of interest is movable
 
-  Built_region(std::size_t number, bool is_whole_) : numbering(number), is_whole(is_whole_) {}
-
-  bool is_movable(int v) const
-  {
-    return v >= 0 && v < core->region().number_of_movable_vertices;
-  }
+  using Built_core::Built_core;
 
   // Collects the region, in the rest shape and at the present points, and computes what depends on
   // it alone.
@@ -75,38 +65,32 @@ struct Built_region
                const Options& options, const Session_rules& rules)
   {
     const Domain& domain = vertices.domain();
-    const auto name = [&](vertex_descriptor v) { return vertex_name(domain.index(v)); };
     std::vector<vertex_descriptor> movable = vertices.select([&](const auto& e) {
       return e.is_roi && (is_whole || !vertices.is_hard_control(e));
     });
     if(!is_whole)
       append_neighbours(vertices, movable);
     if(!region->collect(domain, movable, static_cast<int>(options.cells.rings())))
-      return outcome(region->refusal(), name(region->refused_vertex()));
+      return outcome_of_vertex(region->refusal(), region->refused_vertex());
 
-    positions.reserve(region->vertices.size());
-    region->flat.rest.reserve(region->vertices.size());
     for(vertex_descriptor v : region->vertices)
     {
       const auto* entry = vertices.find(v);
       if(entry && !entry->is_roi && rules.are_erased_put_back)
       {
         const Point point = entry->was_roi ? entry->rest : domain.point(v);
-        positions.push_back(Domain::coordinates(point));
-        region->flat.rest.push_back(positions.back());
-        continue;
+        add_points(Domain::coordinates(point), Domain::coordinates(point), region->flat);
       }
-      positions.push_back(Domain::coordinates(vertices.present(v)));
-      region->flat.rest.push_back(Domain::coordinates(vertices.rest(v)));
+      else
+        add_points(Domain::coordinates(vertices.present(v)), Domain::coordinates(vertices.rest(v)),
+                   region->flat);
     }
     if(const int v = find_non_finite(positions); v >= 0)
-      return outcome(Status::non_finite_point, name(region->vertices[v]));
+      return outcome_of_vertex(Status::non_finite_point, region->flat.indices[v]);
     Energy_model model;
     if(Outcome filled = values.fill_in(model, options, domain, *region, region->flat); !filled)
       return filled;
-    core = std::make_unique<Deformation_core>(
-      models(), std::move(region->flat), std::move(model), rules.order, options.threads);
-    return explain(core->diagnosis(), domain);
+    return make_core(models, region->flat, model, rules.order, options);
   }
 
   // with the weight of the inertia of a unit of area or volume, or 0
@@ -145,32 +129,28 @@ struct Built_region
       constraints.add_inertia(inertia);
   }
 
-  // The rotations that these cells have elsewhere, the identity where they have none. None if there
-  // are none.
-  Array<Matrix_3x3> rotations_from(const Cell_rotations<Domain>& from, const Domain& domain) const
+  // The rotations that these cells have in another region, the identity where they have none. None
+  // if there are none.
+  Array<Matrix_3x3> rotations_from(const Domain_region<Domain>& other,
+                                   const Array<Matrix_3x3>& others, const Domain& domain) const
   {
-    if(!from.region || from.rotations.empty())
+    if(others.empty())
       return {};
     Array<Matrix_3x3> rotations(core->number_of_cells(), identity_matrix());
     const bool are_at_vertices = core->has_vertex_cells();
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(const int old = are_at_vertices
-                           ? from.region->find_vertex(domain, region->vertices[c])
-                           : from.region->find_simplex(domain, region->simplices[c]);
-         old >= 0 && old < static_cast<int>(from.rotations.size()))
-        rotations[c] = from.rotations[old];
+                           ? other.find_vertex(domain, region->vertices[c])
+                           : other.find_simplex(domain, region->simplices[c]);
+         old >= 0 && old < static_cast<int>(others.size()))
+        rotations[c] = others[old];
     return rotations;
   }
 
-  // a sentence on what the core found
-  Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
+  void take_rotations(const Domain_region<Domain>& other, const Array<Matrix_3x3>& others,
+                      const Domain& domain)
   {
-    if(diagnosis.vertex >= 0)
-      return outcome(diagnosis.status,
-                     vertex_name(domain.index(region->vertices[diagnosis.vertex])));
-    if(diagnosis.simplex < 0)
-      return outcome(diagnosis.status);
-    return outcome(diagnosis.status, simplex_name(core->region(), diagnosis.simplex));
+    core->set_rotations(rotations_from(other, others, domain));
   }
 
 private:

@@ -47,7 +47,7 @@ public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Point = typename Domain::Point;
   using Vertices = Session_vertices<Domain>;
-  using Models = typename Built_region<Domain>::Models;
+  using Models = Built_core::Models;
 
   // Of the sets of vertices, with all that the stages depend on: what has the same version is the
   // same.
@@ -56,13 +56,16 @@ public:
     std::size_t region, values, constraints;
   };
 
-  explicit Prepared_region(const Session_rules& rules) : m_rules(rules) {}
+  Prepared_region(const Session_rules& rules, Models models)
+    : m_rules(rules), m_models(std::move(models))
+  {}
 
   // Whether there is a region for the present region of interest, cells and rest shape.
   bool has_region() const { return has_region_of(m_present); }
 
   // These need has_region().
   const Domain_region<Domain>& region() const { return *m_prepared->region; }
+  Built_core& built() { return *m_prepared; }
   Deformation_core& core() { return *m_prepared->core; }
   const Deformation_core& core() const { return *m_prepared->core; }
 
@@ -83,8 +86,7 @@ public:
       {
         m_prepared->positions[v] = Domain::coordinates(domain.point(region().vertices[v]));
         if(!is_finite(m_prepared->positions[v]))
-          return outcome(Status::non_finite_point,
-                         vertex_name(domain.index(region().vertices[v])));
+          return outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
       }
     return outcome(Status::success);
   }
@@ -133,8 +135,8 @@ public:
   }
 
   // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
-  Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
-                  const Options& options, Stages& stages)
+  Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
+                  Stages& stages)
   {
     if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
     {
@@ -147,14 +149,14 @@ public:
       core().update_weights(std::move(model), options.threads);
       if(core().diagnosis().status != Status::success)
       {
-        m_outcome = explain(core().diagnosis(), vertices.domain());
+        m_outcome = m_prepared->explain(core().diagnosis());
         m_ready.region = none;
         return m_outcome;
       }
       m_ready.values = m_present.values;
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
-      m_outcome = update(vertices, values, models, options, stages);
+      m_outcome = update(vertices, values, options, stages);
     return m_outcome;
   }
 
@@ -201,7 +203,9 @@ public:
     for(std::size_t k = 0; k < positions.size(); ++k)
       if(const auto* entry = find_entry(region().vertices[k]))
         positions[k] = Domain::coordinates(entry->present);
-    state.cells.rotations = m_prepared->rotations_from(state.cells, domain);
+    if(state.cells.region)
+      state.cells.rotations =
+        m_prepared->rotations_from(*state.cells.region, state.cells.rotations, domain);
     state.positions.swap(positions);
   }
 
@@ -224,12 +228,6 @@ public:
     core().set_rotations(std::move(state.cells.rotations));
   }
 
-  // a sentence on what the core found
-  Outcome explain(const Diagnosis& diagnosis, const Domain& domain) const
-  {
-    return m_prepared->explain(diagnosis, domain);
-  }
-
 private:
   static constexpr std::size_t none = 0; // no version
 
@@ -238,8 +236,8 @@ private:
     return m_prepared && m_ready.region == present.region;
   }
 
-  Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Models& models,
-                 const Options& options, Stages& stages)
+  Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
+                 Stages& stages)
   {
     m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
     m_ready.constraints = none; // a failure may have released the factor
@@ -264,27 +262,21 @@ private:
         m_prepared->core->release_factor(); // there are never two
       next = std::make_unique<Built_region<Domain>>(++m_last_numbering,
                                                     is_whole(roi_size, number_of_fixed));
-      if(Outcome made = next->make(vertices, values, models, options, m_rules); !made)
+      if(Outcome made = next->make(vertices, values, m_models, options, m_rules); !made)
         return made;
-      const bool are_kept =
-        m_prepared && (m_rules.are_targets_and_rotations_kept || has_region());
-      next->core->set_rotations(next->rotations_from(
-        are_kept ? Cell_rotations<Domain>{m_prepared->region, core().rotations()} : m_restored,
-        vertices.domain()));
+      if(m_prepared && (m_rules.are_targets_and_rotations_kept || has_region()))
+        next->take_rotations(*m_prepared->region, core().rotations(), vertices.domain());
+      else if(m_restored.region)
+        next->take_rotations(*m_restored.region, m_restored.rotations, vertices.domain());
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
-    Region_constraints constraints(*prepared.core);
+    Region_constraints constraints(prepared);
     prepared.collect_constraints(vertices, m_rules, m_inertia, constraints);
-    const Diagnosis diagnosis = constraints.prepare(
+    Outcome result = constraints.prepare(
       m_rules.are_unconstrained_refused ? Unconstrained_components::refused
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
       options.threads, stages);
-    if(diagnosis.hard_row >= 0)
-      return outcome(diagnosis.status,
-                     control_point_name(constraints.rows().hard_points[
-                       static_cast<std::size_t>(diagnosis.hard_row)]));
-    Outcome result = prepared.explain(diagnosis, vertices.domain());
     if(!result)
       return result;
     if(next)
@@ -329,6 +321,7 @@ private:
   }
 
   Session_rules m_rules;
+  Models m_models;
   Outcome m_outcome;
   std::unique_ptr<Built_region<Domain>> m_prepared; // what was last prepared with success
   Cell_rotations<Domain> m_restored; // those of a state, until there is a region for it again

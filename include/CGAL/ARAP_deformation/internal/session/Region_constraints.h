@@ -20,8 +20,11 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -39,12 +42,15 @@ struct Region_rows
   std::vector<std::size_t> isolated_controls; // those without an incident simplex, by index
 };
 
+// what a soft row is about
+std::string name_of_soft_row(const Region_rows& rows, const Region& region, int row);
+
 // The constraints of a region while they are collected: first those of its movable vertices, then
 // those of control points, and inertia last.
 class Region_constraints
 {
 public:
-  explicit Region_constraints(Deformation_core& core);
+  explicit Region_constraints(Built_core& core);
   ~Region_constraints();
 
   void fix(int v);
@@ -64,8 +70,8 @@ public:
   void add_isolated_control(std::size_t index);
 
   // prepares the core for these constraints, which are gone then
-  Diagnosis prepare(Unconstrained_components unconstrained, unsigned int number_of_threads,
-                    Stages& stages);
+  Outcome prepare(Unconstrained_components unconstrained, unsigned int number_of_threads,
+                  Stages& stages);
 
   Region_rows& rows() { return m_rows; }
 
@@ -73,7 +79,7 @@ private:
   void append(const std::vector<int>& corners, const std::vector<double>& coefficients,
               double weight, Weighted_rows& rows) const;
 
-  Deformation_core& m_core;
+  Built_core& m_core;
   Constraints m_constraints;
   Region_rows m_rows;
 };

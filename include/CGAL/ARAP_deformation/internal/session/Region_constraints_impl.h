@@ -17,9 +17,11 @@
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,9 +30,17 @@ namespace ARAP {
 namespace internal {
 
 CGAL_ARAP_INLINE_FUNCTION
-Region_constraints::Region_constraints(Deformation_core& core) : m_core(core)
+std::string name_of_soft_row(const Region_rows& rows, const Region& region, int row)
 {
-  m_constraints.is_fixed = Array<char>(core.region().number_of_movable_vertices, false);
+  const auto r = static_cast<std::size_t>(row), n = rows.soft_vertices.size();
+  return r < n ? vertex_name(region.indices[rows.soft_vertices[r]])
+               : control_point_name(rows.soft_points[r - n]);
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Region_constraints::Region_constraints(Built_core& core) : m_core(core)
+{
+  m_constraints.is_fixed = Array<char>(core.core->region().number_of_movable_vertices, false);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -73,7 +83,7 @@ void Region_constraints::append(const std::vector<int>& corners,
   Array<int> movable_corners;
   Array<double> their_coefficients;
   for(std::size_t k = 0; k < corners.size(); ++k)
-    if(0 <= corners[k] && corners[k] < m_core.region().number_of_movable_vertices)
+    if(m_core.is_movable(corners[k]))
     {
       movable_corners.push_back(corners[k]);
       their_coefficients.push_back(coefficients[k]);
@@ -85,7 +95,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Region_constraints::add_inertia(double weight)
 {
   Array<double>& contents = m_rows.contents;
-  contents = contents_at_centres(m_core.region());
+  contents = contents_at_centres(m_core.core->region());
   contents.resize(m_constraints.is_fixed.size());
   for(int v = 0; v < static_cast<int>(contents.size()); ++v)
     if(m_constraints.is_fixed[v])
@@ -104,10 +114,15 @@ void Region_constraints::add_isolated_control(std::size_t index)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-Diagnosis Region_constraints::prepare(Unconstrained_components unconstrained,
-                                      unsigned int number_of_threads, Stages& stages)
+Outcome Region_constraints::prepare(Unconstrained_components unconstrained,
+                                    unsigned int number_of_threads, Stages& stages)
 {
-  return m_core.set_constraints(std::move(m_constraints), unconstrained, number_of_threads, stages);
+  const Diagnosis diagnosis = m_core.core->set_constraints(
+    std::move(m_constraints), unconstrained, number_of_threads, stages);
+  if(diagnosis.hard_row >= 0)
+    return outcome(diagnosis.status, control_point_name(m_rows.hard_points[
+                     static_cast<std::size_t>(diagnosis.hard_row)]));
+  return m_core.explain(diagnosis);
 }
 
 } // namespace internal

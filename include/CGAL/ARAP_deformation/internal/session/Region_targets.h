@@ -25,7 +25,6 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -47,19 +46,18 @@ public:
     : m_vertices(vertices), m_prepared(prepared)
   {}
 
-  // The positions at which a run starts, with the hard control vertices at their targets, and the
-  // targets of the others.
+  // Moves the hard control vertices to their targets, and reads the targets of the others.
   Outcome read(Array<Coordinates>& positions, Targets& targets) const
   {
     const auto& region = m_prepared.region();
-    positions = m_prepared.positions();
     for(const auto& entry : m_vertices.entries())
     {
       if(!entry.is_control)
         continue;
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(!is_finite(target))
-        return outcome(Status::non_finite_point, "the target of " + name(entry.vertex));
+        return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex),
+                                 "the target of ");
       const int v = region.find_vertex(domain(), entry.vertex);
       if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
@@ -73,7 +71,7 @@ public:
       {
         const auto& held = m_vertices.points().at(point);
         if(!is_finite(Domain::coordinates(held.target.point)))
-          return outcome(Status::non_finite_point, "the target of " + name(point));
+          return outcome(Status::non_finite_point, "the target of " + control_point_name(point));
         const Coordinates fixed = fixed_share(held, positions);
         if(points == &rows.soft_points)
           append_target(held.target, fixed, targets);
@@ -100,8 +98,8 @@ public:
       step.goals[v] = step.goal(vertex, positions[v],
                                 m_vertices.velocity(m_vertices.find(vertex)), contents[v]);
       if(!is_finite(step.goals[v]))
-        return outcome(Status::non_finite_point,
-                       "where velocity and forces take " + name(vertex));
+        return outcome_of_vertex(Status::non_finite_point, domain().index(vertex),
+                                 "where velocity and forces take ");
       targets.add_soft(step.goals[v]);
     }
     positions = step.goals;
@@ -127,15 +125,6 @@ public:
       velocities[k] = scaled(way, 1 / step.dynamics.time_step);
     }
     return velocities;
-  }
-
-  // what a soft row is about
-  std::string name_of_row(int r) const
-  {
-    const auto& rows = m_prepared.rows();
-    const std::size_t row = static_cast<std::size_t>(r), n = rows.soft_vertices.size();
-    return row < n ? name(m_prepared.region().vertices[rows.soft_vertices[row]])
-                   : name(rows.soft_points[row - n]);
   }
 
 private:
@@ -177,9 +166,6 @@ private:
   }
 
   const Domain& domain() const { return m_vertices.domain(); }
-
-  std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
-  std::string name(Control_point point) const { return control_point_name(point); }
 
   const Vertices& m_vertices;
   const Prepared& m_prepared;

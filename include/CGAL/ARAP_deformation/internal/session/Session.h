@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_targets.h>
+#include <CGAL/ARAP_deformation/internal/session/Run.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_history.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Time_step.h>
@@ -58,7 +59,7 @@ public:
   template <typename Traits>
   Session(Domain mesh, const Traits& traits, const Session_rules& rules = {},
           const Options& options = {})
-    : Base(std::move(mesh), rules, options), m_models([traits] { return core_models(traits); })
+    : Base(std::move(mesh), rules, options, [traits] { return core_models(traits); })
   {}
 
   Outcome preprocess()
@@ -141,7 +142,6 @@ protected:
   using Base::m_prepared;
   using Base::m_rules;
   using Base::m_vertices;
-  using Base::name;
   using Base::refuse_in_a_run;
   using Base::region_changed;
   using Base::takes_points;
@@ -167,7 +167,7 @@ private:
 
   Outcome prepare()
   {
-    return m_prepared.prepare(m_vertices, this->m_cell_values, m_models, m_options, m_stages);
+    return m_prepared.prepare(m_vertices, this->m_cell_values, m_options, m_stages);
   }
 
   // with a time step, if one is given, else at once
@@ -193,48 +193,38 @@ private:
       if(!prepared)
         return prepared;
     }
-    Deformation_core& core = m_prepared.core();
-    report.free_vertices = core.constraints().number_of_free_vertices();
-    report.simplices = static_cast<std::size_t>(core.region().number_of_simplices());
-    report.unconstrained_components = core.unconstrained_components();
-
-    Array<Coordinates> positions;
-    Targets targets;
+    Run run(m_prepared.built(), m_prepared.rows(), report);
     const Region_targets<Domain> reader(m_vertices, m_prepared);
     {
       Scoped_seconds seconds(report.seconds.transfer);
-      if(Outcome read = reader.read(positions, targets); !read)
+      if(Outcome read = reader.read(run.positions, run.targets); !read)
         return read;
       if(step)
-        if(Outcome begun = reader.begin(*step, positions, targets); !begun)
+        if(Outcome begun = reader.begin(*step, run.positions, run.targets); !begun)
           return begun;
     }
     const auto observe = [&](unsigned int iteration, double energy) {
-      return visitor(Iterate(*this, positions, iteration, energy));
+      return visitor(Iterate(*this, run.positions, iteration, energy));
     };
-    Array<Matrix_3x3> rotations = core.rotations();
     m_is_in_a_run = true;
-    const auto end_of_run = [](bool* flag) { *flag = false; };
-    const std::unique_ptr<bool, decltype(end_of_run)> run(&m_is_in_a_run, end_of_run);
-    const Diagnosis diagnosis = core.run(options, observe, targets, positions, rotations, report);
-    Outcome result = m_prepared.explain(diagnosis, domain());
-    for(const Targets::Set& set : targets.sets)
-      if(!is_finite(targets.soft[static_cast<std::size_t>(set.row)]))
-        return outcome(Status::non_finite_point, "the target of " + reader.name_of_row(set.row));
+    const auto end_of_run = [](bool* is_in_a_run) { *is_in_a_run = false; };
+    const std::unique_ptr<bool, decltype(end_of_run)> flag(&m_is_in_a_run, end_of_run);
+    Outcome result = run.run(options, observe, report);
     if(result)
     {
       if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
         result.message = "the energy changed by less than the tolerance in an iteration";
-      describe(result, report, step != nullptr);
+      add_remarks(result, report, m_prepared.roi_size() == 0,
+                  m_prepared.number_of_controls() == 0 && !step,
+                  m_prepared.rows().isolated_controls);
       Scoped_seconds seconds(report.seconds.transfer);
       Array<Coordinates> velocities;
       if(step)
-        velocities = reader.velocities_after(*step, positions);
-      write_points(positions);
+        velocities = reader.velocities_after(*step, run.positions);
+      write_points(run.positions);
       m_vertices.velocities().swap(velocities);
-      core.set_rotations(std::move(rotations));
+      run.finish(report);
       m_energy = report.energy.back();
-      report.inverted_simplices = core.number_of_inverted_simplices(m_prepared.positions());
     }
     return result;
   }
@@ -249,7 +239,8 @@ private:
     const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
     for(const auto& [k, point] : changed)
       if(!is_finite(Domain::coordinates(point)))
-        return outcome(Status::non_finite_point, name(m_vertices.entries()[k].vertex));
+        return outcome_of_vertex(Status::non_finite_point,
+                                 domain().index(m_vertices.entries()[k].vertex));
     for(const auto& [k, point] : changed)
     {
       Entry& entry = m_vertices.entries()[k];
@@ -262,18 +253,6 @@ private:
     }
     return m_prepared.has_region() ? m_prepared.take_points(m_vertices, changed)
                                    : outcome(Status::success);
-  }
-
-  // adds to the message what a user would not expect
-  void describe(Outcome& result, const Report& report, bool is_time_step) const
-  {
-    if(report.free_vertices == 0)
-      result.message = about_nothing_free(m_prepared.roi_size() == 0);
-    else if(m_prepared.number_of_controls() == 0 && !is_time_step)
-      result.message += "; there is no control vertex";
-    result.message += about_end(report);
-    result.message += about_isolated_controls(m_prepared.rows().isolated_controls);
-    result.message += about_unconstrained_components(report.unconstrained_components);
   }
 
   void write_points(Array<Coordinates>& positions)
@@ -328,7 +307,6 @@ private:
                                                                   : identity_matrix();
   }
 
-  std::function<Core_models()> m_models;
   Stages m_stages; // since the last run
 };
 

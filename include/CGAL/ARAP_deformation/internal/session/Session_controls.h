@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
@@ -60,8 +61,10 @@ public:
   using Entry = typename Vertices::Entry;
 
   // Options that are out of range are refused by what uses them.
-  Session_controls(Domain mesh, const Session_rules& rules, const Options& options)
-    : m_vertices(std::move(mesh)), m_rules(rules), m_options(options), m_prepared(rules)
+  Session_controls(Domain mesh, const Session_rules& rules, const Options& options,
+                   Built_core::Models models)
+    : m_vertices(std::move(mesh)), m_rules(rules), m_options(options),
+      m_prepared(rules, std::move(models))
   {}
 
   const Options& options() const { return m_options; }

@@ -35,16 +35,16 @@ std::string simplex_name(const Region& region, int simplex);
 // the end of a message if there are unconstrained components, given by their smallest vertices
 std::string about_unconstrained_components(const std::vector<std::size_t>& parts);
 
-// what of a message tells what a run left behind, and of an end that may be no minimum
-std::string about_end(const Report& report);
+// adds to the message of a run what a user would not expect
+void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bool has_no_control,
+                 const std::vector<std::size_t>& isolated_controls);
 
-std::string about_nothing_free(bool is_region_empty);
+// The outcome for a status; `what` names the vertex or the simplex concerned.
+Outcome outcome(Status status);
+Outcome outcome(Status status, const std::string& what);
 
-// the end of a message if there are control vertices without incident simplices
-std::string about_isolated_controls(const std::vector<std::size_t>& vertices);
-
-// The outcome for a status; `what` names the vertex or the simplex concerned, or is empty.
-Outcome outcome(Status status, const std::string& what = std::string());
+// the same for a vertex, given by its index; `what` goes before its name, as "the target of "
+Outcome outcome_of_vertex(Status status, std::size_t index, const char* what = "");
 
 } // namespace internal
 } // namespace ARAP

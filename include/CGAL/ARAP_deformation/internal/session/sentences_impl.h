@@ -54,8 +54,8 @@ std::string about_unconstrained_components(const std::vector<std::size_t>& parts
          " of " + vertex_name(parts.front());
 }
 
-CGAL_ARAP_INLINE_FUNCTION
-std::string about_end(const Report& report)
+// what a run left behind, and whether its end may be no minimum
+inline std::string about_end(const Report& report)
 {
   const auto number_of = [](unsigned int n, const std::string& what) {
     return n == 0 ? std::string()
@@ -70,16 +70,15 @@ std::string about_end(const Report& report)
   return text;
 }
 
-CGAL_ARAP_INLINE_FUNCTION
-std::string about_nothing_free(bool is_region_empty)
+inline std::string about_nothing_free(bool is_region_empty)
 {
   return std::string("nothing is free to move: ") +
          (is_region_empty ? "the region of interest is empty"
                           : "every vertex of the region of interest is fixed");
 }
 
-CGAL_ARAP_INLINE_FUNCTION
-std::string about_isolated_controls(const std::vector<std::size_t>& vertices)
+// the end of a message if there are control vertices without incident simplices
+inline std::string about_isolated_controls(const std::vector<std::size_t>& vertices)
 {
   if(vertices.empty())
     return std::string();
@@ -90,6 +89,18 @@ std::string about_isolated_controls(const std::vector<std::size_t>& vertices)
 }
 
 // the sentence for a status, or what follows the name of the vertex or the simplex concerned
+CGAL_ARAP_INLINE_FUNCTION
+void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bool has_no_control,
+                 const std::vector<std::size_t>& isolated_controls)
+{
+  if(report.free_vertices == 0)
+    result.message = about_nothing_free(is_region_empty);
+  else if(has_no_control)
+    result.message += "; there is no control vertex";
+  result.message += about_end(report) + about_isolated_controls(isolated_controls) +
+                    about_unconstrained_components(report.unconstrained_components);
+}
+
 inline const char* sentence(Status status, const std::string& what)
 {
   switch(status)
@@ -162,6 +173,18 @@ CGAL_ARAP_INLINE_FUNCTION
 Outcome outcome(Status status, const std::string& what)
 {
   return Outcome(status, what + sentence(status, what));
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Outcome outcome(Status status)
+{
+  return outcome(status, std::string());
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Outcome outcome_of_vertex(Status status, std::size_t index, const char* what)
+{
+  return outcome(status, what + vertex_name(index));
 }
 
 } // namespace internal
