@@ -26,6 +26,7 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/Insertions_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Run_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>

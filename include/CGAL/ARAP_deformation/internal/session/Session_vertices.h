@@ -19,11 +19,11 @@
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Insertions.h>
 #include <CGAL/ARAP_deformation/internal/session/Surroundings.h>
 
 #include <CGAL/assertions.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -296,19 +296,15 @@ public:
   template <typename Predicate>
   std::vector<vertex_descriptor> select(const Predicate& predicate) const
   {
-    std::vector<const Entry*> entries;
-    for(const Entry& entry : m_entries)
-      if(predicate(entry))
-        entries.push_back(&entry);
-    const auto is_before = [](const Entry* a, const Entry* b) {
-      return a->insertion < b->insertion;
-    };
-    if(!std::is_sorted(entries.begin(), entries.end(), is_before))
-      std::sort(entries.begin(), entries.end(), is_before);
+    Insertions insertions;
+    for(std::size_t k = 0; k < m_entries.size(); ++k)
+      if(predicate(m_entries[k]))
+        insertions.add(m_entries[k].insertion, k);
+    const std::vector<std::size_t> places = insertions.places_in_order();
     std::vector<vertex_descriptor> selected;
-    selected.reserve(entries.size());
-    for(const Entry* entry : entries)
-      selected.push_back(entry->vertex);
+    selected.reserve(places.size());
+    for(std::size_t k : places)
+      selected.push_back(m_entries[k].vertex);
     return selected;
   }
 
