@@ -29,6 +29,7 @@
 #include <CGAL/ARAP_deformation/internal/session/Insertions_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Run_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/Time_step_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
 

@@ -25,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace CGAL {
@@ -41,6 +42,7 @@ public:
   using Vertices = Session_vertices<Domain>;
   using Entry = typename Vertices::Entry;
   using Prepared = Prepared_region<Domain>;
+  using Force = std::function<Coordinates(vertex_descriptor)>; // none if it is empty
 
   Region_targets(const Vertices& vertices, const Prepared& prepared)
     : m_vertices(vertices), m_prepared(prepared)
@@ -83,7 +85,7 @@ public:
   }
 
   // Moves the free vertices to where their inertia takes them, which the last soft rows ask for.
-  Outcome begin(Time_step<vertex_descriptor>& step, Array<Coordinates>& positions,
+  Outcome begin(Time_step& step, const Force& force, Array<Coordinates>& positions,
                 Targets& targets) const
   {
     const auto& region = m_prepared.region();
@@ -95,8 +97,9 @@ public:
       if(contents[v] == 0)
         continue;
       const vertex_descriptor vertex = region.vertices[v];
-      step.goals[v] = step.goal(vertex, positions[v],
-                                m_vertices.velocity(m_vertices.find(vertex)), contents[v]);
+      step.goals[v] = step.goal(positions[v], m_vertices.velocity(m_vertices.find(vertex)));
+      if(force)
+        add(step.goals[v], step.mobility(contents[v]), force(vertex));
       if(!is_finite(step.goals[v]))
         return outcome_of_vertex(Status::non_finite_point, domain().index(vertex),
                                  "where velocity and forces take ");
@@ -107,7 +110,7 @@ public:
   }
 
   // Of all entries; hard control vertices are moved to their targets at once
-  Array<Coordinates> velocities_after(const Time_step<vertex_descriptor>& step,
+  Array<Coordinates> velocities_after(const Time_step& step,
                                       const Array<Coordinates>& positions) const
   {
     const std::vector<Entry>& entries = m_vertices.entries();

@@ -32,7 +32,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -54,6 +53,7 @@ public:
   using typename Base::vertex_descriptor;
   using Iterate = internal::Iterate<Session>;
   using Visitor = std::function<Visitor_action(const Iterate&)>;
+  using Force = typename Region_targets<Domain>::Force;
 
   // One type for all traits: their models are handed out for each region.
   template <typename Traits>
@@ -79,27 +79,30 @@ public:
 
   Report deform(unsigned int iterations, double tolerance, const Visitor& visitor)
   {
+    Options options = m_options;
+    options.iterations = iterations;
+    options.tolerance = tolerance;
     Report report;
     {
       Scoped_seconds total(report.seconds.total);
-      static_cast<Outcome&>(report) = deform(iterations, tolerance, visitor, report);
+      static_cast<Outcome&>(report) = deform(options, visitor, report);
     }
     return report;
   }
 
-  // A time step with these forces, or none if the function is empty.
-  Step_report advance(const Dynamics& dynamics, std::function<Coordinates(vertex_descriptor)> force,
-                      const Visitor& visitor)
+  // a time step with these forces
+  Step_report advance(const Dynamics& dynamics, const Force& force, const Visitor& visitor)
   {
     Step_report report;
     static_cast<Outcome&>(report) = dynamics.check();
     if(!report)
       return report;
-    Time_step<vertex_descriptor> step = {dynamics, std::move(force)};
+    Options options = m_options;
+    options.initial_guess = Initial_guess::previous;
+    Time_step step = {dynamics};
     {
       Scoped_seconds total(report.seconds.total);
-      static_cast<Outcome&>(report) =
-        deform(m_options.iterations, m_options.tolerance, visitor, report, &step);
+      static_cast<Outcome&>(report) = advance(step, force, options, visitor, report);
       if(!report)
         return report;
       Scoped_seconds seconds(report.seconds.transfer);
@@ -165,68 +168,107 @@ protected:
 private:
   friend Iterate;
 
+  // sets a flag from its construction to its destruction
+  class Scoped_flag
+  {
+  public:
+    explicit Scoped_flag(bool& flag) : m_flag(flag) { m_flag = true; }
+    Scoped_flag(const Scoped_flag&) = delete;
+    Scoped_flag& operator=(const Scoped_flag&) = delete;
+    ~Scoped_flag() { m_flag = false; }
+
+  private:
+    bool& m_flag;
+  };
+
   Outcome prepare()
   {
     return m_prepared.prepare(m_vertices, this->m_cell_values, m_options, m_stages);
   }
 
-  // with a time step, if one is given, else at once
-  Outcome deform(unsigned int iterations, double tolerance, const Visitor& visitor, Report& report,
-                 Time_step<vertex_descriptor>* step = nullptr)
+  Outcome deform(const Options& options, const Visitor& visitor, Report& report)
   {
-    if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    Options options = m_options;
-    options.iterations = iterations;
-    options.tolerance = tolerance;
-    if(step)
-      options.initial_guess = Initial_guess::previous;
-    if(Outcome checked = options.check(); !checked)
-      return checked;
-    if(Outcome taken = take_points_of_others(report); !taken)
-      return taken;
-    {
-      Scoped_seconds seconds(report.seconds.preprocess);
-      m_prepared.set_inertia(step ? step->inertia() : 0);
-      const Outcome prepared = prepare();
-      report.stages = std::exchange(m_stages, {});
-      if(!prepared)
-        return prepared;
-    }
+    if(Outcome begun = begin(options, 0, report); !begun)
+      return begun;
     Run run(m_prepared.built(), m_prepared.rows(), report);
     const Region_targets<Domain> reader(m_vertices, m_prepared);
     {
       Scoped_seconds seconds(report.seconds.transfer);
       if(Outcome read = reader.read(run.positions, run.targets); !read)
         return read;
-      if(step)
-        if(Outcome begun = reader.begin(*step, run.positions, run.targets); !begun)
-          return begun;
     }
+    const Scoped_flag in_a_run(m_is_in_a_run);
+    Outcome result = execute(run, options, visitor, report);
+    if(result)
+    {
+      add_remarks(result, report, m_prepared.roi_size() == 0, m_prepared.number_of_controls() == 0,
+                  m_prepared.rows().isolated_controls);
+      Scoped_seconds seconds(report.seconds.transfer);
+      finish(run, {}, report);
+    }
+    return result;
+  }
+
+  Outcome advance(Time_step& step, const Force& force, const Options& options,
+                  const Visitor& visitor, Report& report)
+  {
+    if(Outcome begun = begin(options, step.inertia(), report); !begun)
+      return begun;
+    Run run(m_prepared.built(), m_prepared.rows(), report);
+    const Region_targets<Domain> reader(m_vertices, m_prepared);
+    {
+      Scoped_seconds seconds(report.seconds.transfer);
+      if(Outcome read = reader.read(run.positions, run.targets); !read)
+        return read;
+      if(Outcome begun = reader.begin(step, force, run.positions, run.targets); !begun)
+        return begun;
+    }
+    const Scoped_flag in_a_run(m_is_in_a_run);
+    Outcome result = execute(run, options, visitor, report);
+    if(result)
+    {
+      add_remarks(result, report, m_prepared.roi_size() == 0, false,
+                  m_prepared.rows().isolated_controls);
+      Scoped_seconds seconds(report.seconds.transfer);
+      finish(run, reader.velocities_after(step, run.positions), report);
+    }
+    return result;
+  }
+
+  // brings everything up to date for a run with these options and this inertia
+  Outcome begin(const Options& options, double inertia, Report& report)
+  {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    if(Outcome checked = options.check(); !checked)
+      return checked;
+    if(Outcome taken = take_points_of_others(report); !taken)
+      return taken;
+    Scoped_seconds seconds(report.seconds.preprocess);
+    m_prepared.set_inertia(inertia);
+    Outcome prepared = prepare();
+    report.stages = std::exchange(m_stages, {});
+    return prepared;
+  }
+
+  Outcome execute(Run& run, const Options& options, const Visitor& visitor, Report& report)
+  {
     const auto observe = [&](unsigned int iteration, double energy) {
       return visitor(Iterate(*this, run.positions, iteration, energy));
     };
-    m_is_in_a_run = true;
-    const auto end_of_run = [](bool* is_in_a_run) { *is_in_a_run = false; };
-    const std::unique_ptr<bool, decltype(end_of_run)> flag(&m_is_in_a_run, end_of_run);
     Outcome result = run.run(options, observe, report);
-    if(result)
-    {
-      if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
-        result.message = "the energy changed by less than the tolerance in an iteration";
-      add_remarks(result, report, m_prepared.roi_size() == 0,
-                  m_prepared.number_of_controls() == 0 && !step,
-                  m_prepared.rows().isolated_controls);
-      Scoped_seconds seconds(report.seconds.transfer);
-      Array<Coordinates> velocities;
-      if(step)
-        velocities = reader.velocities_after(*step, run.positions);
-      write_points(run.positions);
-      m_vertices.velocities().swap(velocities);
-      run.finish(report);
-      m_energy = report.energy.back();
-    }
+    if(result.status == Status::converged && m_rules.order == Minimization_order::global_first)
+      result.message = "the energy changed by less than the tolerance in an iteration";
     return result;
+  }
+
+  // takes over what a run has led to
+  void finish(Run& run, Array<Coordinates> velocities, Report& report)
+  {
+    write_points(run.positions);
+    m_vertices.velocities().swap(velocities);
+    run.finish(report);
+    m_energy = report.energy.back();
   }
 
   // Points that others have moved are where the run starts, or fixed there: undo by writing back
@@ -296,6 +338,7 @@ private:
     }
     return points;
   }
+
   template <typename FindCell>
   Matrix_3x3 rotation_of_cell(bool has_cell, const FindCell& find_cell) const
   {

@@ -17,12 +17,7 @@
 #include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-
-#include <cstddef>
-#include <functional>
-#include <utility>
-#include <vector>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
 
 namespace CGAL {
 namespace ARAP {
@@ -32,64 +27,33 @@ namespace internal {
 // v' = (x' - x) / h and f has the elastic force -mu grad E(x'), x' minimizes
 //   E(x') + sum_v w_v || x'_v - y_v ||^2,   w_v = m_v (1 + d h) / (2 mu h^2),
 // and y_v is where the vertex would go without E.
-template <typename Vertex>
 struct Time_step
 {
   Dynamics dynamics;
-  std::function<Coordinates(Vertex)> force; // none if it is empty
   Array<Coordinates> start = {}, goals = {}; // x and y, of the vertices of the region
 
   double damping() const { return 1 + dynamics.damping * dynamics.time_step; }
 
   // w_v for a unit of area or volume
-  double inertia() const
-  {
-    return dynamics.density * damping() /
-           (2 * dynamics.modulus * dynamics.time_step * dynamics.time_step);
-  }
+  double inertia() const;
 
-  // y_v of a vertex at x with its share in the area or volume
-  Coordinates goal(Vertex v, Coordinates x, const Coordinates& velocity, double content) const
-  {
-    const double h = dynamics.time_step;
-    add(x, h / damping(), velocity);
-    add(x, h * h / damping(), dynamics.acceleration);
-    if(force)
-      add(x, h * h / (damping() * dynamics.density * content), force(v));
-    return x;
-  }
+  // y_v of a vertex at x without a force of its own
+  Coordinates goal(Coordinates x, const Coordinates& velocity) const;
+
+  // what a force adds to y_v, over the force, for a share in the area or volume
+  double mobility(double content) const;
 
   // Fills in the motion after the step, with these energies.
   void measure(const Array<double>& contents, const Array<Coordinates>& x,
-               Step_report& report) const
-  {
-    const auto for_each = [&](const auto& f) { // f(v, m_v, v_v)
-      for(std::size_t v = 0; v < contents.size(); ++v)
-        if(contents[v] > 0)
-          f(v, dynamics.density * contents[v],
-            scaled(difference(x[v], start[v]), 1 / dynamics.time_step));
-    };
-    double inertia_energy = 0;
-    for_each([&](std::size_t v, double mass, const Coordinates& velocity) {
-      report.mass += mass;
-      add(report.center_of_mass, mass, x[v]);
-      add(report.momentum, mass, velocity);
-      report.kinetic_energy += 0.5 * mass * dot(velocity, velocity);
-      const Coordinates residual = difference(x[v], goals[v]);
-      inertia_energy += inertia() * contents[v] * dot(residual, residual);
-    });
-    report.elastic_energy = dynamics.modulus * (report.final_energy() - inertia_energy);
-    if(!(report.mass > 0))
-      return;
-    report.center_of_mass = scaled(report.center_of_mass, 1 / report.mass);
-    for_each([&](std::size_t v, double mass, const Coordinates& velocity) {
-      add(report.angular_momentum, mass, cross(difference(x[v], report.center_of_mass), velocity));
-    });
-  }
+               Step_report& report) const;
 };
 
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/session/Time_step_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_TIME_STEP_H
