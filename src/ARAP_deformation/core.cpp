@@ -19,7 +19,6 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>
-#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>
@@ -30,8 +29,14 @@
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Run_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Time_step_impl.h>
+#include <CGAL/ARAP_deformation/internal/session/core_models.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences_impl.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system_impl.h>
 
+#include <memory>
+
 template class CGAL::ARAP::internal::Bordered_substitution<double>;
-template class CGAL::ARAP::internal::Edge_weight_model_of<CGAL::ARAP::Safe_cotangent_weight>;
+template std::shared_ptr<const CGAL::ARAP::internal::Edge_weight_model>
+CGAL::ARAP::internal::make_edge_weight_model(CGAL::ARAP::Safe_cotangent_weight);
+template std::shared_ptr<const CGAL::ARAP::internal::Linear_solver>
+CGAL::ARAP::internal::make_linear_solver(CGAL::ARAP::Multifrontal_cholesky_solver);
