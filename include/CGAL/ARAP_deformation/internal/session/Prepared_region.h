@@ -28,7 +28,6 @@
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -241,17 +240,16 @@ private:
   {
     m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
     m_ready.constraints = none; // a failure may have released the factor
-    const auto& entries = vertices.entries();
     std::size_t roi_size = 0, number_of_fixed = 0, number_of_controls = 0;
-    for(const auto& entry : entries)
+    bool has_simplex = false;
+    for(const auto& entry : vertices.entries())
     {
       roi_size += entry.is_roi;
       number_of_fixed += vertices.is_hard_control(entry);
       number_of_controls += entry.is_control;
+      has_simplex = has_simplex || (entry.is_roi && !vertices.domain().is_isolated(entry.vertex));
     }
-    if(roi_size > 0 && std::all_of(entries.begin(), entries.end(), [&](const auto& e) {
-         return !e.is_roi || vertices.domain().is_isolated(e.vertex);
-       }))
+    if(roi_size > 0 && !has_simplex)
       return outcome(Status::no_simplex);
 
     std::unique_ptr<Built_region<Domain>> next;
@@ -312,12 +310,14 @@ private:
       return !is_whole(roi_size, number_of_fixed) && 4 * number_of_fixed > 3 * roi_size;
     const auto number_of_movable =
       static_cast<std::size_t>(core().region().number_of_movable_vertices);
-    return is_whole(roi_size, number_of_fixed) ||
-           number_of_movable > 8 * (roi_size - number_of_fixed) + 1000 ||
-           std::any_of(vertices.entries().begin(), vertices.entries().end(), [&](const auto& e) {
-             return e.is_roi && !vertices.is_hard_control(e) &&
-                    !m_prepared->is_movable(region().find_vertex(vertices.domain(), e.vertex));
-           });
+    if(is_whole(roi_size, number_of_fixed) ||
+       number_of_movable > 8 * (roi_size - number_of_fixed) + 1000)
+      return true;
+    for(const auto& entry : vertices.entries())
+      if(entry.is_roi && !vertices.is_hard_control(entry) &&
+         !m_prepared->is_movable(region().find_vertex(vertices.domain(), entry.vertex)))
+        return true;
+    return false;
   }
 
   Session_rules m_rules;
