@@ -33,6 +33,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -290,6 +291,7 @@ protected:
            m_are_points_written;
   }
 
+  std::shared_ptr<const char> m_identity = std::make_shared<char>(); // of this session
   Vertices m_vertices;
   Session_rules m_rules;
   Options m_options;

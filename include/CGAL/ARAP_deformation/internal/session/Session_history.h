@@ -153,6 +153,7 @@ public:
 protected:
   using Base::domain;
   using Base::m_energy;
+  using Base::m_identity;
   using Base::m_options;
   using Base::m_prepared;
   using Base::m_rules;
@@ -179,8 +180,6 @@ private:
     for(std::size_t k = 0; k < points.size(); ++k)
       m_vertices.entries()[k].*point = std::move(points[k]);
   }
-
-  std::shared_ptr<const char> m_identity = std::make_shared<char>();
 };
 
 } // namespace internal
