@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>
+#include <CGAL/ARAP_deformation/internal/region/Paged_index_map_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core_impl.h>

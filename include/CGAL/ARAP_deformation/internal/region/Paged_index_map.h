@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/linkage.h>
+
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -37,23 +39,9 @@ public:
   }
 
   // allocates what set(index, ...) needs
-  void reserve(std::size_t index)
-  {
-    const std::size_t page = index / page_size;
-    if(page >= m_pages.size())
-      m_pages.resize(page + 1);
-    if(!m_pages[page])
-    {
-      m_pages[page] = std::make_unique<Page>();
-      m_pages[page]->fill(none);
-    }
-  }
+  void reserve(std::size_t index);
 
-  void set(std::size_t index, int value)
-  {
-    reserve(index);
-    (*m_pages[index / page_size])[index % page_size] = value;
-  }
+  void set(std::size_t index, int value);
 
 private:
   static constexpr std::size_t page_size = 512;
@@ -65,5 +53,9 @@ private:
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
+
+#ifndef CGAL_ARAP_DEFORMATION_COMPILED
+#include <CGAL/ARAP_deformation/internal/region/Paged_index_map_impl.h>
+#endif
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_PAGED_INDEX_MAP_H
