@@ -31,6 +31,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// a sentence on the stiffness of the cells of a region
+Outcome check_stiffness(const Energy_model& energy_model, const Region& region);
+
 // A core with the positions of the vertices of its region, which are known by their numbers.
 struct Built_core
 {

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
@@ -25,6 +26,19 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+CGAL_ARAP_INLINE_FUNCTION
+Outcome check_stiffness(const Energy_model& energy_model, const Region& region)
+{
+  const Array<double>& stiffness = energy_model.stiffness;
+  for(std::size_t c = 0; c < stiffness.size(); ++c)
+    if(!(stiffness[c] >= 0) || !is_finite(stiffness[c]))
+      return outcome(Status::invalid_stiffness,
+                     energy_model.cells.has_vertex_cells()
+                       ? vertex_name(region.indices[c])
+                       : simplex_name(region, static_cast<int>(c)));
+  return outcome(Status::success);
+}
 
 CGAL_ARAP_INLINE_FUNCTION
 Built_core::Built_core(std::size_t number, bool is_whole_) : numbering(number), is_whole(is_whole_)

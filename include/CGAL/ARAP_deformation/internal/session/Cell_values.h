@@ -16,9 +16,11 @@
 
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
-#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 #include <CGAL/ARAP_deformation/of_simplices.h>
@@ -77,12 +79,7 @@ public:
       for(vertex_descriptor v : m_fit_order())
         model.fit_order.push_back(region.find_vertex(domain, v));
     model.neighbour_weight = m_neighbour_weight;
-    for(std::size_t c = 0; c < model.stiffness.size(); ++c)
-      if(!(model.stiffness[c] >= 0) || !is_finite(model.stiffness[c]))
-        return outcome(Status::invalid_stiffness,
-                       is_at_vertices ? vertex_name(flat.indices[c])
-                                      : simplex_name(flat, static_cast<int>(c)));
-    return outcome(Status::success);
+    return check_stiffness(model, flat);
   }
 
 private:
@@ -124,13 +121,13 @@ private:
     Array<T> of(bool is_at_vertices, const Domain& domain, const Domain_region<Domain>& region,
                 const Region& flat) const
     {
-      Array<T> values;
-      if(is_at_vertices && m_of_vertex)
-        for(int v = 0; v < flat.number_of_centres; ++v)
-          values.push_back(m_of_vertex(region.vertices[v], domain.index(region.vertices[v])));
-      else if(!is_at_vertices && m_of_simplex)
-        for(int s = 0; s < flat.number_of_movable_simplices; ++s)
-          values.push_back(m_of_simplex(region.simplices[static_cast<std::size_t>(s)]));
+      if(is_at_vertices ? !m_of_vertex : !m_of_simplex)
+        return {};
+      Array<T> values(is_at_vertices ? flat.number_of_centres : flat.number_of_movable_simplices);
+      for(std::size_t c = 0; c < values.size(); ++c)
+        values[c] = is_at_vertices
+                      ? m_of_vertex(region.vertices[c], domain.index(region.vertices[c]))
+                      : m_of_simplex(region.simplices[c]);
       return values;
     }
 
