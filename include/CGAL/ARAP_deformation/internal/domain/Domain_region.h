@@ -103,10 +103,11 @@ struct Domain_region : Numbered_region
 private:
   int number(const Domain& domain, vertex_descriptor v)
   {
+    const int found_before = number_of_found();
     const int n = Numbered_region::number(domain.index(v));
-    if(n < static_cast<int>(vertices.size()))
+    if(number_of_found() > found_before)
       vertices[n] = v;
-    else
+    else if(n == static_cast<int>(vertices.size()))
       vertices.push_back(v);
     return n;
   }
@@ -119,10 +120,11 @@ private:
     for(int v = begin; v < end; ++v)
     {
       first_simplex.push_back(flat.number_of_simplices());
+      const vertex_descriptor at = vertices[v];
       domain.for_each_incident_simplex(
-        vertices[v], [&](simplex_descriptor s, const auto& corners) {
+        at, [&](simplex_descriptor s, const auto& corners) {
           for(vertex_descriptor corner : corners)
-            if(!add_corner(v, number(domain, corner)))
+            if(!add_corner(v, corner == at ? v : number(domain, corner)))
               return;
           add_simplex(are_polygons_allowed);
           simplices.push_back(s);
