@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky_solver_impl.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints_impl.h>
-#include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>
+#include <CGAL/ARAP_deformation/internal/domain/make_simplex_search_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>

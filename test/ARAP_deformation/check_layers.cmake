@@ -1,7 +1,7 @@
 # Which header may include which: the folders of internal/ stand on each other like floors. A header
 # there includes headers of its own floor and of lower ones, also by way of public headers, whose floor
 # is the highest of what they include. No header includes itself by way of others, but for X_impl.h,
-# which X.h includes where nothing is compiled once.
+# which X.h includes where nothing is compiled once: it includes X.h, and nothing else that does.
 # usage: cmake [-DINCLUDE_DIR=FOLDER] -P check_layers.cmake
 cmake_minimum_required(VERSION 3.12...3.31)
 if(NOT DEFINED INCLUDE_DIR)
@@ -35,7 +35,9 @@ function(visit header)
   endif()
   set(highest ${own})
   set(way ${header})
+  set(closure "") # all that the header includes
   get_filename_component(name ${header} NAME_WE)
+  string(REGEX REPLACE "_impl\\.h$" ".h" declarations ${header})
   file(STRINGS ${INCLUDE_DIR}/${header} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]CGAL/")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE ".*[<\"](CGAL/[^>\"]+).*" "\\1" included "${line}")
@@ -43,6 +45,12 @@ function(visit header)
       continue() # CGAL's own, or the implementation of this header
     endif()
     visit(${included} ${path} ${header})
+    get_property(further_closure GLOBAL PROPERTY closure_${included})
+    list(APPEND closure ${included} ${further_closure})
+    if(NOT included STREQUAL declarations AND declarations IN_LIST further_closure)
+      message(SEND_ERROR "a cycle, where nothing is compiled once:\n    ${declarations}\n    -> ${header}\n    -> "
+                         "${included}\n    -> ... -> ${declarations}")
+    endif()
     get_property(floor GLOBAL PROPERTY floor_${included})
     if(floor GREATER highest)
       set(highest ${floor})
@@ -55,6 +63,8 @@ function(visit header)
       set(way ${header})
     endif()
   endforeach()
+  list(REMOVE_DUPLICATES closure)
+  set_property(GLOBAL PROPERTY closure_${header} ${closure})
   set_property(GLOBAL PROPERTY floor_${header} ${highest})
   set_property(GLOBAL PROPERTY way_${header} "${way}")
 endfunction()

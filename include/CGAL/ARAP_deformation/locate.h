@@ -17,7 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
-#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>

@@ -15,13 +15,10 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/linkage.h>
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -48,17 +45,8 @@ public:
   virtual std::optional<Location> locate(const Coordinates& point) const = 0;
 };
 
-std::unique_ptr<Simplex_search<3>>
-make_simplex_search(const std::vector<std::array<Coordinates, 3>>& triangles);
-std::unique_ptr<Simplex_search<4>>
-make_simplex_search(const std::vector<std::array<Coordinates, 4>>& tetrahedra);
-
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
-
-#ifndef CGAL_ARAP_DEFORMATION_COMPILED
-#include <CGAL/ARAP_deformation/internal/domain/Simplex_search_impl.h>
-#endif
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_SIMPLEX_SEARCH_H

@@ -9,14 +9,19 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_SIMPLEX_SEARCH_IMPL_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_SIMPLEX_SEARCH_IMPL_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_MAKE_SIMPLEX_SEARCH_IMPL_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_MAKE_SIMPLEX_SEARCH_IMPL_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Tetrahedron_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
+#include <CGAL/ARAP_deformation/internal/linkage.h>
+
+#include <array>
+#include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -38,4 +43,4 @@ make_simplex_search(const std::vector<std::array<Coordinates, 4>>& tetrahedra)
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_SIMPLEX_SEARCH_IMPL_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_MAKE_SIMPLEX_SEARCH_IMPL_H
