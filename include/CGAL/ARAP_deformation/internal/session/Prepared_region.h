@@ -55,8 +55,8 @@ public:
     std::size_t region, values, constraints;
   };
 
-  Prepared_region(const Session_rules& rules, Models models)
-    : m_rules(rules), m_models(std::move(models))
+  Prepared_region(const Session_rules& rules, Models make_models)
+    : m_rules(rules), m_models(std::move(make_models))
   {}
 
   // Whether there is a region for the present region of interest, cells and rest shape.

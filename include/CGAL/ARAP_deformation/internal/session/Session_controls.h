@@ -63,9 +63,9 @@ public:
 
   // Options that are out of range are refused by what uses them.
   Session_controls(Domain mesh, const Session_rules& rules, const Options& options,
-                   Built_core::Models models)
+                   Built_core::Models make_models)
     : m_vertices(std::move(mesh)), m_rules(rules), m_options(options),
-      m_prepared(rules, std::move(models))
+      m_prepared(rules, std::move(make_models))
   {}
 
   const Options& options() const { return m_options; }
