@@ -33,8 +33,9 @@ using Triangles_only = decltype(Domain::has_triangles_only);
 // A region with the names of its vertices and simplices in a mesh. It is collected by walking over
 // the region only.
 template <typename Domain>
-struct Domain_region : Numbered_region
+class Domain_region : public Numbered_region
 {
+public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using simplex_descriptor = typename Domain::simplex_descriptor;
 
