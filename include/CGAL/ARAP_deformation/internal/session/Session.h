@@ -188,31 +188,30 @@ private:
 
   Outcome deform(const Options& options, const Visitor& visitor, Report& report)
   {
-    if(Outcome begun = begin(options, 0, report); !begun)
-      return begun;
-    Run run(m_prepared.built(), m_prepared.rows(), report);
-    const Region_targets<Domain> reader(m_vertices, m_prepared);
-    {
-      Scoped_seconds seconds(report.seconds.transfer);
-      if(Outcome read = reader.read(run.positions, run.targets); !read)
-        return read;
-    }
-    const Scoped_flag in_a_run(m_is_in_a_run);
-    Outcome result = execute(run, options, visitor, report);
-    if(result)
-    {
-      add_remarks(result, report, m_prepared.roi_size() == 0, m_prepared.number_of_controls() == 0,
-                  m_prepared.rows().isolated_controls);
-      Scoped_seconds seconds(report.seconds.transfer);
-      finish(run, {}, report);
-    }
-    return result;
+    return perform(options, 0, visitor, report,
+                   [](const Region_targets<Domain>&, Run&) { return outcome(Status::success); },
+                   [](const Region_targets<Domain>&, const Run&) { return Array<Coordinates>(); });
   }
 
   Outcome advance(Time_step& step, const Force& force, const Options& options,
                   const Visitor& visitor, Report& report)
   {
-    if(Outcome begun = begin(options, step.inertia(), report); !begun)
+    return perform(options, step.inertia(), visitor, report,
+                   [&](const Region_targets<Domain>& reader, Run& run) {
+                     return reader.begin(step, force, run.positions, run.targets);
+                   },
+                   [&](const Region_targets<Domain>& reader, const Run& run) {
+                     return reader.velocities_after(step, run.positions);
+                   });
+  }
+
+  // A run with this inertia. begin_step(reader, run) completes what the run starts from, and
+  // velocities_after(reader, run) are those that it leads to.
+  template <typename BeginStep, typename VelocitiesAfter>
+  Outcome perform(const Options& options, double inertia, const Visitor& visitor, Report& report,
+                  const BeginStep& begin_step, const VelocitiesAfter& velocities_after)
+  {
+    if(Outcome begun = begin(options, inertia, report); !begun)
       return begun;
     Run run(m_prepared.built(), m_prepared.rows(), report);
     const Region_targets<Domain> reader(m_vertices, m_prepared);
@@ -220,17 +219,18 @@ private:
       Scoped_seconds seconds(report.seconds.transfer);
       if(Outcome read = reader.read(run.positions, run.targets); !read)
         return read;
-      if(Outcome begun = reader.begin(step, force, run.positions, run.targets); !begun)
+      if(Outcome begun = begin_step(reader, run); !begun)
         return begun;
     }
     const Scoped_flag in_a_run(m_is_in_a_run);
     Outcome result = execute(run, options, visitor, report);
     if(result)
     {
-      add_remarks(result, report, m_prepared.roi_size() == 0, false,
+      add_remarks(result, report, m_prepared.roi_size() == 0,
+                  inertia == 0 && m_prepared.number_of_controls() == 0,
                   m_prepared.rows().isolated_controls);
       Scoped_seconds seconds(report.seconds.transfer);
-      finish(run, reader.velocities_after(step, run.positions), report);
+      finish(run, velocities_after(reader, run), report);
     }
     return result;
   }
