@@ -40,13 +40,6 @@ struct Covariance_coefficients
     vectors.clear();
   }
 
-  // a vertex that was not added before
-  void append(int v, const Double4& s)
-  {
-    vertices.push_back(v);
-    vectors.push_back(s);
-  }
-
   // w (x_i - x_j) e^T, with the vector w e
   void add_edge(int i, int j, const Double4& weighted_edge)
   {
@@ -63,7 +56,11 @@ private:
                        static_cast<std::ptrdiff_t>(size() > lately ? size() - lately : 0);
     const auto found = std::find(begin, vertices.end(), v);
     if(found == vertices.end())
-      return append(v, s);
+    {
+      vertices.push_back(v);
+      vectors.push_back(s);
+      return;
+    }
     Double4& sum = vectors[static_cast<std::size_t>(found - vertices.begin())];
     sum = sum + s;
   }

@@ -233,8 +233,6 @@ public:
   // adds what the covariance of cell c consists of
   void add_coefficients(int c, const Double4* rest, Covariance_coefficients& sum) const
   {
-    if(has_stars_as_cells() && sum.size() == 0)
-      return append_star(c, rest, sum);
     if(has_stars_as_cells())
       return add_star(c, 1, rest, sum);
     for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
@@ -279,21 +277,6 @@ public:
 
 private:
   bool has_stars_as_cells() const { return m_cells.sets.items.empty(); }
-
-  // the same as add_star() for a star that is the first one, and needs no search for its vertices
-  void append_star(int i, const Double4* rest, Covariance_coefficients& sum) const
-  {
-    Double4 total = Double4::zero();
-    sum.append(i, total);
-    for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-    {
-      const int j = m_stars.neighbours.items[e];
-      const Double4 weighted_edge = Double4::all(m_stars.weights[e]) * (rest[i] - rest[j]);
-      total = total + weighted_edge;
-      sum.append(j, Double4::zero() - weighted_edge);
-    }
-    sum.vectors[0] = total;
-  }
 
   void add_star(int i, double stiffness, const Double4* rest, Covariance_coefficients& sum) const
   {
