@@ -64,15 +64,12 @@ struct Coarse_slots
     }
   }
 
-  // Takes the sums of a slot, and leaves zeros.
+  // of a slot in use, after add_moments<Rows>()
   template <int Rows>
-  CGAL_ARAP_ALWAYS_INLINE void take(int slot, Double4* taken) const
+  CGAL_ARAP_ALWAYS_INLINE void clear(int slot) const
   {
     for(int r = 0; r < Rows; ++r)
-    {
-      taken[r] = sums[3 * slot + r];
       sums[3 * slot + r] = Double4::zero();
-    }
     is_used[slot] = false;
   }
 };
@@ -99,8 +96,8 @@ struct Cell_blocks_kernel
       }
     for(int k = 0; k < n; ++k)
     {
-      Double4 sum[3], d[3];
-      slots.take<3>(slots.used[k], sum);
+      const Double4* const sum = slots.sums + 3 * slots.used[k];
+      Double4 d[3];
       for(int r = 0; r < 3; ++r)
       {
         d[r] = Double4::zero(); // of R s instead of s
@@ -115,6 +112,7 @@ struct Cell_blocks_kernel
                         {Double4::of(trace - d[0][0], -d[1][0], -d[2][0]),
                          Double4::of(-d[0][1], trace - d[1][1], -d[2][1]),
                          Double4::of(-d[0][2], -d[1][2], trace - d[2][2])}};
+      slots.clear<3>(slots.used[k]);
     }
     for(int k = 0; k < n; ++k)
     {
@@ -170,23 +168,24 @@ struct Column_moments_kernel
       }
     const Double4 point = view.point(rows[0], 1);
     const std::ptrdiff_t first = Coarse_space::most_nodes * std::ptrdiff_t(rows[0]);
-    for(int i = 0; i < n; ++i)
+    for(int k = 0; k < Coarse_space::most_nodes; ++k)
     {
-      const int b = slots.used[i];
-      Double4 q;
-      slots.take<1>(b, &q);
-      for(int k = 0; k < Coarse_space::most_nodes; ++k)
+      if(view.weights[first + k] == 0)
+        continue;
+      const int a = slots.slot_of[view.nodes[first + k]];
+      const Double4 p = Double4::all(view.weights[first + k]) * point;
+      for(int i = 0; i < n; ++i)
       {
-        if(view.weights[first + k] == 0)
-          continue;
-        const int a = slots.slot_of[view.nodes[first + k]];
-        const Double4 p = Double4::all(view.weights[first + k]) * point;
+        const int b = slots.used[i];
+        const Double4 q = slots.sums[3 * b];
         if(a >= b)
           add_product(p, q, moments + 16 * place_of_pair(a, b));
         if(b >= a)
           add_product(q, p, moments + 16 * place_of_pair(b, a));
       }
     }
+    for(int i = 0; i < n; ++i)
+      slots.clear<1>(slots.used[i]);
   }
 
 private:
