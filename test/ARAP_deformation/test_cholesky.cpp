@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -35,6 +36,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -446,6 +448,51 @@ void test_supernodes()
     }
 }
 
+// The values of one supernode of all widths: their number, where the diagonal is, and that a sweep
+// forward and one backward solve with the factor.
+void test_packed_values()
+{
+  for(int width = 1; width <= 40; ++width)
+  {
+    test_case() = "packed values, " + std::to_string(width);
+    const Eigen::MatrixXd random = Eigen::MatrixXd::Random(width, width);
+    Eigen::MatrixXd front = random * random.transpose() + Eigen::MatrixXd::Identity(width, width);
+    const Eigen::MatrixXd matrix = front;
+    internal::factor_panel(front.data(), width, width);
+
+    internal::Supernodes supernodes;
+    supernodes.columns = {0, width};
+    supernodes.rows_begin = {0, 0};
+    internal::Array<int> order(width);
+    std::iota(order.begin(), order.end(), 0);
+    const internal::Supernodal_structure structure(supernodes, order);
+    const internal::Supernodal_structure::Supernode& s = structure.supernodes()[0];
+    const double untouched = -7;
+    internal::Array<double> values(structure.values_size() + 1, untouched);
+    internal::pack_values(s, front.data(), values.data());
+    CHECK(structure.values_size() == static_cast<std::size_t>(width * (width + 1) / 2));
+    CHECK(values[structure.values_size()] == untouched);
+    for(int j = 0; j < width; ++j)
+      CHECK_AT_MOST(std::abs(internal::reciprocal_of_diagonal(s, values.data(), j)
+                             / front(j, j) - 1), 1e-15);
+    CHECK(internal::has_positive_diagonal(structure, values.data()));
+
+    const Rows b = random_rows(static_cast<std::size_t>(width));
+    Rows x = b;
+    internal::Supernodal_substitution<double> substitution;
+    substitution.forward(structure, values.data(), x.data());
+    substitution.backward(structure, values.data(), x.data());
+    for(int i = 0; i < width; ++i)
+      for(std::size_t c = 0; c < 3; ++c)
+      {
+        double residual = b[i][c];
+        for(int j = 0; j < width; ++j)
+          residual -= matrix(i, j) * x[j][c];
+        CHECK_AT_MOST(std::abs(residual), 1e-10);
+      }
+  }
+}
+
 template <typename Solver>
 void test_solver(const std::string& name, const Solver& solver)
 {
@@ -462,6 +509,7 @@ int main()
 #endif
   test_blocks();
   test_supernodes();
+  test_packed_values();
   test_borders_in_single_precision();
   for(Fill_reducing_ordering ordering :
       {Fill_reducing_ordering::minimum_degree, Fill_reducing_ordering::nested_dissection})

@@ -17,9 +17,12 @@
 
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <Eigen/Core>
 
@@ -38,8 +41,8 @@ namespace ARAP {
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief CHOLMOD's supernodal Cholesky factorization.
 ///
-/// CHOLMOD computes the factor; the substitution is that of `Multifrontal_cholesky_solver`, and
-/// reads the factor in place.
+/// CHOLMOD computes the factor; the substitution, and the order of its values in memory, are those
+/// of `Multifrontal_cholesky_solver`.
 ///
 /// Needs CHOLMOD, a library of SuiteSparse. CHOLMOD calls the BLAS it is built with, whose threads
 /// may make results differ in the last bits from run to run.
@@ -77,14 +80,14 @@ public:
   /// `Multifrontal_cholesky_solver::set_border()` does.
   bool set_border(const Sparse_matrix& b, const Dense_matrix& d)
   {
-    return m_state->substitution.set_border(m_state->structure, m_state->values(), b, d);
+    return m_state->substitution.set_border(m_state->structure, m_state->values.data(), b, d);
   }
 
   /// replaces the `n` rows of `x` by the solution of \f$A X = x\f$, where `n` is the size of the
   /// factorized matrix, its border included. Time: two sweeps over the factor.
   bool solve(std::size_t n, Coordinates* x)
   {
-    m_state->substitution.solve(m_state->structure, m_state->values(), n, x);
+    m_state->substitution.solve(m_state->structure, m_state->values.data(), n, x);
     return true;
   }
 
@@ -119,8 +122,6 @@ private:
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    double* values() { return static_cast<double*>(factor->x); }
-
     bool analyze(cholmod_sparse& matrix)
     {
       factor = cholmod_analyze(&matrix, &common);
@@ -128,12 +129,10 @@ private:
         return false;
       const auto supernode = static_cast<const int*>(factor->super);
       const auto rows_begin = static_cast<const int*>(factor->pi);
-      const auto values_begin = static_cast<const int*>(factor->px);
       const auto rows = static_cast<const int*>(factor->s);
       const auto order = static_cast<const int*>(factor->Perm);
       internal::Supernodes supernodes;
       supernodes.columns.assign(supernode, supernode + factor->nsuper + 1);
-      supernodes.values_begin.assign(values_begin, values_begin + factor->nsuper);
       supernodes.rows_begin.assign(1, 0);
       for(std::size_t s = 0; s < factor->nsuper; ++s)
       {
@@ -149,16 +148,37 @@ private:
     bool factorize(cholmod_sparse& matrix)
     {
       substitution.remove_border();
-      if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK
-      || !internal::has_positive_diagonal(structure, values()))
-        return false; // CHOLMOD accepts pivots that are NaN
-      internal::invert_diagonal(structure, values());
-      return true;
+      if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK)
+        return false;
+      pack();
+      // the values are there twice no longer, but the pattern stays
+      return cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor, &common)
+          && internal::has_positive_diagonal(structure, values.data()); // CHOLMOD accepts NaN
+    }
+
+    void pack()
+    {
+      values.resize(structure.values_size());
+      const auto begin = static_cast<const int*>(factor->px);
+      internal::for_each_block(factor->nsuper, [&](std::size_t first, std::size_t last) {
+        for(std::size_t k = first; k < last; ++k)
+        {
+          const auto& s = structure.supernodes()[structure.numbers()[k]];
+          double* const columns = static_cast<double*>(factor->x) + begin[k];
+          for(int j = 0; j < s.width; ++j)
+          {
+            double& diagonal = columns[j * (s.width + s.below + 1)];
+            diagonal = 1 / diagonal;
+          }
+          internal::pack_values(s, columns, values.data());
+        }
+      });
     }
 
     cholmod_common common;
     cholmod_factor* factor = nullptr;
     internal::Supernodal_structure structure;
+    internal::Array<double> values;
     internal::Bordered_substitution<double> substitution;
   };
 

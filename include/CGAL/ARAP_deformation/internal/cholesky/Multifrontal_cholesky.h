@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,8 +39,8 @@ public:
   Multifrontal_cholesky(const Supernodal_structure& structure, float* values)
     : Multifrontal_cholesky(structure, nullptr, values) {}
 
-  // Stores the factor in the array of the constructor, with the reciprocals of its diagonal, which
-  // are positive if the matrix is positive definite. assemble(s, panel) adds the entries of the
+  // Stores the factor in the array of the constructor. The reciprocals of its diagonal are positive
+  // if the matrix is positive definite. assemble(s, panel) adds the entries of the
   // matrix to the columns of supernode s, which are zero; it is called from several threads.
   template <typename Assemble>
   void factorize(const Assemble& assemble)
@@ -47,21 +48,18 @@ public:
     m_structure.for_each_block_upwards([&](int k) {
       const Block& b = m_structure.blocks()[k];
       Array<int> places;
-      Array<double> columns; // of a supernode, if they are stored in single precision
+      Array<double> columns; // of a supernode
       Array<double> spare;   // the memory of an update that is not needed any more
       for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
       {
         const Supernode& supernode = m_structure.supernodes()[s];
-        const std::size_t size = m_structure.size(supernode);
+        columns.assign(size_of_columns(supernode), 0);
+        assemble(s, columns.data());
+        factorize_supernode(k, s, columns.data(), places, spare);
         if(m_single_values)
-          columns.resize((std::max)(columns.size(), size));
-        double* const panel = m_single_values ? columns.data() : m_values + supernode.values;
-        std::fill_n(panel, size, 0);
-        assemble(s, panel);
-        factorize_supernode(k, s, panel, places, spare);
-        if(m_single_values)
-          std::transform(panel, panel + size, m_single_values + supernode.values,
-                         [](double value) { return static_cast<float>(value); });
+          pack_values(supernode, columns.data(), m_single_values);
+        else
+          pack_values(supernode, columns.data(), m_values);
       }
     });
   }

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,8 @@ public:
     // both panels with the opposite sign
     const int positive = n - negative;
     const std::ptrdiff_t height = n, below = positive;
-    m_values.assign(static_cast<std::size_t>(height * negative + below * below), 0);
-    double* const first = m_values.data();
+    Array<double> panels(static_cast<std::size_t>(height * negative + below * below), 0);
+    double* const first = panels.data();
     double* const second = first + height * negative;
     for(int j = 0; j < negative; ++j)
       for(int i = j; i < n; ++i)
@@ -82,6 +83,14 @@ public:
       if(!is_safe(j, j < negative ? first[j * (height + 1)]
                                   : second[(j - negative) * (below + 1)]))
         return false;
+    m_values.resize(m_structure.values_size());
+    const double* columns = first;
+    for(int number : m_structure.numbers())
+    {
+      const Supernodal_structure::Supernode& s = m_structure.supernodes()[number];
+      pack_values(s, columns, m_values.data());
+      columns += size_of_columns(s);
+    }
     return true;
   }
 
@@ -112,14 +121,11 @@ private:
         result.rows.push_back(i);
       result.columns.push_back(negative);
       result.rows_begin.push_back(result.rows.size());
-      result.values_begin.push_back(0);
     }
     if(negative < n)
     {
       result.columns.push_back(n);
       result.rows_begin.push_back(result.rows.size());
-      result.values_begin.push_back(static_cast<std::size_t>(negative)
-                                    * static_cast<std::size_t>(n));
     }
     return result;
   }

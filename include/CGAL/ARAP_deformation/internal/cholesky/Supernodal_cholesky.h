@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <Eigen/SparseCore>
@@ -46,26 +47,21 @@ public:
   {
     const Supernodes supernodes = find_supernodes(a, order);
     m_structure = Supernodal_structure(supernodes, order);
-    m_values_size = supernodes.values_begin.empty()
-                  ? 0 : supernodes.values_begin.back()
-                        + Supernodal_structure::size(m_structure.supernodes()[
-                            m_structure.numbers().back()]);
     for(const Supernodal_structure::Supernode& s : m_structure.supernodes())
-      if(Supernodal_structure::size(s) > (std::numeric_limits<std::uint32_t>::max)())
+      if(size_of_columns(s) > (std::numeric_limits<std::uint32_t>::max)())
         throw std::length_error("a supernode of more than 32 GB"); // see Entry
     find_entries(a, supernodes, inverse_permutation(order));
   }
 
   const Supernodal_structure& structure() const { return m_structure; }
 
-  // Computes the factor of `a`, with the reciprocals of its diagonal. The array is allocated if it
-  // is null. Returns `false` if `a` is not positive definite, or if a diagonal entry leaves the
-  // range of Number.
+  // Computes the factor of `a`. The array is allocated if it is null. Returns `false` if `a` is not
+  // positive definite, or if a diagonal entry leaves the range of Number.
   template <typename Number>
   bool factorize(const Sparse_matrix& a, std::unique_ptr<Number[]>& values) const
   {
     if(!values)
-      values.reset(new Number[m_values_size]); // the pages are first touched by the threads
+      values.reset(new Number[m_structure.values_size()]); // first touched by the threads
     factorize(a, Multifrontal_cholesky(m_structure, values.get()));
     return has_positive_diagonal(m_structure, values.get());
   }
@@ -141,7 +137,6 @@ private:
   Supernodal_structure m_structure;
   Array<std::size_t> m_entries_begin; // for each supernode
   Array<Entry> m_entries;
-  std::size_t m_values_size = 0;
 };
 
 } // namespace internal

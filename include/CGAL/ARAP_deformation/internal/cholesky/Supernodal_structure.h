@@ -20,7 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -37,7 +36,7 @@ class Supernodal_structure
 public:
   struct Supernode
   {
-    std::size_t values; // where its values begin
+    std::size_t values; // where its values begin: block after block, in the order of a sweep
     std::size_t rows;   // where its rows below the triangle begin; they are places in local vectors
     int first;          // the place of its first column in the local vector of its block
     int width;
@@ -84,24 +83,20 @@ public:
   const Array<Supernode>& supernodes() const { return m_supernodes; }
   const Array<Block>& blocks() const { return m_blocks; }
 
-  // the memory that a sweep over the factor reads: the entries on and below the diagonal, which
-  // have that size, and the rows
-  std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
-  {
-    std::size_t bytes = 0;
-    for(const Supernode& s : m_supernodes)
-    {
-      const auto width = static_cast<std::size_t>(s.width);
-      const auto below = static_cast<std::size_t>(s.below);
-      bytes += (width * (width + 1) / 2 + width * below) * size_of_number + below * sizeof(int);
-    }
-    return bytes;
-  }
-
-  // how many values a supernode has
+  // how many values a supernode has: those on and below the diagonal
   static std::size_t size(const Supernode& s)
   {
-    return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.width + s.below);
+    const auto width = static_cast<std::size_t>(s.width);
+    return width * (width + 1) / 2 + width * static_cast<std::size_t>(s.below);
+  }
+
+  // how many all have
+  std::size_t values_size() const { return m_values_size; }
+
+  // the memory that a sweep over the factor reads: the values and the rows
+  std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
+  {
+    return m_values_size * size_of_number + m_rows.size() * sizeof(int);
   }
 
   const int* rows(const Supernode& s) const { return m_rows.data() + s.rows; }
@@ -194,7 +189,6 @@ private:
     for(std::size_t s = 0; s < n; ++s)
     {
       Supernode& supernode = m_supernodes[m_numbers[s]];
-      supernode.values = supernodes.values_begin[s];
       supernode.width = supernodes.width(s);
       supernode.below = supernodes.below(s);
       supernode.first = static_cast<int>(first[block_of[s]]);
@@ -252,8 +246,8 @@ private:
     std::size_t rows = 0;
     for(Supernode& s : m_supernodes)
     {
-      s.rows = rows;
-      rows += static_cast<std::size_t>(s.below);
+      s.values = std::exchange(m_values_size, m_values_size + size(s));
+      s.rows = std::exchange(rows, rows + static_cast<std::size_t>(s.below));
     }
     m_rows.resize(rows);
     for_each_block(supernodes.size(), [&](std::size_t begin, std::size_t end) {
@@ -268,40 +262,8 @@ private:
   Array<Supernode> m_supernodes; // block after block
   Array<Block> m_blocks;
   Array<int> m_rows, m_to_parent, m_order, m_block_of, m_numbers;
+  std::size_t m_values_size = 0;
 };
-
-// the diagonal entry in column j of a supernode
-template <typename Number>
-Number& diagonal_entry(const Supernodal_structure::Supernode& s, Number* values, int j)
-{
-  return values[s.values + static_cast<std::size_t>(s.width + s.below + 1)
-                             * static_cast<std::size_t>(j)];
-}
-
-// whether all diagonal entries of a factor are positive and finite
-template <typename Number>
-bool has_positive_diagonal(const Supernodal_structure& structure, const Number* values)
-{
-  for(const Supernodal_structure::Supernode& s : structure.supernodes())
-    for(int j = 0; j < s.width; ++j)
-    {
-      const Number diagonal = diagonal_entry(s, values, j);
-      if(!(diagonal > 0 && std::isfinite(diagonal)))
-        return false;
-    }
-  return true;
-}
-
-// Replaces the diagonal of a factor by its reciprocals, which the substitution multiplies by.
-inline void invert_diagonal(const Supernodal_structure& structure, double* values)
-{
-  for(const Supernodal_structure::Supernode& s : structure.supernodes())
-    for(int j = 0; j < s.width; ++j)
-    {
-      double& diagonal = diagonal_entry(s, values, j);
-      diagonal = 1 / diagonal;
-    }
-}
 
 } // namespace internal
 } // namespace ARAP

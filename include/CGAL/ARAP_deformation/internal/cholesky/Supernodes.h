@@ -33,13 +33,11 @@ namespace internal {
 // below their dense triangle. The columns are in a postorder of the elimination tree.
 struct Supernodes
 {
-  Array<int> columns;              // where those of each begin, and at last their number
-  Array<std::size_t> rows_begin;   // where the rows of each begin, and at last their number
-  Array<int> rows;                 // below the triangle, ascending
-  Array<std::size_t> values_begin; // where the values of each begin: column by column, each
-                                   // from the supernode's first row on
+  Array<int> columns;            // where those of each begin, and at last their number
+  Array<std::size_t> rows_begin; // where the rows of each begin, and at last their number
+  Array<int> rows;               // below the triangle, ascending
 
-  std::size_t size() const { return values_begin.size(); }
+  std::size_t size() const { return columns.size() - 1; }
   int width(std::size_t s) const { return columns[s + 1] - columns[s]; }
   int below(std::size_t s) const { return static_cast<int>(rows_begin[s + 1] - rows_begin[s]); }
 };
@@ -129,8 +127,6 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
   result.columns = Supernode_columns(parent, column_counts(lower, parent)).begin();
   const std::size_t n = result.columns.size() - 1;
   result.rows_begin.assign(1, 0);
-  result.values_begin.resize(n);
-  std::size_t values = 0;
   const Array<int> supernode_of = supernode_of_columns(result.columns);
   Array<int> first_child(n, -1), next_child(n, -1);
   Array<int> seen(order.size(), -1); // the last supernode that a row was found in
@@ -158,15 +154,11 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
     }
     std::sort(result.rows.begin() + static_cast<std::ptrdiff_t>(rows), result.rows.end());
     result.rows_begin.push_back(result.rows.size());
-    const std::size_t below = result.rows.size() - rows;
-    const std::size_t width = static_cast<std::size_t>(end - begin);
-    if(below > 0)
+    if(result.rows.size() > rows)
     {
       const int p = supernode_of[result.rows[rows]];
       next_child[s] = std::exchange(first_child[p], mark);
     }
-    result.values_begin[s] = values;
-    values += width * (width + below);
   }
   return result;
 }

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -160,7 +161,7 @@ private:
           const Supernodal_structure::Supernode& s = structure.supernodes()[k];
           for(int j = 0; j < s.width; ++j)
           {
-            const double reciprocal = diagonal_entry(s, m_values.get(), j);
+            const double reciprocal = reciprocal_of_diagonal(s, m_values.get(), j);
             result[structure.order()[block.columns + static_cast<std::size_t>(s.first + j)]] =
               1 / (reciprocal * reciprocal);
           }
