@@ -151,7 +151,7 @@ private:
       if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK)
         return false;
       pack();
-      // the values are there twice no longer, but the pattern stays
+      // frees the values that CHOLMOD has; its pattern stays
       return cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor, &common)
           && internal::has_positive_diagonal(structure, values.data()); // CHOLMOD accepts NaN
     }

@@ -40,8 +40,8 @@ public:
     : Multifrontal_cholesky(structure, nullptr, values) {}
 
   // Stores the factor in the array of the constructor. The reciprocals of its diagonal are positive
-  // if the matrix is positive definite. assemble(s, panel) adds the entries of the
-  // matrix to the columns of supernode s, which are zero; it is called from several threads.
+  // if the matrix is positive definite. assemble(s, panel) adds the entries of the matrix to the
+  // columns of supernode s, which are zero; it is called from several threads.
   template <typename Assemble>
   void factorize(const Assemble& assemble)
   {

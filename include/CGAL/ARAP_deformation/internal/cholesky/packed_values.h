@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -28,10 +29,19 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// how many of the remaining columns of a supernode stand together: 8, or 1 to 4
+constexpr int most_columns_together = 8;
+
+// how many of the remaining columns of a supernode stand together: most, or 1 to 4
 constexpr int columns_together(int remaining)
 {
-  return remaining >= 8 ? 8 : remaining > 4 ? 4 : remaining;
+  return remaining >= most_columns_together ? most_columns_together : (std::min)(remaining, 4);
+}
+
+// how many of so many columns from the first one on stand together at their end
+constexpr int last_columns_together(int columns)
+{
+  const int remainder = columns % most_columns_together;
+  return remainder == 0 ? most_columns_together : remainder > 4 ? remainder - 4 : remainder;
 }
 
 // The size of the columns of a supernode before, each with all rows.
@@ -50,7 +60,7 @@ void pack_values(const Supernodal_structure::Supernode& s, const double* columns
   {
     const int width = columns_together(s.width - first);
     const double* const triangle = columns + first * (height + 1);
-    double inverse[8][8];
+    double inverse[most_columns_together][most_columns_together];
     for(int i = 0; i < width; ++i)
       for(int j = 0; j <= i; ++j)
       {

@@ -142,7 +142,7 @@ CGAL_ARAP_ALWAYS_INLINE const Number* run_columns(int width, const Number* value
   case 2: return Columns<2>::run(values, arguments...);
   case 3: return Columns<3>::run(values, arguments...);
   case 4: return Columns<4>::run(values, arguments...);
-  default: return Columns<8>::run(values, arguments...);
+  default: return Columns<most_columns_together>::run(values, arguments...);
   }
 }
 
@@ -181,8 +181,7 @@ struct Backward_supernodes
       const Number* next = values + (s.values + Supernodal_structure::size(s));
       for(int j = s.width; j > 0;)
       {
-        const int remainder = j % 8; // the widths of the way forward, backward
-        const int width = remainder == 0 ? 8 : remainder > 4 ? remainder - 4 : remainder;
+        const int width = last_columns_together(j);
         j -= width;
         next = run_columns<Backward_columns>(width, next, s.width - j - width, structure.rows(s),
                                              s.below, vector + 4 * std::ptrdiff_t(s.first + j),
