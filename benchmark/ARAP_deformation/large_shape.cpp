@@ -38,7 +38,6 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace {
@@ -92,29 +91,24 @@ private:
 };
 
 // a solver that tells when it is called
+template <typename Solver>
 class Watched_solver
 {
 public:
-  using Any = std::variant<Multifrontal_cholesky_solver, Eigen_solver
-#ifdef CGAL_LINKED_WITH_PETSC
-                           , Petsc_solver
-#endif
-                           >;
-
-  Watched_solver(Any solver, Phases& phases) : m_solver(std::move(solver)), m_phases(&phases) {}
+  Watched_solver(Solver solver, Phases& phases) : m_solver(std::move(solver)), m_phases(&phases) {}
 
   bool analyze(const Sparse_matrix& a)
   {
     m_phases->end("region, weights, matrix");
     std::printf("%d rows, %.0f MB of matrix\n", int(a.rows()), 12e-6 * double(a.nonZeros()));
-    const bool is_done = std::visit([&](auto& solver) { return solver.analyze(a); }, m_solver);
+    const bool is_done = m_solver.analyze(a);
     m_phases->end("solver: analysis");
     return is_done;
   }
 
   bool factorize(const Sparse_matrix& a)
   {
-    const bool is_done = std::visit([&](auto& solver) { return solver.factorize(a); }, m_solver);
+    const bool is_done = m_solver.factorize(a);
     m_phases->end("solver: factor or levels");
     return is_done;
   }
@@ -123,11 +117,11 @@ public:
   {
     if(m_number_of_solutions++ == 0)
       m_phases->end("the first local step");
-    return std::visit([&](auto& solver) { return solver.solve(n, x); }, m_solver);
+    return m_solver.solve(n, x);
   }
 
 private:
-  Any m_solver;
+  Solver m_solver;
   int m_number_of_solutions = 0;
   Phases* m_phases;
 };
@@ -153,7 +147,8 @@ void make_sheet(int side, std::vector<Coordinates>& points, std::vector<Triangle
     }
 }
 
-int run(const std::string& name, const Watched_solver::Any& solver, int side, unsigned iterations)
+template <typename Solver>
+int run(const std::string& name, const Solver& solver, int side, unsigned iterations)
 {
   Phases phases;
   std::vector<Coordinates> points;
@@ -162,11 +157,11 @@ int run(const std::string& name, const Watched_solver::Any& solver, int side, un
   phases.end("points and triangles");
 
   using Domain = Polygon_soup_domain<std::vector<Coordinates>, std::vector<Triangle>>;
-  using Traits = CGAL::ARAP_deformation_traits<Watched_solver>;
+  using Traits = CGAL::ARAP_deformation_traits<Watched_solver<Solver>>;
   const Domain domain(points, triangles);
   phases.end("domain");
-  CGAL::ARAP_deformation<Domain, Traits> deformation(domain,
-                                                     Traits(Watched_solver(solver, phases)));
+  CGAL::ARAP_deformation<Domain, Traits> deformation(
+    domain, Traits(Watched_solver<Solver>(solver, phases)));
   Options options;
   options.iterations = iterations;
   options.tolerance = 0;
@@ -204,7 +199,7 @@ int main(int argc, char** argv)
   const double tolerance = argc > 4 ? std::atof(argv[4]) : 1e-2;
   if(side < 2 || iterations < 1 || !(tolerance > 0))
     return std::cerr << "usage: large_shape SOLVER VERTICES [ITERATIONS [TOLERANCE]]\n", 2;
-  const auto run_with = [&](const Watched_solver::Any& solver) {
+  const auto run_with = [&](const auto& solver) {
     return run(name, solver, side, static_cast<unsigned>(iterations));
   };
   if(name == "default")
