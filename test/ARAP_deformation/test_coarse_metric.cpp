@@ -36,9 +36,9 @@ namespace coarse {
 
 using namespace problem;
 
-std::vector<Coordinates> random_vectors(std::size_t n, Random& random)
+Array<Coordinates> random_vectors(std::size_t n, Random& random)
 {
-  std::vector<Coordinates> result(n);
+  Array<Coordinates> result(n);
   for(Coordinates& p : result)
     p = random();
   return result;
@@ -69,8 +69,8 @@ void test_transfer(const Region& region)
 
   Coarse_transfer transfer(space);
   Random random;
-  std::vector<Coordinates> u = random_vectors(2 * static_cast<std::size_t>(m), random);
-  std::vector<Coordinates> step(static_cast<std::size_t>(n), Coordinates{0, 0, 0}),
+  Array<Coordinates> u = random_vectors(2 * static_cast<std::size_t>(m), random);
+  Array<Coordinates> step(static_cast<std::size_t>(n), Coordinates{0, 0, 0}),
                            force = random_vectors(step.size(), random);
   for(const bool has_fixed : {false, true})
   {
@@ -115,7 +115,7 @@ void test_transfer(const Region& region)
   }
 }
 
-double quadratic_form(const CGAL::ARAP::Sparse_matrix& c, const std::vector<Coordinates>& u)
+double quadratic_form(const CGAL::ARAP::Sparse_matrix& c, const Array<Coordinates>& u)
 {
   const auto size = static_cast<Eigen::Index>(3 * u.size());
   const Eigen::Map<const Eigen::VectorXd> vector(u.data()->data(), size);
@@ -147,7 +147,7 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
       for(std::size_t c = 0; c < number_of_cells && has(3); ++c)
         model.group.push_back(c % 4 == 0 && c < 40 ? 0 : -1);
       Problem problem(region, model, 0.01);
-      const std::vector<Coordinates> deformed = problem.x;
+      const Array<Coordinates> deformed = problem.x;
       const Matrix_3x3 rotation =
         chosen % 2 == 0 ? identity_matrix() : rotation_of_vector({0.3, -1, 0.5});
       for(std::size_t v = 0; v < points.size(); ++v)
@@ -175,11 +175,11 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
       for(int k = 0; k < 3; ++k)
       {
         const auto m = static_cast<std::size_t>(transfer.space().number_of_nodes());
-        std::vector<Coordinates> u = random_vectors(2 * m, random);
+        Array<Coordinates> u = random_vectors(2 * m, random);
         for(std::size_t node = 0; node < m; ++node)
           if(transfer.is_fixed(static_cast<int>(node)))
             u[2 * node] = u[2 * node + 1] = {0, 0, 0};
-        std::vector<Coordinates> step(points.size(), Coordinates{0, 0, 0}), change;
+        Array<Coordinates> step(points.size(), Coordinates{0, 0, 0}), change;
         transfer.add_prolonged(u, step);
         run.change_of_force(step, change);
         const double expected = -dot_product(step, change);
@@ -194,7 +194,7 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
         r = product(rotation_of_vector(random()), r);
       transfer.place(problem.constraints.is_fixed, deformed);
       CHECK(coarse.build(transfer, problem.energy, matrix, problem.rotations));
-      std::vector<Coordinates> u =
+      Array<Coordinates> u =
         random_vectors(2 * static_cast<std::size_t>(transfer.space().number_of_nodes()), random);
       CHECK(coarse.solve(u) && std::all_of(u.begin(), u.end(), [](const Coordinates& p) {
         return is_finite(p);

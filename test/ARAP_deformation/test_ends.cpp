@@ -37,7 +37,7 @@ namespace derivative {
 
 using namespace problem;
 
-double largest(const std::vector<Coordinates>& points)
+double largest(const Array<Coordinates>& points)
 {
   double result = 0;
   for(const Coordinates& p : points)
@@ -51,13 +51,13 @@ void check_derivative(Problem& problem)
   Minimization run = problem.minimization();
   CHECK(run.has_second_derivative());
   Random random;
-  std::vector<Coordinates> step(run.x.size());
+  Array<Coordinates> step(run.x.size());
   for(Coordinates& p : step)
     p = random();
   run.leave_free(step);
-  const std::vector<Coordinates> start = run.x;
+  const Array<Coordinates> start = run.x;
   const double h = 1e-5 * run.diameter;
-  std::vector<Coordinates> difference(run.x.size(), Coordinates{0, 0, 0}), change;
+  Array<Coordinates> difference(run.x.size(), Coordinates{0, 0, 0}), change;
   for(const double sign : {1.0, -1.0})
   {
     for(std::size_t v = 0; v < start.size(); ++v)
@@ -155,7 +155,7 @@ void test_gap(const Region& region)
       problem.energy.set_given_rotations(given);
     }
     Minimization run = problem.minimization();
-    std::vector<Coordinates> step;
+    Array<Coordinates> step;
     double minimum = 0;
     const auto descend = [&](int iterations) {
       for(int k = 0; k < iterations; ++k)
@@ -176,7 +176,7 @@ void test_gap(const Region& region)
           add(run.x[v], 1e-4 * run.diameter, random());
       descend(2); // what is smooth remains
     }
-    const std::vector<Coordinates> start = run.x;
+    const Array<Coordinates> start = run.x;
     const double energy = run.evaluate();
     if(is_quadratic)
     {

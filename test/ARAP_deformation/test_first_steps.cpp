@@ -416,7 +416,7 @@ void test_rows()
       targets.soft.push_back({target.x(), target.y(), target.z()});
     }
     const Rigid_start start(region, constraints, Array<int>(4, 0));
-    std::vector<CGAL::ARAP::Coordinates> x = region.rest;
+    Array<CGAL::ARAP::Coordinates> x = region.rest;
     const Array<char> is_placed = start(region, 2.25, constraints, targets, false, x);
     CHECK(is_placed == Array<char>(4, sum == 1));
     for(std::size_t v = 0; v < 4 && sum == 1; ++v)

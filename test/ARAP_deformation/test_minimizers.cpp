@@ -71,6 +71,7 @@ unsigned int iterations_to(double energy, const Report& report)
 void test_step()
 {
   test_case() = "the step";
+  using CGAL::ARAP::internal::Array;
   using CGAL::ARAP::internal::Quasi_newton_memory;
   using Vector = Eigen::VectorXd;
   for(const std::size_t n : {1, 3, 40, 1500}) // the last has more than one block
@@ -83,12 +84,12 @@ void test_step()
       a[k] = metric[k] * (0.02 + 0.98 * ((k * 5 + 1) % 11) / 11.0);
     }
     const auto points = [n](const Vector& v) {
-      std::vector<Coordinates> result(n);
+      Array<Coordinates> result(n);
       for(std::size_t k = 0; k < n; ++k)
         result[k] = {v[3 * k], v[3 * k + 1], v[3 * k + 2]};
       return result;
     };
-    const auto to_vector = [size](const std::vector<Coordinates>& p) {
+    const auto to_vector = [size](const Array<Coordinates>& p) {
       Vector v(size);
       for(int k = 0; k < size; ++k)
         v[k] = p[k / 3][k % 3];
@@ -97,11 +98,11 @@ void test_step()
     Vector x = Vector::LinSpaced(size, 1, 2);
     Quasi_newton_memory memory(n);
     std::vector<Vector> s, y;
-    std::vector<Coordinates> before(n), d;
+    Array<Coordinates> before(n), d;
     for(int iteration = 0; iteration < 12; ++iteration)
     {
       const Vector f = -a.cwiseProduct(x);
-      const std::vector<Coordinates> new_d = points(f.cwiseQuotient(metric));
+      const Array<Coordinates> new_d = points(f.cwiseQuotient(metric));
       if(iteration > 0)
         memory.remember(iteration == 3 ? 0.5 : 1, points(f), d, new_d, 1, 0); // exact forces
       if(iteration == 2) // no coarse metric, neither before nor after: nothing is forgotten
@@ -125,7 +126,7 @@ void test_step()
       for(int k = first; k < int(s.size()); ++k)
         p += (alpha[k] - y[k].dot(p) / s[k].dot(y[k])) * s[k];
 
-      std::vector<Coordinates> moved = points(x);
+      Array<Coordinates> moved = points(x);
       const double slope = memory.move(points(f), d, moved, before);
       const Vector step = to_vector(moved) - x;
       CHECK(before == points(x));
@@ -142,7 +143,7 @@ void test_step()
     }
 
     // the last move is replaced by d, and all is forgotten
-    std::vector<Coordinates> moved = points(x);
+    Array<Coordinates> moved = points(x);
     const Vector f = -a.cwiseProduct(x);
     memory.move(points(f), d, moved, before);
     CHECK_AT_MOST(std::abs(memory.move_by(d, before, moved) - f.dot(to_vector(d))),

@@ -471,10 +471,10 @@ void test(int fewest_corners, int most_corners)
   for(Matrix_3x3& rotation : rotations)
     for(double& entry : rotation)
       entry = number(engine);
-  std::vector<Double4> rest, x;
+  Array<Coordinates> rest, x;
   for(int v = 0; v < n; ++v)
-    for(std::vector<Double4>* points : {&rest, &x})
-      points->push_back(Double4::of(number(engine), number(engine), number(engine)));
+    for(Array<Coordinates>* points : {&rest, &x})
+      points->push_back({number(engine), number(engine), number(engine)});
 
   Simplex_energy energy(simplices, cells, number_of_movable);
   std::vector<Coordinates> forces(number_of_movable);
@@ -486,14 +486,13 @@ void test(int fewest_corners, int most_corners)
     energy.choose_cells(is_chosen);
     double result = 0;
     for(int k = 0; k < 2; ++k) // nothing is left over from one to the next
-      result = energy.evaluate(rest.data(), x.data(), rotations.data(), forces.data());
+      result = energy.evaluate(rest, x, rotations.data(), forces.data());
 
     double sum = 0, size = 0;
     std::vector<Eigen::Vector3d> expected(n, Eigen::Vector3d::Zero());
     simplices.for_each_edge([&](int s, int i, int j, double w) {
-      const auto difference = [&](const std::vector<Double4>& points) {
-        const Double4 d = points[std::size_t(i)] - points[std::size_t(j)];
-        return Eigen::Vector3d(d[0], d[1], d[2]);
+      const auto difference = [&](const Array<Coordinates>& points) -> Eigen::Vector3d {
+        return Eigen::Vector3d::Map(points[i].data()) - Eigen::Vector3d::Map(points[j].data());
       };
       for(int k = simplices.corners.begin[s]; k < simplices.corners.begin[s + 1]; ++k)
         if(const int c = simplices.corners.items[k]; is_chosen[c])

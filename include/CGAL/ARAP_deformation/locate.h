@@ -61,7 +61,7 @@ public:
         const bool is_first = std::none_of(all.begin(), all.end(), [&](const auto& w) {
           return domain.index(w) < domain.index(v);
         });
-        std::vector<Coordinates> points;
+        internal::Array<Coordinates> points;
         for(const auto& w : all)
           points.push_back(Domain::coordinates(domain.point(w)));
         if(is_first && all.size() > Domain::dimension && internal::find_non_finite(points) < 0)
@@ -102,7 +102,7 @@ private:
     std::size_t fan, number_of_corners;
   };
 
-  void append(const simplex_descriptor& s, const std::vector<Coordinates>& points,
+  void append(const simplex_descriptor& s, const internal::Array<Coordinates>& points,
               std::vector<Corners>& corners)
   {
     for(std::size_t fan = 0; fan + Domain::dimension < points.size(); ++fan)

@@ -81,7 +81,7 @@ struct Problem
   Targets targets;
   Options options;
   Observer observe = [](unsigned int, double) { return CGAL::ARAP::Visitor_action::proceed; };
-  std::vector<Coordinates> x;
+  Array<Coordinates> x;
   std::vector<Matrix_3x3> rotations;
   std::unique_ptr<Coarse_metric> coarse_metric;
   Report report;

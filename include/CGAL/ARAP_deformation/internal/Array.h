@@ -14,18 +14,46 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/flat_types.h>
+
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// Allocates one element more than is asked for, so that what begins at the last one can be loaded
+// into a SIMD vector.
+template <typename T>
+struct Spare_allocator : std::allocator<T>
+{
+  template <typename Other>
+  struct rebind { using other = Spare_allocator<Other>; };
+
+  Spare_allocator() = default;
+  template <typename Other>
+  Spare_allocator(const Spare_allocator<Other>&) {}
+
+  T* allocate(std::size_t n) { return std::allocator<T>::allocate(n + 1); }
+  void deallocate(T* p, std::size_t n) { std::allocator<T>::deallocate(p, n + 1); }
+};
+
+template <typename T>
+struct Vector_of { using type = std::vector<T>; };
+
+template <>
+struct Vector_of<Coordinates>
+{
+  using type = std::vector<Coordinates, Spare_allocator<Coordinates>>;
+};
+
 // A std::vector whose size and indices may also be int, as in sparse matrices and index lists.
 template <typename T>
-class Array : public std::vector<T>
+class Array : public Vector_of<T>::type
 {
-  using Base = std::vector<T>;
+  using Base = typename Vector_of<T>::type;
 
 public:
   using Base::Base;

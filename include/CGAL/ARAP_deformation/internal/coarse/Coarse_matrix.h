@@ -98,9 +98,9 @@ public:
   const Sparse_matrix& matrix() const { return m_matrix; }
 
   // u := C^-1 u, with two vectors for each node
-  bool solve(std::vector<Coordinates>& u)
+  bool solve(Array<Coordinates>& u)
   {
-    std::vector<Coordinates> columns(3 * u.size()); // of which two are zero
+    Array<Coordinates> columns(3 * u.size()); // of which two are zero
     for(std::size_t k = 0; k < columns.size(); ++k)
       columns[k] = {u[k / 3][k % 3], 0, 0};
     if(!m_solver.solve(columns.size(), columns.data()))

@@ -43,7 +43,7 @@ public:
   // Computes P and the factor of C at the positions x; false if there is none. `matrix` is L with
   // the rows of the constraints.
   bool build(const Deformation_energy& energy, const Sparse_matrix& matrix,
-             const Array<char>& is_fixed, const std::vector<Coordinates>& x,
+             const Array<char>& is_fixed, const Array<Coordinates>& x,
              const std::vector<Matrix_3x3>& rotations)
   {
     if(m_transfer.space().number_of_nodes() == 0)
@@ -53,9 +53,9 @@ public:
   }
 
   // step += P C^-1 P^T f
-  bool add_solution(const std::vector<Coordinates>& force, std::vector<Coordinates>& step)
+  bool add_solution(const Array<Coordinates>& force, Array<Coordinates>& step)
   {
-    std::vector<Coordinates> u = restricted(force);
+    Array<Coordinates> u = restricted(force);
     if(!solve(u))
       return false;
     add_prolonged(u, step);
@@ -63,16 +63,16 @@ public:
   }
 
   // P^T f: two vectors for each node
-  std::vector<Coordinates> restricted(const std::vector<Coordinates>& force) const
+  Array<Coordinates> restricted(const Array<Coordinates>& force) const
   {
     return m_transfer.restricted(force);
   }
 
   // u := C^-1 u
-  bool solve(std::vector<Coordinates>& u) { return m_matrix.solve(u); }
+  bool solve(Array<Coordinates>& u) { return m_matrix.solve(u); }
 
   // step += P u
-  void add_prolonged(const std::vector<Coordinates>& u, std::vector<Coordinates>& step) const
+  void add_prolonged(const Array<Coordinates>& u, Array<Coordinates>& step) const
   {
     m_transfer.add_prolonged(u, step);
   }

@@ -135,7 +135,7 @@ public:
   }
 
   // Takes the positions. Fixed vertices do not move, and neither do nodes at them.
-  void place(const Array<char>& is_fixed, const std::vector<Coordinates>& x)
+  void place(const Array<char>& is_fixed, const Array<Coordinates>& x)
   {
     m_is_fixed = is_fixed;
     m_points.resize(is_fixed.size());
@@ -149,7 +149,7 @@ public:
 
   // P^T f, for forces at the movable vertices, which are zero at fixed ones: the force and the
   // torque of each node
-  std::vector<Coordinates> restricted(const std::vector<Coordinates>& force) const
+  Array<Coordinates> restricted(const Array<Coordinates>& force) const
   {
     // so many sums of each node, in parallel, that they cost little beside the vertices
     constexpr std::size_t most_parts = 16;
@@ -160,7 +160,7 @@ public:
       run_kernel<Restriction_kernel>(view(), static_cast<int>(begin), static_cast<int>(end),
                                      force.data(), sums.data() + 2 * m * (begin / part_size));
     }, part_size);
-    std::vector<Coordinates> result(2 * m, Coordinates{0, 0, 0});
+    Array<Coordinates> result(2 * m, Coordinates{0, 0, 0});
     for(std::size_t node = 0; node < m; ++node)
     {
       if(is_fixed(static_cast<int>(node)))
@@ -179,7 +179,7 @@ public:
   }
 
   // adds P u, with the translation and the rotation vector of each node, zero for a fixed one
-  void add_prolonged(const std::vector<Coordinates>& u, std::vector<Coordinates>& step) const
+  void add_prolonged(const Array<Coordinates>& u, Array<Coordinates>& step) const
   {
     std::vector<Double4> motions(u.size());
     for(std::size_t k = 0; k < u.size(); k += 2)

@@ -123,8 +123,8 @@ public:
 
   // Returns the energy at x for these targets, one for each row, and adds minus half its gradient
   // to the forces.
-  double pull(const std::vector<Coordinates>& targets, const std::vector<Coordinates>& x,
-              std::vector<Coordinates>& force) const;
+  double pull(const Array<Coordinates>& targets, const Array<Coordinates>& x,
+              Array<Coordinates>& force) const;
 
 private:
   // the rows in an order by their contents
@@ -180,11 +180,11 @@ struct Targets
     std::function<Coordinates(const Coordinates&)> projection;
   };
 
-  std::vector<Coordinates> soft, hard; // one for each row
+  Array<Coordinates> soft, hard; // one for each row
   std::vector<Set> sets;               // of soft rows, in their order
   std::vector<Frame> frames;           // the rotations that are given to cells
 
-  void project(const Weighted_rows& rows, const std::vector<Coordinates>& x);
+  void project(const Weighted_rows& rows, const Array<Coordinates>& x);
 
   // the target of the next soft or hard row
   void add_soft(const Coordinates& target);

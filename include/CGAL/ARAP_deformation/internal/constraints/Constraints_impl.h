@@ -26,7 +26,6 @@
 #include <functional>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -63,9 +62,9 @@ void Weighted_rows::append(const Weighted_rows& others, int r)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-double Weighted_rows::pull(const std::vector<Coordinates>& targets,
-                           const std::vector<Coordinates>& x,
-                           std::vector<Coordinates>& force) const
+double Weighted_rows::pull(const Array<Coordinates>& targets,
+                           const Array<Coordinates>& x,
+                           Array<Coordinates>& force) const
 {
   const Coordinates* const positions = x.data();
   Coordinates* const forces = force.data();
@@ -121,7 +120,7 @@ std::size_t Constraints::number_of_free_vertices() const
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Targets::project(const Weighted_rows& rows, const std::vector<Coordinates>& x)
+void Targets::project(const Weighted_rows& rows, const Array<Coordinates>& x)
 {
   for(const Set& set : sets)
     soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));

@@ -18,9 +18,9 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
-#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
+#include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
@@ -29,7 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -49,7 +48,7 @@ struct Form_view
 struct Form_values_kernel
 {
   CGAL_ARAP_ALWAYS_INLINE static void run(const Form_view& forms, int begin, int end,
-                                          const Double4* x, Double4* values)
+                                          const Points& x, Double4* values)
   {
     for(int i = begin; i < end; ++i)
     {
@@ -115,7 +114,7 @@ public:
 
   // `masses` are 0 where there is no form, `factors` b^2 k_i.
   Bending(Stars stars, Array<double> masses, Array<double> factors,
-          const std::vector<Coordinates>& rest, int number_of_movable_vertices)
+          const Array<Coordinates>& rest, int number_of_movable_vertices)
     : m_stars(std::move(stars)), m_inverse_masses(std::move(masses)), m_factors(std::move(factors)),
       m_number_of_movable_vertices(number_of_movable_vertices),
       m_rest_values(m_inverse_masses.size()), m_values(m_inverse_masses.size())
@@ -125,9 +124,7 @@ public:
         m_inverse_masses[i] = 1 / m_inverse_masses[i];
       else
         m_factors[i] = 0;
-    Array<Double4> points;
-    assign_padded(points, rest);
-    run_kernel<Form_values_kernel>(view(m_factors), 0, size(), points.data(), m_rest_values.data());
+    run_kernel<Form_values_kernel>(view(m_factors), 0, size(), Points(rest), m_rest_values.data());
   }
 
   bool is_none() const { return m_factors.empty(); }
@@ -191,7 +188,7 @@ public:
   }
 
   // to be called once before add_covariances() and evaluate() are called for the same positions
-  void prepare(const Double4* x)
+  void prepare(const Points& x)
   {
     if(!is_none())
       m_chosen.for_each([&](int begin, int end) {

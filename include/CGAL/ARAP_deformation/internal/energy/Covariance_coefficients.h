@@ -30,7 +30,7 @@ namespace internal {
 struct Covariance_coefficients
 {
   Array<int> vertices;
-  std::vector<Double4> vectors; // the fourth lane is 0
+  std::vector<Double4> vectors; // the fourth lane may hold anything
 
   std::size_t size() const { return vertices.size(); }
 

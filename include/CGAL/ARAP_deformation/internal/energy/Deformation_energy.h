@@ -25,7 +25,6 @@
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
-#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -33,6 +32,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
+#include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 
@@ -61,14 +61,13 @@ class Deformation_energy
 public:
   Deformation_energy() = default;
 
-  // `cells` is a Star_energy or a Simplex_energy
+  // `cells` is a Star_energy or a Simplex_energy. The rest shape stays where it is.
   template <typename CellEnergy>
-  Deformation_energy(CellEnergy cells, const std::vector<Coordinates>& rest,
+  Deformation_energy(CellEnergy cells, const Array<Coordinates>& rest,
                      int number_of_movable_vertices)
-    : m_cells(std::move(cells)), m_number_of_movable_vertices(number_of_movable_vertices)
-  {
-    assign_padded(m_rest, rest);
-  }
+    : m_cells(std::move(cells)), m_number_of_movable_vertices(number_of_movable_vertices),
+      m_rest(rest)
+  {}
 
   void set_bending(Bending bending) { m_bending = std::move(bending); }
   void set_smooth_rotations(Smooth_rotations smooth) { m_smooth = std::move(smooth); }
@@ -146,7 +145,7 @@ public:
   }
 
   // the bounding box of the points of all vertices that cells that count are at
-  Bounding_box bounding_box(const std::vector<Coordinates>& points) const
+  Bounding_box bounding_box(const Array<Coordinates>& points) const
   {
     Bounding_box box;
     for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
@@ -212,21 +211,22 @@ public:
     return vertex;
   }
 
-  // Fits the rotations to the positions x, starting from those given, and returns the energy.
+  // Fits the rotations to the positions x, starting from those given, or identities where there are
+  // none yet, and returns the energy.
   // `force` becomes minus half the gradient for each free vertex, and anything for a fixed one.
   // Without `is_smooth` rotations are fitted as if they need not be smooth.
   double fit_and_evaluate(const Closest_rotations& closest_rotations,
-                          const std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
-                          std::vector<Coordinates>& force, bool is_smooth = true)
+                          const Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                          Array<Coordinates>& force, bool is_smooth = true)
   {
-    assign_padded(m_x, x);
-    prepare_covariances(m_x);
+    complete(rotations);
+    prepare_covariances(x);
     m_smooth.keep(rotations);
     const bool has_steps = is_smooth && m_number_of_rotation_steps > 0;
     if(has_steps)
       m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
-      covariances_of_cells(m_x, begin, end, covariances);
+      covariances_of_cells(x, begin, end, covariances);
       if(is_smooth)
         m_smooth.add_covariances(begin, end, covariances);
     };
@@ -240,7 +240,7 @@ public:
     if(m_sequential_fit.is_none())
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        covariances_of_cells(m_x, begin, end, covariances.data());
+        covariances_of_cells(x, begin, end, covariances.data());
         if(has_steps)
           std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
         if(is_smooth)
@@ -267,7 +267,7 @@ public:
     for(int k = 0; has_steps && k < m_number_of_rotation_steps; ++k)
       if(!m_rotation_steps->take(m_smooth, m_covariances, rotations))
         break;
-    return evaluate(rotations, force);
+    return evaluate_prepared(x, rotations, force);
   }
 
   // Prepares steps of all rotations together, where they are to be smooth and given rotations are
@@ -302,49 +302,48 @@ public:
     m_number_of_rotation_steps = 0;
   }
 
-  // about by how much a step of all rotations together would lower the energy where it was last
-  // evaluated; 0 if none is prepared
-  double gain_of_rotation_step(const std::vector<Matrix_3x3>& rotations)
+  // about by how much a step of all rotations together would lower the energy at the positions x;
+  // 0 if none is prepared
+  double gain_of_rotation_step(const Array<Coordinates>& x,
+                               const std::vector<Matrix_3x3>& rotations)
   {
     if(!m_rotation_steps)
       return 0;
-    compute_covariances(m_x);
+    compute_covariances(x);
     return m_rotation_steps->gain(m_smooth, m_covariances, rotations);
   }
 
-  // The same with the rotations given.
-  double evaluate(const std::vector<Coordinates>& x, const std::vector<Matrix_3x3>& rotations,
-                  std::vector<Coordinates>& force)
+  // The energy and the force with the rotations given.
+  double evaluate(const Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                  Array<Coordinates>& force)
   {
-    assign_padded(m_x, x);
-    m_bending.prepare(m_x.data());
-    return evaluate(rotations, force);
+    complete(rotations);
+    m_bending.prepare(x);
+    return evaluate_prepared(x, rotations, force);
   }
 
   // Prepares change_of_force() at positions x that the rotations are fitted to. Not where these are
   // state: they depend on each other.
-  void prepare_second_derivative(const std::vector<Coordinates>& x,
+  void prepare_second_derivative(const Array<Coordinates>& x,
                                  const std::vector<Matrix_3x3>& rotations)
   {
-    assign_padded(m_x, x);
     m_derivatives.assign(rotations.size(), Rotation_derivative());
     m_changes.assign(rotations.size(), Matrix_3x3{}); // where rotations do not change it stays zero
-    for_each_fitted_cell([&](int c, const Matrix_3x3& covariance) {
+    for_each_fitted_cell(x, [&](int c, const Matrix_3x3& covariance) {
       m_derivatives[c] = Rotation_derivative(covariance, rotations[static_cast<std::size_t>(c)]);
     });
   }
 
   // How the force changes with the positions, to first order; for free vertices. `step` is zero at
   // all others. The force is linear in positions and rotations together.
-  void change_of_force(const std::vector<Coordinates>& step,
-                       const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& change)
+  void change_of_force(const Array<Coordinates>& step,
+                       const std::vector<Matrix_3x3>& rotations, Array<Coordinates>& change)
   {
-    assign_padded(m_x, step);
-    for_each_fitted_cell([&](int c, const Matrix_3x3& covariance) {
+    for_each_fitted_cell(step, [&](int c, const Matrix_3x3& covariance) {
       const auto k = static_cast<std::size_t>(c);
       set_rotation_of_group(c, m_derivatives[c](covariance, rotations[k]), m_changes);
     });
-    evaluate(m_changes, change);
+    evaluate_prepared(step, m_changes, change);
   }
 
   void clear_second_derivative()
@@ -376,7 +375,7 @@ public:
     result.clear();
     std::visit([&](const auto& cells) {
       const auto add = [&](int cell) {
-        cells.add_coefficients(cell, m_rest.data(), result);
+        cells.add_coefficients(cell, m_rest, result);
         m_bending.add_coefficients(cell, result);
       };
       const int g = m_group_of.empty() ? -1 : m_group_of[c];
@@ -393,7 +392,7 @@ public:
   {
     Matrix_rows sum = Matrix_rows::zero();
     for(std::size_t k = 0; k < coefficients.size(); ++k)
-      sum.add_outer_product(m_rest[static_cast<std::size_t>(coefficients.vertices[k])],
+      sum.add_outer_product(m_rest[coefficients.vertices[k]],
                             coefficients.vectors[k]);
     Matrix_3x3 result;
     sum.store(result);
@@ -403,19 +402,24 @@ public:
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
+  void complete(std::vector<Matrix_3x3>& rotations) const
+  {
+    rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
+  }
+
   // of the cells that count, in the rest shape
   void measure()
   {
     std::visit([&](const auto& cells) {
-      const Edge_sums sums = cells.edge_sums(m_rest.data()) + m_bending.sums();
+      const Edge_sums sums = cells.edge_sums(m_rest) + m_bending.sums();
       m_sum_of_weights = sums.weights;
       m_scale = sums.squares;
       m_is_in_cell = cells.vertices_of(m_is_chosen);
     }, m_cells);
     Bounding_box box;
     for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
-      if(m_is_in_cell[v])
-        box.include(Coordinates{m_rest[v][0], m_rest[v][1], m_rest[v][2]});
+      if(const Double4 point = m_rest[static_cast<int>(v)]; m_is_in_cell[v])
+        box.include(Coordinates{point[0], point[1], point[2]});
     m_squared_length = box.squared_length();
   }
 
@@ -425,7 +429,7 @@ private:
   }
 
   // the covariances of all cells for some positions, without what makes them smooth
-  void compute_covariances(const std::vector<Double4>& x)
+  void compute_covariances(const Points& x)
   {
     m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     prepare_covariances(x);
@@ -435,15 +439,16 @@ private:
   }
 
   // Calls f(c, S) for each cell that counts whose rotation is fitted to its own covariance S alone,
-  // at the positions m_x, and for the first one of each group with the sum of theirs.
+  // at the positions x, and for the first one of each group with the sum of theirs.
   // It is no template: for each f there would be another copy of its loops.
-  void for_each_fitted_cell(const std::function<void(int, const Matrix_3x3&)>& f)
+  void for_each_fitted_cell(const Points& x,
+                            const std::function<void(int, const Matrix_3x3&)>& f)
   {
     const Array<char> is_fitted = fitted_cells();
-    prepare_covariances(m_x);
+    prepare_covariances(x);
     m_batches.for_each([&](int begin, int end) {
       std::array<Matrix_3x3, batch_size> covariances;
-      covariances_of_cells(m_x, begin, end, covariances.data());
+      covariances_of_cells(x, begin, end, covariances.data());
       for(int c = begin; c < end; ++c)
         if(is_fitted[c] && (m_group_of.empty() || m_group_of[c] < 0))
           f(c, covariances[static_cast<std::size_t>(c - begin)]);
@@ -454,7 +459,7 @@ private:
       Matrix_3x3 sum{}, covariance;
       for(const int* c = begin; c != end; ++c)
       {
-        covariances_of_cells(m_x, *c, *c + 1, &covariance);
+        covariances_of_cells(x, *c, *c + 1, &covariance);
         for(std::size_t entry = 0; entry < 9; ++entry)
           sum[entry] += covariance[entry];
       }
@@ -463,29 +468,29 @@ private:
   }
 
   // to be called before the covariances of cells are asked for at these positions
-  void prepare_covariances(const std::vector<Double4>& x)
+  void prepare_covariances(const Points& x)
   {
-    m_bending.prepare(x.data());
-    std::visit([&](auto& cells) { cells.prepare_covariances(m_rest.data(), x.data()); }, m_cells);
+    m_bending.prepare(x);
+    std::visit([&](auto& cells) { cells.prepare_covariances(m_rest, x); }, m_cells);
   }
 
   // Of the cells in [begin, end), without what makes them smooth. The only place that asks which
   // kind of cells there is: else all loops over cells would be compiled for each.
-  void covariances_of_cells(const std::vector<Double4>& x, int begin, int end,
-                            Matrix_3x3* covariances) const
+  void covariances_of_cells(const Points& x, int begin, int end, Matrix_3x3* covariances) const
   {
     std::visit([&](const auto& cells) {
-      cells.compute_covariances(m_rest.data(), x.data(), begin, end, covariances);
+      cells.compute_covariances(m_rest, x, begin, end, covariances);
     }, m_cells);
     m_bending.add_covariances(begin, end, covariances);
   }
 
-  // at the positions m_x
-  double evaluate(const std::vector<Matrix_3x3>& rotations, std::vector<Coordinates>& force)
+  // at positions that the bending is prepared for
+  double evaluate_prepared(const Points& x, const std::vector<Matrix_3x3>& rotations,
+                           Array<Coordinates>& force)
   {
     force.resize(static_cast<std::size_t>(m_number_of_movable_vertices));
     const double rigidity = std::visit([&](auto& cells) {
-      return cells.evaluate(m_rest.data(), m_x.data(), rotations.data(), force.data());
+      return cells.evaluate(m_rest, x, rotations.data(), force.data());
     }, m_cells);
     return rigidity + m_bending.evaluate(rotations.data(), force.data()) +
            m_smooth.evaluate(rotations);
@@ -524,8 +529,7 @@ private:
   Array<char> m_is_chosen;  // for each cell whether it counts
   Array<char> m_is_in_cell; // for each of the first vertices: is a cell that counts there
   Index_ranges m_batches;   // of the cells that count
-  std::vector<Double4> m_rest;
-  std::vector<Double4> m_x;    // of the last evaluation
+  Points m_rest;
   double m_scale = 0;          // in the rest shape
   double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
   double m_sum_of_weights = 0;

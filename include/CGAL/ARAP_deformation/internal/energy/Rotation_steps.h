@@ -164,7 +164,7 @@ private:
   Constrained_system m_system;
   Array<int> m_leader;
   Array<char> m_is_fixed;
-  std::vector<Coordinates> m_force, m_step;
+  Array<Coordinates> m_force, m_step;
   std::vector<Matrix_3x3> m_trial;
 };
 

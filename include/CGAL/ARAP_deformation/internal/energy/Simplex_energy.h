@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
@@ -41,8 +42,8 @@ struct Simplex_view
   const int* corners;
   const int* first_weight;
   const double* weights;
-  const Double4* rest;
-  const Double4* x;
+  Points rest;
+  Points x;
 };
 
 // N is the number of corners of each simplex, or 0 where it differs.
@@ -187,7 +188,7 @@ public:
   }
 
   // over the cells that count
-  Edge_sums edge_sums(const Double4* rest) const
+  Edge_sums edge_sums(const Points& rest) const
   {
     return m_chosen.sum([&](int begin, int end) {
       Edge_sums sums;
@@ -258,7 +259,7 @@ public:
   }
 
   // to be called once before compute_covariances() is called for the same positions
-  void prepare_covariances(const Double4* rest, const Double4* x)
+  void prepare_covariances(const Points& rest, const Points& x)
   {
     if(m_is_each_a_cell)
       return;
@@ -268,7 +269,7 @@ public:
   }
 
   // for the cells in [begin, end)
-  void compute_covariances(const Double4* rest, const Double4* x, int begin, int end,
+  void compute_covariances(const Points& rest, const Points& x, int begin, int end,
                            Matrix_3x3* covariances) const
   {
     if(!m_is_each_a_cell)
@@ -281,7 +282,7 @@ public:
   }
 
   // adds what the covariance of cell c consists of
-  void add_coefficients(int c, const Double4* rest, Covariance_coefficients& sum) const
+  void add_coefficients(int c, const Points& rest, Covariance_coefficients& sum) const
   {
     const auto& corners = m_simplices.corners;
     for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
@@ -299,7 +300,7 @@ public:
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
   // movable vertex that is in chosen cells only.
-  double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
+  double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
     const double energy = m_chosen.sum([&](int begin, int end) {
@@ -334,7 +335,7 @@ private:
     }
   }
 
-  Simplex_view view(const Double4* rest, const Double4* x) const
+  Simplex_view view(const Points& rest, const Points& x) const
   {
     return {m_simplices.corners.begin.data(), m_simplices.corners.items.data(),
             m_simplices.first_weight.data(), m_simplices.weights.data(), rest, x};

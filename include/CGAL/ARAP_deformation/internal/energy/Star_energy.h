@@ -19,8 +19,8 @@
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
-#include <CGAL/ARAP_deformation/internal/energy/assign_padded.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
@@ -29,7 +29,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -43,8 +42,8 @@ struct Star_view
   const int* neighbours;
   const double* weights;
   const double* opposite_weights;
-  const Double4* rest;
-  const Double4* x;
+  Points rest;
+  Points x;
 };
 
 struct Star_covariances_kernel
@@ -104,9 +103,11 @@ struct Star_residuals_kernel
       }
       energies = energies + star_energy; // sums of sums: less is lost in rounding
       if constexpr(HasForce)
-        force[i] = {row_0[0] + row_0[1] + row_0[2] - sum[0],
-                    row_1[0] + row_1[1] + row_1[2] - sum[1],
-                    row_2[1] + row_2[2] + row_2[3] - sum[2]};
+      {
+        const Double4 f =
+          sums_of_lanes(row_0, row_1, shuffle<1, 2, 3, 0>(row_2, row_2)) - sum;
+        force[i] = {f[0], f[1], f[2]};
+      }
     }
     *energy = energies[0] + energies[1] + energies[2];
   }
@@ -128,16 +129,14 @@ public:
   }
 
   // Cells consist of several stars, and stars may be in several cells.
-  Star_energy(Stars stars, Cells cells, const std::vector<Coordinates>& rest,
+  Star_energy(Stars stars, Cells cells, const Array<Coordinates>& rest,
               int number_of_movable_vertices)
     : m_stars(std::move(stars)), m_cells(std::move(cells)),
       m_cells_of_stars(lists_with(m_cells.sets, m_stars.size())),
       m_number_of_movable_vertices(number_of_movable_vertices),
       m_covariances(m_stars.size()), m_means(m_stars.size()), m_rest_covariances(m_stars.size())
   {
-    Array<Double4> points;
-    assign_padded(points, rest);
-    run_kernel<Star_covariances_kernel>(view(points.data(), points.data()), 0, m_stars.size(),
+    run_kernel<Star_covariances_kernel>(view(rest, rest), 0, m_stars.size(),
                                         m_rest_covariances.data());
   }
 
@@ -170,7 +169,7 @@ public:
   }
 
   // over the cells that count
-  Edge_sums edge_sums(const Double4* rest) const
+  Edge_sums edge_sums(const Points& rest) const
   {
     return m_chosen.sum([&](int begin, int end) {
       Edge_sums sums;
@@ -212,7 +211,7 @@ public:
   }
 
   // to be called once before compute_covariances() is called for the same positions
-  void prepare_covariances(const Double4* rest, const Double4* x)
+  void prepare_covariances(const Points& rest, const Points& x)
   {
     if(!has_stars_as_cells())
       m_chosen.for_each([&](int begin, int end) {
@@ -222,7 +221,7 @@ public:
   }
 
   // for the cells in [begin, end)
-  void compute_covariances(const Double4* rest, const Double4* x, int begin, int end,
+  void compute_covariances(const Points& rest, const Points& x, int begin, int end,
                            Matrix_3x3* covariances) const
   {
     if(has_stars_as_cells())
@@ -231,7 +230,7 @@ public:
   }
 
   // adds what the covariance of cell c consists of
-  void add_coefficients(int c, const Double4* rest, Covariance_coefficients& sum) const
+  void add_coefficients(int c, const Points& rest, Covariance_coefficients& sum) const
   {
     if(has_stars_as_cells())
       return add_star(c, 1, rest, sum);
@@ -241,7 +240,7 @@ public:
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
   // movable vertex that has neighbours in chosen cells only.
-  double evaluate(const Double4* rest, const Double4* x, const Matrix_3x3* rotations,
+  double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
     Star_view stars = view(rest, x);
@@ -278,7 +277,7 @@ public:
 private:
   bool has_stars_as_cells() const { return m_cells.sets.items.empty(); }
 
-  void add_star(int i, double stiffness, const Double4* rest, Covariance_coefficients& sum) const
+  void add_star(int i, double stiffness, const Points& rest, Covariance_coefficients& sum) const
   {
     for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
     {
@@ -307,18 +306,31 @@ private:
   // store.
   Array<double> opposite_weights(const Array<double>& weights) const
   {
-    Array<double> opposite(m_stars.neighbours.begin[m_number_of_movable_vertices]);
-    for_each_block(static_cast<std::size_t>(m_number_of_movable_vertices),
-                   [&](std::size_t begin, std::size_t end) {
-      for(int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
-        for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-          opposite[e] = weights[m_stars.find(m_stars.neighbours.items[e], i)];
-    });
-    return std::equal(opposite.begin(), opposite.end(), weights.begin()) ? Array<double>()
-                                                                         : opposite;
+    // adds up f(e, w) over the edges e with their opposite weights w
+    const auto sum = [&](const auto& f) {
+      return sum_over_blocks(static_cast<std::size_t>(m_number_of_movable_vertices),
+                             [&](std::size_t begin, std::size_t end) {
+        int result = 0;
+        for(int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+          for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+            result += f(e, weights[m_stars.find(m_stars.neighbours.items[e], i)]);
+        return result;
+      });
+    };
+    Array<double> opposite;
+    if(sum([&](int e, double w) { return w != weights[e]; }) > 0)
+    {
+      opposite.resize(static_cast<std::size_t>(
+        m_stars.neighbours.begin[m_number_of_movable_vertices]));
+      sum([&](int e, double w) {
+        opposite[e] = w;
+        return 0;
+      });
+    }
+    return opposite;
   }
 
-  Star_view view(const Double4* rest, const Double4* x) const
+  Star_view view(const Points& rest, const Points& x) const
   {
     const Array<double>& opposite =
       m_opposite_weights.empty() ? m_stars.weights : m_opposite_weights;

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -41,7 +42,7 @@ public:
   // another metric, or none; no slot is in use until it is remembered anew
   void set_metric(Coarse_metric* metric) { m_metric = metric; }
 
-  bool set_next_force(const std::vector<Coordinates>& force)
+  bool set_next_force(const Array<Coordinates>& force)
   {
     if(!is_active())
       return true;
@@ -71,36 +72,36 @@ public:
 
   // what is added to a step that has these shares of d and of the z of slots
   template <typename Slots, typename Shares>
-  std::vector<Coordinates> step(std::size_t number_of_vertices, double of_d, const Slots& slots,
+  Array<Coordinates> step(std::size_t number_of_vertices, double of_d, const Slots& slots,
                                 const Shares& of_z) const
   {
     if(!is_active())
       return {};
-    std::vector<Coordinates> u(m_d.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> u(m_d.size(), Coordinates{0, 0, 0});
     for(std::size_t k = 0; k < u.size(); ++k)
     {
       add(u[k], of_d, m_d[k]);
       for(std::size_t i = 0; i < slots.size(); ++i)
         add(u[k], of_z[i], m_z[slots[i]][k]);
     }
-    std::vector<Coordinates> result(number_of_vertices, Coordinates{0, 0, 0});
+    Array<Coordinates> result(number_of_vertices, Coordinates{0, 0, 0});
     m_metric->add_prolonged(u, result);
     return result;
   }
 
 private:
-  static std::vector<Coordinates> change(const std::vector<Coordinates>& from,
-                                         const std::vector<Coordinates>& to, double unit)
+  static Array<Coordinates> change(const Array<Coordinates>& from,
+                                         const Array<Coordinates>& to, double unit)
   {
-    std::vector<Coordinates> result(from.size());
+    Array<Coordinates> result(from.size());
     for(std::size_t k = 0; k < from.size(); ++k)
       result[k] = scaled(difference(from[k], to[k]), 1 / unit);
     return result;
   }
 
   Coarse_metric* m_metric = nullptr;
-  std::vector<Coordinates> m_force, m_d, m_next_force, m_next_d;
-  std::vector<std::vector<Coordinates>> m_y, m_z; // of the slots
+  Array<Coordinates> m_force, m_d, m_next_force, m_next_d;
+  std::vector<Array<Coordinates>> m_y, m_z; // of the slots
 };
 
 } // namespace internal

@@ -118,10 +118,10 @@ public:
   // rotations but for those that frames give. Targets that are sets become the projections of the
   // final positions. Keeps only the factorization for the initial guess.
   Diagnosis run(const Options& options, const Observer& observe, Targets& targets,
-                std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
+                Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
 
   // the number of tetrahedra that are inside out at the positions x; 0 on a surface
-  std::size_t number_of_inverted_simplices(const std::vector<Coordinates>& x) const;
+  std::size_t number_of_inverted_simplices(const Array<Coordinates>& x) const;
 
 private:
   struct State; // energy and system: what only the implementation knows
@@ -130,7 +130,7 @@ private:
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
   Diagnosis run_in_arena(const Options& options, const Observer& observe, Targets& targets,
-                         std::vector<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                         Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
                          Report& report);
   template <typename Function>
   std::optional<Matrix_3x3> mean_at_corners(int s, const Function& rotation_at) const;
@@ -138,7 +138,7 @@ private:
                               std::vector<Matrix_3x3>& rotations) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;
-  void include_near(const std::vector<Coordinates>& points, Bounding_box& box) const;
+  void include_near(const Array<Coordinates>& points, Bounding_box& box) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }
 
   Core_models m_models;

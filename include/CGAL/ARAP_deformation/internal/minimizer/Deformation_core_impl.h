@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
@@ -199,7 +200,7 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Deformation_core::include_near(const std::vector<Coordinates>& points,
+void Deformation_core::include_near(const Array<Coordinates>& points,
                                     Bounding_box& box) const
 {
   for(std::size_t v = 0; v < points.size(); ++v)
@@ -215,11 +216,10 @@ int Deformation_core::number_of_cells() const
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
-                                Targets& targets, std::vector<Coordinates>& x,
+                                Targets& targets, Array<Coordinates>& x,
                                 std::vector<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
-  rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
   run_with_threads(threads(options.threads), [&] {
     diagnosis = run_in_arena(options, observe, targets, x, rotations, report);
   });
@@ -291,7 +291,7 @@ void Deformation_core::set_rotations_of_cells(const Array<Coordinates>& vectors,
 
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
-                                         Targets& targets, std::vector<Coordinates>& x,
+                                         Targets& targets, Array<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
 {
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
@@ -299,7 +299,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   // where cells depend on others that are far away, a part is not all that its energy depends on
   const bool is_certain = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
                           m_energy_model.cells.rings() == 0 && targets.frames.empty();
-  std::vector<Coordinates> unplaced = is_certain ? std::vector<Coordinates>() : x;
+  Array<Coordinates> unplaced = is_certain ? Array<Coordinates>() : x;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     targets.project(m_constraints.rows, x);
@@ -321,7 +321,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(!m_state->stars)
       m_state->stars = star_edge_sets(*m_models.weight,
                                       weighted_simplices(*m_models.weight, m_region), m_region);
-    const std::vector<Coordinates> before = x;
+    const Array<Coordinates> before = x;
     Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
     if(!guess(targets, x))
       return {Status::solver_failed};
@@ -370,7 +370,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                         m_constraints.inertia == 0 &&
                         (is_torn(neighborhood.ties, m_region.rest, m_squared_size, x) ||
                          is_torn(m_constraints, m_squared_size, targets, x,
-                                 [&]() -> const std::vector<Coordinates>& {
+                                 [&]() -> const Array<Coordinates>& {
                                    minimization.evaluate();
                                    return minimization.force();
                                  }));
@@ -382,6 +382,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                 x)(m_state->energy, m_state->system);
     }();
     const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
+      to_set.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
       set_rotations_of_cells(vectors, to_set);
       Array<Coordinates>().swap(vectors); // memory is at its peak from now on
     };
@@ -396,7 +397,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
 
 CGAL_ARAP_INLINE_FUNCTION
 std::size_t
-Deformation_core::number_of_inverted_simplices(const std::vector<Coordinates>& x) const
+Deformation_core::number_of_inverted_simplices(const Array<Coordinates>& x) const
 {
   // the sign of the volume of the tetrahedron s
   const auto orientation = [this](int s, const Coordinates* points) {

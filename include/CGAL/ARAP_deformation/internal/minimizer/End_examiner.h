@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
@@ -27,7 +28,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -94,7 +94,7 @@ public:
     bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1);
     if(is_saddle)
     {
-      const std::vector<Coordinates>& direction = look.direction();
+      const Array<Coordinates>& direction = look.direction();
       const double first = 0.01 * m_run.diameter / largest_entry(direction);
       const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
       is_lower |= descend_along(direction, sign * first, 100 * first) ||
@@ -127,7 +127,7 @@ private:
     return m_number_of_moves > 0 ? Status::iteration_limit : Status::converged;
   }
 
-  static double largest_entry(const std::vector<Coordinates>& points)
+  static double largest_entry(const Array<Coordinates>& points)
   {
     double largest = 0;
     for(const Coordinates& p : points)
@@ -137,8 +137,8 @@ private:
   }
 
   // moves x
-  double energy_at(const std::vector<Coordinates>& before,
-                   const std::vector<Coordinates>& direction, double t)
+  double energy_at(const Array<Coordinates>& before,
+                   const Array<Coordinates>& direction, double t)
   {
     for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
@@ -155,7 +155,7 @@ private:
   bool does_model_hold(const Second_look& look, double error)
   {
     const double value = m_run.value();
-    const std::vector<Coordinates> before = m_run.x;
+    const Array<Coordinates> before = m_run.x;
     const double change = energy_at(before, look.solution(), 2) - value;
     energy_at(before, look.solution(), 0);
     m_run.keep_energy();
@@ -164,11 +164,11 @@ private:
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
   // far as it goes on falling when the step is doubled, or until that is `longest`.
-  bool descend_along(const std::vector<Coordinates>& direction, double first, double longest)
+  bool descend_along(const Array<Coordinates>& direction, double first, double longest)
   {
     if(!std::isfinite(first))
       return false;
-    const std::vector<Coordinates> before = m_run.x;
+    const Array<Coordinates> before = m_run.x;
     double lowest = m_run.value() - 4 * energy_resolution(m_run.value(), m_run.report);
     double best = 0;
     for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)

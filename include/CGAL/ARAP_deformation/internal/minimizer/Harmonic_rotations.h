@@ -67,8 +67,8 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
 
 // Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
 // which is given by its square.
-inline bool is_torn(const Array<std::array<int, 2>>& ties, const std::vector<Coordinates>& rest,
-                    double size, const std::vector<Coordinates>& x)
+inline bool is_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
+                    double size, const Array<Coordinates>& x)
 {
   return std::any_of(ties.begin(), ties.end(), [&](const std::array<int, 2>& tie) {
     const auto i = static_cast<std::size_t>(tie[0]), j = static_cast<std::size_t>(tie[1]);
@@ -82,9 +82,9 @@ inline bool is_torn(const Array<std::array<int, 2>>& ties, const std::vector<Coo
 // the gradient of the energy at x.
 template <typename Function>
 bool is_torn(const Constraints& constraints, double size, const Targets& targets,
-             const std::vector<Coordinates>& x, const Function& force)
+             const Array<Coordinates>& x, const Function& force)
 {
-  const std::vector<Coordinates>* forces = nullptr;
+  const Array<Coordinates>* forces = nullptr;
   for(int r = 0; r < constraints.rows.size(); ++r)
   {
     const Coordinates way = difference(targets.soft[static_cast<std::size_t>(r)],
@@ -121,7 +121,7 @@ class Harmonic_rotations
 public:
   Harmonic_rotations(const Region& region, const Constraints& constraints,
                      const Array<char>& is_near, const Targets& targets,
-                     const std::vector<Coordinates>& x)
+                     const Array<Coordinates>& x)
     : m_known(region.number_of_vertices(), Coordinates{0, 0, 0}),
       m_is_known(region.number_of_vertices(), 0), m_constraints(constraints)
   {
@@ -163,7 +163,7 @@ public:
       const int begin = handles.begin[h], end = handles.begin[h + 1];
       if(end - begin < 2)
         continue;
-      std::vector<Coordinates> rest, places;
+      Array<Coordinates> rest, places;
       for(int k = begin; k < end; ++k)
       {
         rest.push_back(region.rest[handles.items[k]]);
@@ -184,14 +184,16 @@ public:
           m_unknown.append(*rows, r);
   }
 
-  // the rotation vector of each vertex, or nothing if no handle has one, or if the solver fails
-  Array<Coordinates> operator()(const Deformation_energy& energy, Constrained_system& system) const
+  // The rotation vector of each vertex, or nothing if no handle has one, or if the solver fails.
+  // To be called once.
+  Array<Coordinates> operator()(const Deformation_energy& energy, Constrained_system& system)
   {
     if(std::find(m_is_known.begin(), m_is_known.end(), 1) == m_is_known.end())
       return {};
-    Array<Coordinates> vectors = m_known;
+    const bool are_all_known = m_unknown.size() == 0;
+    Array<Coordinates> vectors = are_all_known ? std::move(m_known) : m_known;
     if(!extend(energy, system, vectors) ||
-       (m_unknown.size() > 0 && !hold_unknown(energy, system, vectors)))
+       (!are_all_known && !hold_unknown(energy, system, vectors)))
       return {};
     return vectors;
   }
@@ -207,7 +209,7 @@ private:
   bool extend(const Deformation_energy& energy, Constrained_system& system,
               Array<Coordinates>& values) const
   {
-    std::vector<Coordinates> step = pulls(energy, values);
+    Array<Coordinates> step = pulls(energy, values);
     step.resize(m_constraints.is_fixed.size());
     for(std::size_t v = 0; v < step.size(); ++v)
       if(m_constraints.is_fixed[v])

@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -65,7 +64,7 @@ public:
 
   // Moves the free vertices of x. Where they are before makes no difference. Returns false if the
   // solver failed.
-  bool operator()(const Targets& targets, std::vector<Coordinates>& x)
+  bool operator()(const Targets& targets, Array<Coordinates>& x)
   {
     const std::size_t n = m_constraints.is_fixed.size();
     for(std::size_t v = 0; v < n; ++v)
@@ -89,7 +88,7 @@ public:
       Array<Coordinates> from_x(x.size());
       std::transform(m_region.rest.begin(), m_region.rest.end(), x.begin(), from_x.begin(),
                      difference);
-      std::vector<Coordinates> correction;
+      Array<Coordinates> correction;
       if(!solve(normal_product(from_x, false), correction))
         return false;
       const Coordinates size = products(correction, correction);
@@ -113,7 +112,7 @@ public:
 private:
   // The solution for a right-hand side, for each coordinate a system of its own. Returns false if
   // the solver failed.
-  bool solve(std::vector<Coordinates> residual, std::vector<Coordinates>& x)
+  bool solve(Array<Coordinates> residual, Array<Coordinates>& x)
   {
     const std::size_t n = residual.size();
     x.assign(n, Coordinates{0, 0, 0});
@@ -121,7 +120,7 @@ private:
     Coordinates last = {0, 0, 0}, first = last;
     for(int iteration = 0; iteration < 300; ++iteration)
     {
-      std::vector<Coordinates> preconditioned = residual;
+      Array<Coordinates> preconditioned = residual;
       for(int factor = 0; factor < 2; ++factor)
         if(!m_system.solve(preconditioned))
           return false;
@@ -139,7 +138,7 @@ private:
           direction[v][c] = preconditioned[v][c] +
                             (last[c] > 0 ? size[c] / last[c] * direction[v][c] : 0);
       last = size;
-      const std::vector<Coordinates> image = normal_product(direction, true);
+      const Array<Coordinates> image = normal_product(direction, true);
       const Coordinates curvature = products(direction, image);
       for(std::size_t c = 0; c < 3; ++c)
       {
@@ -176,14 +175,14 @@ private:
     return result;
   }
 
-  void leave_out_others(std::vector<Coordinates>& x) const
+  void leave_out_others(Array<Coordinates>& x) const
   {
     for(std::size_t v = 0; v < x.size(); ++v)
       if(!m_is_solved_for[v])
         x[v] = {0, 0, 0};
   }
 
-  static Coordinates products(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
+  static Coordinates products(const Array<Coordinates>& a, const Array<Coordinates>& b)
   {
     Coordinates sums = {0, 0, 0};
     for(std::size_t v = 0; v < a.size(); ++v)

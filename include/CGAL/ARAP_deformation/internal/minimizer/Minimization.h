@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
@@ -47,7 +48,7 @@ namespace internal {
 class Minimization
 {
 public:
-  std::vector<Coordinates>& x;
+  Array<Coordinates>& x;
   const std::size_t number_of_vertices; // that are movable
   Report& report;
   const Options& options;
@@ -56,7 +57,7 @@ public:
 
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
-               const Observer& observe, Targets& targets, std::vector<Coordinates>& x_,
+               const Observer& observe, Targets& targets, Array<Coordinates>& x_,
                std::vector<Matrix_3x3>& rotations, std::unique_ptr<Coarse_metric>& coarse_metric,
                Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
@@ -100,7 +101,7 @@ public:
   template <typename Function>
   bool start_with(const Function& set_rotations, const std::vector<char>& is_placed, bool is_tried)
   {
-    std::vector<Coordinates> step;
+    Array<Coordinates> step;
     const double energy = is_tried ? evaluate() : 0;
     const std::vector<Matrix_3x3> last_rotations = m_last_rotations;
     set_rotations(m_rotations); // others are fitted anew
@@ -111,7 +112,7 @@ public:
       if(!solve(step))
         return false;
     }
-    std::vector<Coordinates>& before = step;
+    Array<Coordinates>& before = step;
     for(std::size_t v = 0; v < number_of_vertices; ++v)
     {
       const Coordinates last = x[v];
@@ -130,7 +131,7 @@ public:
 
   // Replaces x by other positions, with rotations that are fitted to these alone, if that lowers
   // the energy.
-  bool try_positions(std::vector<Coordinates> other)
+  bool try_positions(Array<Coordinates> other)
   {
     const double energy = evaluate();
     std::vector<Matrix_3x3> fitted = m_rotations;
@@ -148,7 +149,7 @@ public:
   bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }
 
   // minus half the gradient where the energy was last evaluated
-  const std::vector<Coordinates>& force() const { return m_force; }
+  const Array<Coordinates>& force() const { return m_force; }
 
   // Whether the second derivative is known. Smooth rotations depend on each other. A time step has
   // no need of it: it is short, and inertia makes its energy convex.
@@ -166,11 +167,11 @@ public:
 
   // How the force changes if x changes by a step, to first order. The step is as long as x, and
   // zero but at free vertices. Sets that targets are projected onto are differentiated numerically.
-  void change_of_force(const std::vector<Coordinates>& step, std::vector<Coordinates>& change)
+  void change_of_force(const Array<Coordinates>& step, Array<Coordinates>& change)
   {
     Scoped_seconds local(report.seconds.local_steps);
     m_energy.change_of_force(step, m_rotations, change);
-    std::vector<Coordinates> targets(m_targets.soft.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> targets(m_targets.soft.size(), Coordinates{0, 0, 0});
     for(const Targets::Set& set : m_targets.sets)
     {
       Coordinates moved = m_rows.value(set.row, x.data());
@@ -190,7 +191,7 @@ public:
   void clear_second_derivative() { m_energy.clear_second_derivative(); }
 
   // leaves forces only where a step can follow them
-  void leave_free(std::vector<Coordinates>& force) const
+  void leave_free(Array<Coordinates>& force) const
   {
     for(std::size_t v : m_fixed_vertices)
       force[v] = {0, 0, 0};
@@ -219,12 +220,15 @@ public:
   double value() const { return m_value; } // that was evaluated last
 
   // Computes the local/global step, the solution of L step = force.
-  bool solve(std::vector<Coordinates>& step) { return solve_for(m_force, step); }
+  bool solve(Array<Coordinates>& step) { return solve_for(m_force, step); }
 
   // the same for other forces
-  bool solve_for(const std::vector<Coordinates>& force, std::vector<Coordinates>& step)
+  bool solve_for(const Array<Coordinates>& force, Array<Coordinates>& step)
   {
-    step = force;
+    step.resize(force.size());
+    for_each_block(force.size(), [&](std::size_t begin, std::size_t end) {
+      std::copy(force.data() + begin, force.data() + end, step.data() + begin);
+    });
     return m_system.solve(step);
   }
 
@@ -366,7 +370,7 @@ private:
   // What rotations that are state can still gain: they may creep, which the energies do not tell.
   double gap_of_rotations()
   {
-    const double gain = is_nothing_free() ? 0 : m_energy.gain_of_rotation_step(m_rotations);
+    const double gain = is_nothing_free() ? 0 : m_energy.gain_of_rotation_step(x, m_rotations);
     return gain > report.rounding_level
              ? gain / (std::max)(std::abs(m_value), negligible_energy(report)) : 0;
   }
@@ -390,7 +394,7 @@ private:
   std::vector<Matrix_3x3>& m_rotations;
   std::unique_ptr<Coarse_metric>& m_coarse_metric;
   std::vector<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
-  std::vector<Coordinates> m_force;
+  Array<Coordinates> m_force;
   double m_value = 0;
   Gap_estimate m_gap;
   double m_trust = 1; // in this estimate

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pairs.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
@@ -54,14 +55,14 @@ public:
   bool has_coarse_metric() const { return m_coarse.is_active(); }
 
   // The next force, to be told before remember() and move(). False if the coarse metric fails.
-  bool set_next_force(const std::vector<Coordinates>& force)
+  bool set_next_force(const Array<Coordinates>& force)
   {
     return m_coarse.set_next_force(force);
   }
 
   // Takes another coarse metric, or none, for the next force. Forgets all pairs: their z are those
   // of the metric before, and to keep them saves no iterations.
-  bool set_coarse_metric(Coarse_metric* metric, const std::vector<Coordinates>& force)
+  bool set_coarse_metric(Coarse_metric* metric, const Array<Coordinates>& force)
   {
     if(!metric && !has_coarse_metric())
       return true;
@@ -78,14 +79,14 @@ public:
   // Adds to x the step p to the minimum of the model of the energy, after `before` has become a
   // copy of x; both as far as d reaches. Returns the dot product f p: the model decreases by that
   // much, and the energy at first at twice that rate.
-  double move(const std::vector<Coordinates>& force, const std::vector<Coordinates>& d,
-              std::vector<Coordinates>& x, std::vector<Coordinates>& before)
+  double move(const Array<Coordinates>& force, const Array<Coordinates>& d,
+              Array<Coordinates>& x, Array<Coordinates>& before)
   {
     if(m_unit == 0)
       m_unit = unit(d);
     m_coarse.take_next_force();
     const Coefficients c = coefficients();
-    const std::vector<Coordinates> coarse_step =
+    const Array<Coordinates> coarse_step =
       m_coarse.step(m_length / 3, c.of_d, slots_in_use(), c.of_z);
     m_next = m_number_of_pairs < capacity ? unused_slot() : m_order[0];
     std::vector<float>& s = m_slots[m_next].s;
@@ -131,8 +132,8 @@ public:
   bool went_too_far(double diameter) const { return !(m_longest_shift <= diameter); }
 
   // Instead of the last move(), makes the one by p = d, and forgets all pairs.
-  double move_by(const std::vector<Coordinates>& d, const std::vector<Coordinates>& before,
-                 std::vector<Coordinates>& x)
+  double move_by(const Array<Coordinates>& d, const Array<Coordinates>& before,
+                 Array<Coordinates>& x)
   {
     std::vector<float>& s = m_slots[m_next].s;
     for_each_block(m_length, [&](std::size_t begin, std::size_t end) {
@@ -150,7 +151,7 @@ public:
   }
 
   // the dot product f p for another f and the p of the last move
-  double slope(const std::vector<Coordinates>& force) const
+  double slope(const Array<Coordinates>& force) const
   {
     return m_unit * sum_over_blocks(m_length, [&](std::size_t begin, std::size_t end) {
       double sum = 0;
@@ -163,8 +164,8 @@ public:
   // Remembers the last move, which was shortened to t p, led to the given force, and changed d to
   // `new_d`; not if the energy is not convex along it, or rounding has made the change of force:
   // `force_error` is the rounding error of the force at a vertex.
-  void remember(double t, const std::vector<Coordinates>& force, const std::vector<Coordinates>& d,
-                const std::vector<Coordinates>& new_d, double diameter, double force_error)
+  void remember(double t, const Array<Coordinates>& force, const Array<Coordinates>& d,
+                const Array<Coordinates>& new_d, double diameter, double force_error)
   {
     Slot& next = m_slots[m_next];
     next.z.resize(m_length);
@@ -260,13 +261,13 @@ private:
     }
   };
 
-  static double* entries(std::vector<Coordinates>& points) { return points.data()->data(); }
-  static const double* entries(const std::vector<Coordinates>& points)
+  static double* entries(Array<Coordinates>& points) { return points.data()->data(); }
+  static const double* entries(const Array<Coordinates>& points)
   {
     return points.data()->data();
   }
 
-  static double largest_entry(const std::vector<Coordinates>& d)
+  static double largest_entry(const Array<Coordinates>& d)
   {
     double largest = 0;
     for(const Coordinates& p : d)
@@ -275,7 +276,7 @@ private:
     return largest;
   }
 
-  static double unit(const std::vector<Coordinates>& d)
+  static double unit(const Array<Coordinates>& d)
   {
     const double largest = largest_entry(d);
     return largest > 0 && std::isfinite(largest) ? largest : 1;

@@ -15,11 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <optional>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -31,7 +31,7 @@ namespace internal {
 class Rigid_fit
 {
 public:
-  Rigid_fit(const std::vector<Coordinates>& from, const std::vector<Coordinates>& to);
+  Rigid_fit(const Array<Coordinates>& from, const Array<Coordinates>& to);
 
   Coordinates operator()(const Coordinates& p) const
   {
@@ -52,8 +52,8 @@ private:
 };
 
 // The rotation of the rigid motion that takes points to others, if there is one and only one.
-std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinates>& from,
-                                             const std::vector<Coordinates>& to);
+std::optional<Matrix_3x3> rotation_of_motion(const Array<Coordinates>& from,
+                                             const Array<Coordinates>& to);
 
 } // namespace internal
 } // namespace ARAP

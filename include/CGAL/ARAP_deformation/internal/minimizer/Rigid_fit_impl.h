@@ -14,6 +14,7 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
@@ -24,7 +25,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-inline Coordinates centroid(const std::vector<Coordinates>& points)
+inline Coordinates centroid(const Array<Coordinates>& points)
 {
   Coordinates sum = {0, 0, 0};
   for(const Coordinates& p : points)
@@ -33,7 +34,7 @@ inline Coordinates centroid(const std::vector<Coordinates>& points)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-Rigid_fit::Rigid_fit(const std::vector<Coordinates>& from, const std::vector<Coordinates>& to)
+Rigid_fit::Rigid_fit(const Array<Coordinates>& from, const Array<Coordinates>& to)
   : m_from(centroid(from)), m_to(centroid(to))
 {
   Matrix_3x3 covariance{};
@@ -62,8 +63,8 @@ Rigid_fit::Rigid_fit(const std::vector<Coordinates>& from, const std::vector<Coo
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-std::optional<Matrix_3x3> rotation_of_motion(const std::vector<Coordinates>& from,
-                                             const std::vector<Coordinates>& to)
+std::optional<Matrix_3x3> rotation_of_motion(const Array<Coordinates>& from,
+                                             const Array<Coordinates>& to)
 {
   double length = 0, area = 0; // squares, of the triangles at the first point
   Coordinates longest = {0, 0, 0};

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
@@ -29,7 +30,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -121,7 +121,7 @@ public:
       m_ap.swap(m_z); // step() has left it there, with another sign
       combine(m_ap, -1, m_ap, 0, m_ap);
       m_w.assign(m_p.size(), Coordinates{0, 0, 0});
-      m_q = m_aq = m_mq = std::vector<Coordinates>(n, Coordinates{0, 0, 0});
+      m_q = m_aq = m_mq = Array<Coordinates>(n, Coordinates{0, 0, 0});
     }
     const double c = dot_product(m_p, m_ap) / dot_product(m_p, m_mp);
     combine(m_r, 1, m_ap, -c, m_mp);
@@ -134,9 +134,9 @@ public:
     m_run.change_of_force(m_w, m_z);
     combine(m_z, -1, m_z, 0, m_z);
 
-    const std::vector<Coordinates>* const vectors[] = {&m_p, &m_w, &m_q};
-    const std::vector<Coordinates>* const a_vectors[] = {&m_ap, &m_z, &m_aq};
-    const std::vector<Coordinates>* const metric_vectors[] = {&m_mp, &m_r, &m_mq};
+    const Array<Coordinates>* const vectors[] = {&m_p, &m_w, &m_q};
+    const Array<Coordinates>* const a_vectors[] = {&m_ap, &m_z, &m_aq};
+    const Array<Coordinates>* const metric_vectors[] = {&m_mp, &m_r, &m_mq};
     Eigen::Matrix3d a, l;
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j <= i; ++j)
@@ -157,8 +157,8 @@ public:
   }
 
   // the last direction, for all vertices of the region
-  const std::vector<Coordinates>& direction() const { return m_p; }
-  const std::vector<Coordinates>& solution() const { return m_s; } // for the movable ones
+  const Array<Coordinates>& direction() const { return m_p; }
+  const Array<Coordinates>& solution() const { return m_s; } // for the movable ones
 
   // by how much the energy decreases along the solution, by its model and up to what e changes
   double gap() const { return dot_product(m_run.force(), m_s); }
@@ -167,8 +167,8 @@ public:
 
 private:
   // result := a x + b y, for the movable vertices; it may be one of them
-  void combine(std::vector<Coordinates>& result, double a, const std::vector<Coordinates>& x,
-               double b, const std::vector<Coordinates>& y) const
+  void combine(Array<Coordinates>& result, double a, const Array<Coordinates>& x,
+               double b, const Array<Coordinates>& y) const
   {
     for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
@@ -243,9 +243,9 @@ private:
 
   Minimization& m_run;
   Coarse_metric* m_coarse_metric = nullptr; // if there is one
-  std::vector<Coordinates> m_r, m_z, m_s; // residual, M^-1 times it, solution
-  std::vector<Coordinates> m_p, m_mp;     // direction and M p
-  std::vector<Coordinates> m_ap, m_w, m_q, m_aq, m_mq; // of sharpen(): A p and so on
+  Array<Coordinates> m_r, m_z, m_s; // residual, M^-1 times it, solution
+  Array<Coordinates> m_p, m_mp;     // direction and M p
+  Array<Coordinates> m_ap, m_w, m_q, m_aq, m_mq; // of sharpen(): A p and so on
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric
   double m_curvature = 0;
 };

@@ -15,19 +15,19 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
 // of as many points as the shorter one has
-inline double dot_product(const std::vector<Coordinates>& a, const std::vector<Coordinates>& b)
+inline double dot_product(const Array<Coordinates>& a, const Array<Coordinates>& b)
 {
   return sum_over_blocks((std::min)(a.size(), b.size()), [&](std::size_t begin, std::size_t end) {
     double sum = 0;

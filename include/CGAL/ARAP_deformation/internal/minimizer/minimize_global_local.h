@@ -16,13 +16,13 @@
 
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -37,7 +37,7 @@ inline Status minimize_global_local(Minimization& run)
 {
   Report& report = run.report;
   report.energy.push_back(run.evaluate_without_fit());
-  std::vector<Coordinates> step;
+  Array<Coordinates> step;
   while(report.iterations < run.options.iterations)
   {
     if(!std::isfinite(report.energy.back()))

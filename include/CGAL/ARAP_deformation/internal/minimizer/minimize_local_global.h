@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
@@ -23,7 +24,6 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -36,12 +36,17 @@ namespace internal {
 // returns: a step by which it would is shortened, or the run fails.
 inline Status minimize_local_global(Minimization& run)
 {
-  std::vector<Coordinates> step;
+  Array<Coordinates> step;
   const auto force_along_step = [&] { return dot_product(run.force(), step); };
-  const auto add_step = [&](double factor) {
-    for_each_block(step.size(), [&](std::size_t begin, std::size_t end) {
+  const auto add_step = [&](double factor) { // and returns what the force is along the step
+    return sum_over_blocks(step.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
       for(std::size_t v = begin; v < end; ++v)
+      {
         add(run.x[v], factor, step[v]);
+        sum += dot(run.force()[v], step[v]);
+      }
+      return sum;
     });
   };
   run.evaluate();
@@ -54,8 +59,7 @@ inline Status minimize_local_global(Minimization& run)
       Scoped_seconds global(run.report.seconds.global_steps);
       if(!run.solve(step))
         return Status::solver_failed;
-      force_before = force_along_step();
-      add_step(1);
+      force_before = add_step(1);
     }
     double t = 1; // the share of the step that is taken; less only if the solver is a bad one
     run.evaluate();

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/End_examiner.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Quasi_newton_memory.h>
@@ -24,15 +25,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
 // Moves the first points of x to before + ratio (x - before), as many as `before` has.
-inline void shorten(double ratio, const std::vector<Coordinates>& before,
-                    std::vector<Coordinates>& x)
+inline void shorten(double ratio, const Array<Coordinates>& before,
+                    Array<Coordinates>& x)
 {
   for_each_block(before.size(), [&](std::size_t begin, std::size_t end) {
     for(std::size_t v = begin; v < end; ++v)
@@ -73,7 +73,7 @@ private:
 inline Status minimize_quasi_newton(Minimization& run)
 {
   Quasi_newton_memory memory(run.number_of_vertices);
-  std::vector<Coordinates> d, next_d, before(run.number_of_vertices);
+  Array<Coordinates> d, next_d, before(run.number_of_vertices);
   double t = 0; // the share of the last step that was taken, 0 before the first one
 
   Coarse_schedule schedule;

@@ -133,7 +133,7 @@ public:
   // that are twisted by a full turn are at a minimum of their own, and are left as they are.
   Array<char> operator()(const Region& region, double size, const Constraints& constraints,
                          const Targets& targets, bool is_from_rest,
-                         std::vector<Coordinates>& x) const
+                         Array<Coordinates>& x) const
   {
     Array<const Matrix_3x3*> frame_of(targets.frames.empty() ? 0 : region.number_of_vertices(),
                                       nullptr);
@@ -208,9 +208,9 @@ private:
   void find_motion(int part, const Region& region, double size, const Constraints& constraints,
                    const Targets& targets, const Array<char>& is_set,
                    const Array<const Matrix_3x3*>& frame_of, bool is_from_rest,
-                   const std::vector<Coordinates>& x, std::vector<Motion>& motions) const
+                   const Array<Coordinates>& x, std::vector<Motion>& motions) const
   {
-    std::vector<Coordinates> rest, place; // of what constrains it
+    Array<Coordinates> rest, place; // of what constrains it
     const auto add_frame = [&](int v) { // as three more points, at the last one
       if(v < 0 || frame_of.empty() || !frame_of[v])
         return;
@@ -250,7 +250,7 @@ private:
     if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
       return;
 
-    std::vector<Coordinates> free_rest, free_place;
+    Array<Coordinates> free_rest, free_place;
     for(int k = m_free.begin[part]; k < m_free.begin[part + 1]; ++k)
     {
       const auto v = static_cast<std::size_t>(m_free.items[k]);
@@ -278,7 +278,7 @@ private:
   // by 120 degrees or more keep constraints apart. Where a part is only crumpled, others tie them
   // to each other, or they keep single points apart, which hold no twist.
   void find_twisted_parts(const Region& region, const Constraints& constraints,
-                          const std::vector<Coordinates>& x, const Array<int>& deformed,
+                          const Array<Coordinates>& x, const Array<int>& deformed,
                           std::vector<Motion>& motions) const
   {
     const int n = static_cast<int>(m_part.size());
@@ -349,7 +349,7 @@ private:
     });
   }
 
-  static Coordinates edge(const std::vector<Coordinates>& points, int v, int w)
+  static Coordinates edge(const Array<Coordinates>& points, int v, int w)
   {
     return difference(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(w)]);
   }

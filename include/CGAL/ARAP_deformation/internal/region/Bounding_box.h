@@ -15,12 +15,12 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -39,7 +39,7 @@ public:
     }
   }
 
-  void include(const std::vector<Coordinates>& points)
+  void include(const Array<Coordinates>& points)
   {
     for(const Coordinates& p : points)
       include(p);

@@ -15,11 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -127,7 +127,7 @@ inline bool is_finite(const Coordinates& a)
 }
 
 // the index of the first point with a coordinate that is infinite or not a number, or -1
-inline int find_non_finite(const std::vector<Coordinates>& points)
+inline int find_non_finite(const Array<Coordinates>& points)
 {
   for(std::size_t k = 0; k < points.size(); ++k)
     if(!is_finite(points[k]))

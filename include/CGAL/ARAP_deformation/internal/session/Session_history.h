@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_targets.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
@@ -48,7 +49,7 @@ public:
   {
     if(refuse_in_a_run())
       return;
-    std::vector<Coordinates> positions;
+    Array<Coordinates> positions;
     if(m_prepared.has_region())
     {
       positions = m_prepared.positions();

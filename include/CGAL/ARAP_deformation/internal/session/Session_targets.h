@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_controls.h>
@@ -114,7 +115,7 @@ public:
   // the same for each of some control vertices: the rotation of their rigid motion
   Outcome set_rotations_of_motion(const std::vector<vertex_descriptor>& vertices)
   {
-    std::vector<Coordinates> rest, targets;
+    Array<Coordinates> rest, targets;
     for(vertex_descriptor v : vertices)
     {
       const auto* entry = m_vertices.find_control(v);

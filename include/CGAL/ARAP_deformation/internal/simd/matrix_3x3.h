@@ -75,6 +75,14 @@ struct Matrix_rows
   }
 };
 
+// the sums of the first three lanes of a, b and c; the fourth lane may hold anything
+CGAL_ARAP_ALWAYS_INLINE Double4 sums_of_lanes(const Double4& a, const Double4& b, const Double4& c)
+{
+  Double4 x = a, y = b, z = c, any = c;
+  transpose(x, y, z, any);
+  return x + y + z;
+}
+
 } // namespace CGAL_ARAP_SIMD
 } // namespace internal
 } // namespace ARAP

@@ -26,7 +26,6 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -86,11 +85,11 @@ public:
 
   // Replaces the right-hand side x, one row for each movable vertex, zero where it is fixed, by the
   // solution, which has these values of the hard rows, or zero.
-  bool solve(std::vector<Coordinates>& x, const std::vector<Coordinates>& values = {});
+  bool solve(Array<Coordinates>& x, const Array<Coordinates>& values = {});
 
   // Moves the free vertices of x to where the hard rows have these values, the shortest way in the
   // metric of the matrix.
-  bool meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x);
+  bool meet(const Array<Coordinates>& values, Array<Coordinates>& x);
 
   // the Laplacian with such rows
   Sparse_matrix with_rows(const Weighted_rows& rows) const;
@@ -103,7 +102,7 @@ private:
   bool set_border(const Constraints& constraints, bool are_hard_rows_bordered);
   bool eliminate_hard_rows();
   bool factorize(const Constraints& constraints, Work& work);
-  bool solve_matrix(std::vector<Coordinates>& x, const std::vector<Coordinates>& values);
+  bool solve_matrix(Array<Coordinates>& x, const Array<Coordinates>& values);
 
   Laplacian m_laplacian;
   std::unique_ptr<Linear_solver> m_prototype; // nothing is analyzed

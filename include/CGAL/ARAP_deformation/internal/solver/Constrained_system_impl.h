@@ -263,14 +263,14 @@ bool Constrained_system::eliminate_hard_rows()
   for(std::size_t first = 0; first < m; first += 3)
   {
     const std::size_t count = (std::min)(std::size_t(3), m - first);
-    std::vector<Coordinates> three = m_hard_rows.scaled({});
+    Array<Coordinates> three = m_hard_rows.scaled({});
     for(std::size_t k = 0; k < count; ++k)
       three[first + k][k] = 1;
-    std::vector<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
+    Array<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
     m_hard_rows.add(three, x);
     if(!solve_matrix(x, {}))
       return false;
-    const std::vector<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.scaled({}), x);
+    const Array<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.scaled({}), x);
     for(std::size_t k = 0; k < count; ++k)
       for(std::size_t r = 0; r < m; ++r)
         s[(first + k) * m + r] = -minus_s[r][k];
@@ -279,17 +279,17 @@ bool Constrained_system::eliminate_hard_rows()
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::solve(std::vector<Coordinates>& x, const std::vector<Coordinates>& values)
+bool Constrained_system::solve(Array<Coordinates>& x, const Array<Coordinates>& values)
 {
-  const std::vector<Coordinates> scaled = m_hard_rows.scaled(values);
+  const Array<Coordinates> scaled = m_hard_rows.scaled(values);
   if(!solve_matrix(x, scaled))
     return false;
   if(m_hard_rows.is_empty())
     return true;
   if(!m_are_hard_rows_bordered)
   {
-    std::vector<Coordinates> correction(x.size(), Coordinates{0, 0, 0});
-    std::vector<Coordinates> multipliers = m_hard_rows.residuals(scaled, x);
+    Array<Coordinates> correction(x.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> multipliers = m_hard_rows.residuals(scaled, x);
     m_eliminated.solve(multipliers.data());
     m_hard_rows.add(multipliers, correction);
     if(!solve_matrix(correction, {}))
@@ -302,11 +302,11 @@ bool Constrained_system::solve(std::vector<Coordinates>& x, const std::vector<Co
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::meet(const std::vector<Coordinates>& values, std::vector<Coordinates>& x)
+bool Constrained_system::meet(const Array<Coordinates>& values, Array<Coordinates>& x)
 {
   if(m_hard_rows.is_empty())
     return true;
-  std::vector<Coordinates> step(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
+  Array<Coordinates> step(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
   if(!solve(step, m_hard_rows.given_residuals(values, x)))
     return false;
   for(std::size_t v = 0; v < step.size(); ++v)
@@ -315,8 +315,8 @@ bool Constrained_system::meet(const std::vector<Coordinates>& values, std::vecto
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::solve_matrix(std::vector<Coordinates>& x,
-                                      const std::vector<Coordinates>& values)
+bool Constrained_system::solve_matrix(Array<Coordinates>& x,
+                                      const Array<Coordinates>& values)
 {
   const std::size_t n = x.size(), first_row = m_further_unknowns.size() + m_multipliers.size();
   const std::size_t border_size =

@@ -29,7 +29,6 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -86,54 +85,54 @@ public:
   const Sparse_matrix& columns() const { return m_columns; }
 
   // x := x + B^T z
-  void add(const std::vector<Coordinates>& z, std::vector<Coordinates>& x) const
+  void add(const Array<Coordinates>& z, Array<Coordinates>& x) const
   {
     for_each_entry([&](std::size_t v, std::size_t r, double b) { internal::add(x[v], b, z[r]); });
   }
 
   // z - B x
-  std::vector<Coordinates> residuals(std::vector<Coordinates> z,
-                                     const std::vector<Coordinates>& x) const
+  Array<Coordinates> residuals(Array<Coordinates> z,
+                                     const Array<Coordinates>& x) const
   {
     for_each_entry([&](std::size_t v, std::size_t r, double b) { internal::add(z[r], -b, x[v]); });
     return z;
   }
 
   // moves x to the nearest solution of B x = z
-  void project(const std::vector<Coordinates>& z, std::vector<Coordinates>& x) const
+  void project(const Array<Coordinates>& z, Array<Coordinates>& x) const
   {
     add(m_gram->solve(residuals(z, x)), x);
   }
 
   // Moves x, the positions of all vertices, to the nearest ones where the rows as they are given
   // have these values.
-  void correct(const std::vector<Coordinates>& values, std::vector<Coordinates>& x) const
+  void correct(const Array<Coordinates>& values, Array<Coordinates>& x) const
   {
     if(!is_empty())
       add(m_gram->solve(scaled(given_residuals(values, x))), x);
   }
 
   // leaves out of forces what no step that keeps the rows feels
-  void leave_out_multipliers(std::vector<Coordinates>& force) const
+  void leave_out_multipliers(Array<Coordinates>& force) const
   {
     if(!is_empty())
       project(scaled({}), force);
   }
 
   // The values of rows as they are given, scaled as the rows are here; zero if there are none.
-  std::vector<Coordinates> scaled(const std::vector<Coordinates>& values) const
+  Array<Coordinates> scaled(const Array<Coordinates>& values) const
   {
-    std::vector<Coordinates> result(m_scale.size(), Coordinates{0, 0, 0});
+    Array<Coordinates> result(m_scale.size(), Coordinates{0, 0, 0});
     for(std::size_t r = 0; r < values.size(); ++r)
       result[r] = internal::scaled(values[r], m_scale[r]);
     return result;
   }
 
   // what the rows as they are given lack of values at x, the positions of all vertices
-  std::vector<Coordinates> given_residuals(const std::vector<Coordinates>& values,
-                                           const std::vector<Coordinates>& x) const
+  Array<Coordinates> given_residuals(const Array<Coordinates>& values,
+                                           const Array<Coordinates>& x) const
   {
-    std::vector<Coordinates> result;
+    Array<Coordinates> result;
     for(std::size_t r = 0; r < values.size(); ++r)
       result.push_back(difference(values[r], m_rows.value(static_cast<int>(r), x.data())));
     return result;
@@ -169,7 +168,7 @@ private:
       return result;
     }
 
-    std::vector<Coordinates> solve(std::vector<Coordinates> z)
+    Array<Coordinates> solve(Array<Coordinates> z)
     {
       m_substitution.forward(m_cholesky.structure(), m_values.get(), z.data());
       m_substitution.backward(m_cholesky.structure(), m_values.get(), z.data());

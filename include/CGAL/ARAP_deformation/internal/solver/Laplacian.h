@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -31,6 +32,16 @@ struct Laplacian
   Sparse_matrix matrix; // the lower triangle, every diagonal entry stored
   Array<char> is_tied;  // for each vertex whether an edge ties it to one that is not movable
   bool is_sum_of_squares = true; // whether no edge set has a negative energy, up to rounding
+
+  Laplacian() = default;
+  Laplacian(Laplacian&& other) { *this = std::move(other); }
+  Laplacian& operator=(Laplacian&& other) // Eigen 3.4 copies matrices instead
+  {
+    matrix.swap(other.matrix);
+    is_tied.swap(other.is_tied);
+    is_sum_of_squares = other.is_sum_of_squares;
+    return *this;
+  }
 
   int size() const { return static_cast<int>(matrix.cols()); }
 };
