@@ -73,7 +73,7 @@ public:
   // what is added to a step that has these shares of d and of the z of slots
   template <typename Slots, typename Shares>
   Array<Coordinates> step(std::size_t number_of_vertices, double of_d, const Slots& slots,
-                                const Shares& of_z) const
+                          const Shares& of_z) const
   {
     if(!is_active())
       return {};
@@ -90,8 +90,8 @@ public:
   }
 
 private:
-  static Array<Coordinates> change(const Array<Coordinates>& from,
-                                         const Array<Coordinates>& to, double unit)
+  static Array<Coordinates> change(const Array<Coordinates>& from, const Array<Coordinates>& to,
+                                   double unit)
   {
     Array<Coordinates> result(from.size());
     for(std::size_t k = 0; k < from.size(); ++k)
