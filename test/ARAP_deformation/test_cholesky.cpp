@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
+#include <CGAL/ARAP_deformation/internal/parallel/Task_memory.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -488,6 +489,26 @@ void test_packed_values()
   }
 }
 
+// As many pieces as threads, of the largest sizes; and new ones where these do not serve.
+void test_task_memory()
+{
+  test_case() = "memory of tasks";
+  run_with_threads(2, [] {
+    internal::Task_memory memory({10, 40, 20, 30});
+    const std::size_t smallest = internal::number_of_threads() == 2 ? 30 : 40;
+    internal::Task_memory::Piece first = memory.take(5);
+    CHECK(first.size == smallest);
+    internal::Task_memory::Piece second = memory.take(35);
+    CHECK(second.size == (smallest == 30 ? 40 : 35));
+    CHECK(memory.take(7).size == 7);
+    const double* const place = first.numbers.get();
+    memory.give_back(std::move(second));
+    memory.give_back(std::move(first));
+    CHECK(memory.take(41).size == 41);
+    CHECK(smallest == 40 || memory.take(1).numbers.get() == place);
+  });
+}
+
 template <typename Solver>
 void test_solver(const std::string& name, const Solver& solver)
 {
@@ -505,6 +526,7 @@ int main()
   test_blocks();
   test_supernodes();
   test_packed_values();
+  test_task_memory();
   test_borders_in_single_precision();
   for(Fill_reducing_ordering ordering :
       {Fill_reducing_ordering::minimum_degree, Fill_reducing_ordering::nested_dissection})

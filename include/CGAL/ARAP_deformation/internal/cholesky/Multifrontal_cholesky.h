@@ -18,9 +18,14 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
+#include <CGAL/ARAP_deformation/internal/parallel/Task_memory.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -45,22 +50,14 @@ public:
   template <typename Assemble>
   void factorize(const Assemble& assemble)
   {
-    m_structure.for_each_block_upwards([&](int k) {
-      const Block& b = m_structure.blocks()[k];
-      Array<int> places;
-      Array<double> columns; // of a supernode
-      Array<double> spare;   // the memory of an update that is not needed any more
-      for(int s = b.supernodes_begin; s < b.supernodes_end; ++s)
-      {
-        const Supernode& supernode = m_structure.supernodes()[s];
-        columns.assign(size_of_columns(supernode), 0);
-        assemble(s, columns.data());
-        factorize_supernode(k, s, columns.data(), places, spare);
-        if(m_single_values)
-          pack_values(supernode, columns.data(), m_single_values);
-        else
-          pack_values(supernode, columns.data(), m_values);
-      }
+    std::vector<std::size_t> sizes;
+    for(std::size_t block = 0; block < m_structure.blocks().size(); ++block)
+      sizes.push_back(memory_of_block(static_cast<int>(block)));
+    Task_memory memory(sizes);
+    m_structure.for_each_block_upwards([&](int block) {
+      Task_memory::Piece piece = memory.take(sizes[static_cast<std::size_t>(block)]);
+      factorize_block(block, assemble, piece.numbers.get());
+      memory.give_back(std::move(piece));
     });
   }
 
@@ -71,7 +68,7 @@ private:
   Multifrontal_cholesky(const Supernodal_structure& structure, double* values,
                         float* single_values)
     : m_structure(structure), m_values(values), m_single_values(single_values),
-      m_updates(structure.supernodes().size()), m_first_child(structure.supernodes().size(), -1),
+      m_first_child(structure.supernodes().size(), -1),
       m_next_child(structure.supernodes().size(), -1)
   {
     for(int s = static_cast<int>(m_next_child.size()); s-- > 0;)
@@ -80,30 +77,130 @@ private:
         m_next_child[s] = m_first_child[parent];
         m_first_child[parent] = s;
       }
+    place_block_updates();
   }
 
-  void factorize_supernode(int block, int index, double* panel, Array<int>& places,
-                           Array<double>& spare)
+  // The update of the topmost supernode of a block takes the place of those of the blocks below,
+  // which have been added to it.
+  void place_block_updates()
+  {
+    const Array<Block>& blocks = m_structure.blocks();
+    Array<std::size_t> sizes(blocks.size());
+    for(std::size_t k = blocks.size(); k-- > 0;)
+    {
+      const auto begin = sizes.begin() + blocks[k].children_begin,
+                 end = sizes.begin() + blocks[k].children_end;
+      sizes[k] = (std::max)(size_of_triangle(blocks[k].boundary),
+                            std::accumulate(begin, end, std::size_t(0)));
+    }
+    m_block_updates_begin.resize(blocks.size(), 0);
+    for(const Block& b : blocks) // parents before their children
+    {
+      std::size_t begin = m_block_updates_begin[&b - blocks.data()];
+      for(int child = b.children_begin; child < b.children_end; ++child)
+      {
+        m_block_updates_begin[child] = begin;
+        begin += sizes[child];
+      }
+    }
+    if(!blocks.empty())
+      m_block_updates.reset(new double[sizes[0]]); // first touched by the threads
+  }
+
+  double* block_update(int block) const
+  {
+    return m_block_updates.get() + m_block_updates_begin[block];
+  }
+
+  // `memory` is a stack of the updates of supernodes of the block whose parents are to come, of
+  // each the lower triangle, column by column. The supernodes are in postorder: the updates of the
+  // children of the next one are the last. Its columns and its update are computed after them.
+  template <typename Assemble>
+  void factorize_block(int block, const Assemble& assemble, double* memory)
+  {
+    const Block& b = m_structure.blocks()[block];
+    Array<int> places;
+    for(int index = b.supernodes_begin; index < b.supernodes_end; ++index)
+    {
+      const Supernode& s = m_structure.supernodes()[index];
+      double* const panel = memory;
+      double* const update = panel + size_of_columns(s);
+      std::fill(panel, panel + size_of_front(s), 0.0);
+      assemble(index, panel);
+      memory -= size_of_child_updates(block, index);
+      add_child_updates(block, index, memory, places, panel, update);
+      factor_panel(panel, s.width, s.width + s.below);
+      if(s.below > 0)
+        subtract_square(update, s.below, s.below, 0, s.below, panel + s.width, s.width,
+                        s.width + s.below);
+      if(m_single_values)
+        pack_values(s, panel, m_single_values);
+      else
+        pack_values(s, panel, m_values);
+      if(index + 1 < b.supernodes_end)
+        memory = copy_triangle(update, s.below, memory);
+      else
+        copy_triangle(update, s.below, block_update(block));
+    }
+  }
+
+  // how many numbers a block needs for that
+  std::size_t memory_of_block(int block) const
+  {
+    const Block& b = m_structure.blocks()[block];
+    std::size_t most = 0, updates = 0;
+    for(int index = b.supernodes_begin; index < b.supernodes_end; ++index)
+    {
+      const Supernode& s = m_structure.supernodes()[index];
+      most = (std::max)(most, updates + size_of_front(s));
+      updates = updates - size_of_child_updates(block, index) + size_of_triangle(s.below);
+    }
+    return most;
+  }
+
+  // columns and update
+  static std::size_t size_of_front(const Supernode& s)
+  {
+    const auto below = static_cast<std::size_t>(s.below);
+    return size_of_columns(s) + below * below;
+  }
+
+  static std::size_t size_of_triangle(int n)
+  {
+    return static_cast<std::size_t>(n) * (static_cast<std::size_t>(n) + 1) / 2;
+  }
+
+  // of the children in the same block
+  std::size_t size_of_child_updates(int block, int index) const
+  {
+    std::size_t size = 0;
+    for(int child = m_first_child[index]; child >= 0; child = m_next_child[child])
+      if(m_structure.block_of(child) == block)
+        size += size_of_triangle(m_structure.supernodes()[child].below);
+    return size;
+  }
+
+  static double* copy_triangle(const double* square, std::ptrdiff_t n, double* to)
+  {
+    for(std::ptrdiff_t j = 0; j < n; ++j)
+      to = std::copy(square + j * (n + 1), square + (j + 1) * n, to);
+    return to;
+  }
+
+  // `updates` are those of the children in the same block
+  void add_child_updates(int block, int index, const double* updates, Array<int>& places,
+                         double* panel, double* update)
   {
     const Supernode& s = m_structure.supernodes()[index];
-    const std::size_t below = static_cast<std::size_t>(s.below);
-    Array<double>& update = m_updates[index];
-    if(spare.capacity() < below * below)
-      Array<double>().swap(spare); // before there is another one
-    update.swap(spare);
-    update.assign(below * below, 0);
     for(int child = m_first_child[index]; child >= 0; child = m_next_child[child])
     {
       find_places(block, s, child, places);
-      add_update(s, m_updates[child], places, panel, update.data());
-      if(spare.capacity() < m_updates[child].capacity())
-        spare.swap(m_updates[child]);
-      Array<double>().swap(m_updates[child]);
+      const int child_block = m_structure.block_of(child);
+      if(child_block == block)
+        updates = add_update(s, updates, places, panel, update);
+      else
+        add_update(s, block_update(child_block), places, panel, update);
     }
-    factor_panel(panel, s.width, s.width + s.below);
-    if(below > 0)
-      subtract_square(update.data(), s.below, s.below, 0, s.below, panel + s.width, s.width,
-                      s.width + s.below);
   }
 
   // The rows of `child` below among the rows of `s`. Both are in ascending order.
@@ -131,27 +228,29 @@ private:
     }
   }
 
-  static void add_update(const Supernode& s, const Array<double>& child_update,
-                         const Array<int>& places, double* panel, double* update)
+  // Returns the end of the update of the child.
+  static const double* add_update(const Supernode& s, const double* child_update,
+                                  const Array<int>& places, double* panel, double* update)
   {
     const std::size_t n = places.size();
     const std::ptrdiff_t height = s.width + s.below, below = s.below;
     for(std::size_t j = 0; j < n; ++j)
     {
-      const double* const from = child_update.data() + j * n;
       const int column = places[j];
       double* const to = column < s.width
                        ? panel + column * height
                        : update + (column - s.width) * below - s.width;
       for(std::size_t i = j; i < n; ++i)
-        to[places[i]] += from[i];
+        to[places[i]] += *child_update++;
     }
+    return child_update;
   }
 
   const Supernodal_structure& m_structure;
   double* m_values; // one of the two arrays is null
   float* m_single_values;
-  Array<Array<double>> m_updates; // of supernodes whose parents are not factorized yet
+  std::unique_ptr<double[]> m_block_updates; // of their topmost supernodes, for the blocks above
+  Array<std::size_t> m_block_updates_begin;
   Array<int> m_first_child, m_next_child;
 };
 

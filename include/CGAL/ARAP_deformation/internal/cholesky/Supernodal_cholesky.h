@@ -45,6 +45,7 @@ public:
   // for each row of the factor.
   Supernodal_cholesky(const Sparse_matrix& a, Array<int> order)
   {
+    m_entries.resize(a.nonZeros()); // below the supernodes in memory, which are released soon
     const Supernodes supernodes = find_supernodes(a, order);
     m_structure = Supernodal_structure(supernodes, order);
     for(const Supernodal_structure::Supernode& s : m_structure.supernodes())
@@ -97,7 +98,6 @@ private:
       }
     std::partial_sum(m_entries_begin.begin(), m_entries_begin.end(), m_entries_begin.begin());
     // at first with the column instead of the place
-    m_entries.resize(m_entries_begin.back());
     for(int j = 0; j < a.cols(); ++j)
       for(int k = begin[j]; k < begin[j + 1]; ++k)
       {

@@ -200,26 +200,31 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
     places_of(simplices.corners, region.number_of_centres);
   const Array<int> simplex_of_place = list_of_each(simplices.corners);
 
-  // the neighbours of the centres, with the sum of the weights of all simplices at the edge, block
-  // after block
+  // the neighbours of a centre, with the sum of the weights of all simplices at the edge
   using Neighbour = std::pair<int, double>;
-  std::vector<std::vector<Neighbour>> blocks(n / default_block_size + 1);
+  const auto find_neighbours = [&](std::size_t i, std::vector<Neighbour>& neighbours) {
+    neighbours.clear();
+    for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
+    {
+      const int place = places.items[k], s = simplex_of_place[place];
+      for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
+        if(other != place)
+          neighbours.emplace_back(simplices.corners.items[other],
+                                  simplices.weight(s, place, other));
+    }
+    neighbours.resize(
+      static_cast<std::size_t>(sort_and_add_up(neighbours.begin(), neighbours.end())));
+  };
+
+  // found twice: to keep them in between would take longer
   Stars stars;
   stars.neighbours.begin.resize(n + 1);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour>& block = blocks[begin / default_block_size];
+    std::vector<Neighbour> neighbours;
     for(std::size_t i = begin; i < end; ++i)
     {
-      const auto size = static_cast<std::ptrdiff_t>(block.size());
-      for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
-      {
-        const int place = places.items[k], s = simplex_of_place[place];
-        for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
-          if(other != place)
-            block.emplace_back(simplices.corners.items[other], simplices.weight(s, place, other));
-      }
-      stars.neighbours.begin[i + 1] = sort_and_add_up(block.begin() + size, block.end());
-      block.resize(static_cast<std::size_t>(size + stars.neighbours.begin[i + 1]));
+      find_neighbours(i, neighbours);
+      stars.neighbours.begin[i + 1] = static_cast<int>(neighbours.size());
     }
   });
   std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
@@ -227,15 +232,17 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
   stars.neighbours.items = Array<int>(stars.neighbours.begin.back());
   stars.weights = Array<double>(stars.neighbours.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    auto neighbour = blocks[begin / default_block_size].begin();
+    std::vector<Neighbour> neighbours;
     for(std::size_t i = begin; i < end; ++i)
-      for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e, ++neighbour)
+    {
+      find_neighbours(i, neighbours);
+      int e = stars.neighbours.begin[i];
+      for(const auto& [j, w] : neighbours)
       {
-        const auto& [j, w] = *neighbour;
         stars.neighbours.items[e] = j;
-        stars.weights[e] = model.edge(Edge_set::star, region.indices[i], region.indices[j], w);
+        stars.weights[e++] = model.edge(Edge_set::star, region.indices[i], region.indices[j], w);
       }
-    std::vector<Neighbour>().swap(blocks[begin / default_block_size]);
+    }
   });
   return stars;
 }

@@ -75,6 +75,16 @@ inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
 }
 #endif
 
+// how many tasks run at a time
+inline std::size_t number_of_threads()
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+#else
+  return 1;
+#endif
+}
+
 // Calls f() with at most `number_of_threads` threads for its parallel loops; 0 for TBB's default.
 template <typename Function>
 void run_with_threads(unsigned int number_of_threads, const Function& f)

@@ -100,15 +100,18 @@ int sort_and_add_up(Iterator begin, Iterator end)
   const auto value = [](const auto& pair) {
     return std::isnan(pair.second) ? std::numeric_limits<double>::infinity() : pair.second;
   };
-  std::sort(begin, end, [&](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : value(a) < value(b);
-  });
+  std::sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
   Iterator last = begin;
   for(Iterator it = begin; it != end;)
   {
+    const Iterator first = it;
     auto sum = *it;
-    for(++it; it != end && it->first == sum.first; ++it)
-      sum.second += it->second;
+    while(++it != end && it->first == sum.first) {}
+    if(it - first > 2)
+      std::sort(first, it, [&](const auto& a, const auto& b) { return value(a) < value(b); });
+    sum.second = first->second;
+    for(Iterator k = first + 1; k != it; ++k)
+      sum.second += k->second;
     *last++ = sum;
   }
   return static_cast<int>(last - begin);

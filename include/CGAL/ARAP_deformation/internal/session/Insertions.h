@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,12 +29,12 @@ namespace internal {
 class Insertions
 {
 public:
-  void add(std::size_t insertion, std::size_t place);
+  void add(std::uint64_t insertion, std::size_t place);
 
   std::vector<std::size_t> places_in_order();
 
 private:
-  std::vector<std::pair<std::size_t, std::size_t>> m_insertions; // with the places
+  std::vector<std::pair<std::uint64_t, std::size_t>> m_insertions; // with the places
 };
 
 } // namespace internal

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
@@ -26,7 +27,7 @@ namespace ARAP {
 namespace internal {
 
 CGAL_ARAP_INLINE_FUNCTION
-void Insertions::add(std::size_t insertion, std::size_t place)
+void Insertions::add(std::uint64_t insertion, std::size_t place)
 {
   m_insertions.emplace_back(insertion, place);
 }

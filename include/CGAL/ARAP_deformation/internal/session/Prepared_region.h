@@ -258,6 +258,7 @@ private:
       stages.region = stages.weights = true;
       if(m_prepared)
         m_prepared->core->release_factor(); // there are never two
+      vertices.release_spare_memory();
       next = std::make_unique<Built_region<Domain>>(++m_last_numbering,
                                                     is_whole(roi_size, number_of_fixed));
       if(Outcome made = next->make(vertices, values, m_models, options, m_rules); !made)

@@ -25,6 +25,7 @@
 #include <CGAL/assertions.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
@@ -56,10 +57,10 @@ public:
     int target; // its place in m_targets, if it was ever a control vertex
     Point rest;
     Point present;
-    bool is_roi = false;
-    bool is_control = false;
-    bool was_roi = false; // when the points of the region were last written; see Session_rules
-    std::size_t insertion = 0; // when it last entered the region of interest
+    std::uint64_t insertion : 61; // when it last entered the region of interest
+    bool is_roi : 1;
+    bool is_control : 1;
+    bool was_roi : 1; // when the points of the region were last written; see Session_rules
   };
 
   // the weight of the target of a control vertex that is put there, and not only pulled
@@ -166,6 +167,13 @@ public:
     return const_cast<Entry*>(std::as_const(*this).find(v));
   }
 
+  // to be called when the vertices of a region have been inserted
+  void release_spare_memory()
+  {
+    m_entries.shrink_to_fit();
+    m_targets.shrink_to_fit();
+  }
+
   // where v is: the domain knows the points of vertices only that were not yet moved
   Point present(vertex_descriptor v) const
   {
@@ -251,7 +259,10 @@ public:
   bool erase_control(vertex_descriptor v)
   {
     Entry* entry = find_control(v);
-    return entry != nullptr && std::exchange(entry->is_control, false);
+    if(entry == nullptr)
+      return false;
+    entry->is_control = false;
+    return true;
   }
 
   bool clear_roi()
@@ -269,7 +280,10 @@ public:
   {
     bool is_change = false;
     for(Entry& entry : m_entries)
-      is_change |= std::exchange(entry.is_control, false);
+    {
+      is_change |= entry.is_control;
+      entry.is_control = false;
+    }
     return is_change;
   }
 
@@ -467,7 +481,7 @@ private:
         keep_first_points();
         m_first_points.push_back(point);
       }
-      m_entries.push_back({v, no_target, rest, point});
+      m_entries.push_back({v, no_target, rest, point, 0, false, false, false});
       m_slots.set(index, slot);
     }
     return m_entries[slot];
@@ -481,7 +495,7 @@ private:
   std::vector<Point> m_first_points; // of the entries that had another rest shape
   std::map<Control_point, Held_point> m_points;
   Array<Coordinates> m_velocities;
-  std::size_t m_number_of_insertions = 0;
+  std::uint64_t m_number_of_insertions = 0;
   std::size_t m_last_point = 0; // its number, which no other one gets
 };
 
