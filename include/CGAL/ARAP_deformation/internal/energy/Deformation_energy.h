@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Rotation_derivative.h>
+#include <CGAL/ARAP_deformation/internal/energy/Rotation_groups.h>
 #include <CGAL/ARAP_deformation/internal/energy/Rotation_steps.h>
 #include <CGAL/ARAP_deformation/internal/energy/Sequential_fit.h>
 #include <CGAL/ARAP_deformation/internal/energy/Simplex_energy.h>
@@ -31,7 +32,6 @@
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
-#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
@@ -73,30 +73,20 @@ public:
   void set_smooth_rotations(Smooth_rotations smooth) { m_smooth = std::move(smooth); }
   void set_sequential_fit(Sequential_fit fit) { m_sequential_fit = std::move(fit); }
 
-  // the cells of each group share a rotation
   void set_groups(Index_lists groups)
   {
-    m_groups = std::move(groups);
-    m_group_of = Array<int>(number_of_cells(), -1);
-    for(int g = 0; g < m_groups.size(); ++g)
-      for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
-        m_group_of[m_groups.items[k]] = g;
+    m_groups = Rotation_groups(std::move(groups), number_of_cells());
   }
 
-  // The rotations of some cells are given, not fitted; a group has the mean of those of its cells.
   void set_given_rotations(std::vector<std::pair<int, Matrix_3x3>> given)
   {
-    m_given = std::move(given);
-    if(m_groups.size() == 0)
-      return;
-    Array<Matrix_3x3> sums(m_groups.size(), Matrix_3x3{});
-    for(const auto& [c, rotation] : m_given)
-      if(const int g = m_group_of[c]; g >= 0)
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sums[g][entry] += rotation[entry];
-    for(auto& [c, rotation] : m_given)
-      if(const int g = m_group_of[c]; g >= 0)
-        rotation = Svd_rotation::closest(sums[g]);
+    m_groups.give(std::move(given));
+  }
+
+  // rotations that there are not yet become identities
+  void complete(std::vector<Matrix_3x3>& rotations) const
+  {
+    rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
   }
 
   // What does not count has the identity.
@@ -128,7 +118,7 @@ public:
         is_chosen[c] =
           are_all_cells_counted || are_rotations_state() || cells.is_moving(c, is_free);
     }, m_cells);
-    for_each_group([&](const int* begin, const int* end) {
+    m_groups.for_each_group([&](const int* begin, const int* end) {
       if(std::any_of(begin, end, [&](int c) { return is_chosen[c] != 0; }))
         std::for_each(begin, end, [&](int c) { is_chosen[c] = true; });
     });
@@ -248,22 +238,16 @@ public:
         closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
                           rotations.data() + begin);
       });
-    for_each_group([&](const int* begin, const int* end) {
+    m_groups.for_each_group([&](const int* begin, const int* end) {
       if(!m_is_chosen[*begin])
         return;
-      Matrix_3x3 sum{}, covariance;
-      for(const int* c = begin; c != end; ++c)
-      {
-        compute_covariances(*c, *c + 1, &covariance);
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sum[entry] += covariance[entry];
-      }
+      const Matrix_3x3 sum = sum_of_covariances(begin, end, compute_covariances);
       closest_rotations(1, &sum, &rotations[static_cast<std::size_t>(*begin)]);
-      set_rotation_of_group(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
+      m_groups.set(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
     });
-    for(const auto& [c, rotation] : m_given)
+    for(const auto& [c, rotation] : m_groups.given())
       if(m_is_chosen[c])
-        set_rotation_of_group(c, rotation, rotations);
+        m_groups.set(c, rotation, rotations);
     for(int k = 0; has_steps && k < m_number_of_rotation_steps; ++k)
       if(!m_rotation_steps->take(m_smooth, m_covariances, rotations))
         break;
@@ -282,14 +266,13 @@ public:
       Array<double> bounds(n);
       for(int c = 0; c < n; ++c)
       {
-        const int g = m_group_of.empty() ? -1 : m_group_of[c];
-        leader[c] = g < 0 ? c : m_groups.items[m_groups.begin[g]];
+        leader[c] = m_groups.leader(c);
         bounds[c] = m_covariances[c][0] + m_covariances[c][4] + m_covariances[c][8];
       }
       m_rotation_steps.emplace(prototype.copy(), m_smooth, std::move(leader), bounds);
     }
     Array<int> given;
-    for(const auto& cell : m_given)
+    for(const auto& cell : m_groups.given())
       given.push_back(cell.first);
     if(!m_rotation_steps->set_given(given))
       return clear_rotation_steps();
@@ -341,7 +324,7 @@ public:
   {
     for_each_fitted_cell(step, [&](int c, const Matrix_3x3& covariance) {
       const auto k = static_cast<std::size_t>(c);
-      set_rotation_of_group(c, m_derivatives[c](covariance, rotations[k]), m_changes);
+      m_groups.set(c, m_derivatives[c](covariance, rotations[k]), m_changes);
     });
     evaluate_prepared(step, m_changes, change);
   }
@@ -354,19 +337,7 @@ public:
 
   // For each cell whether its rotation is fitted, to its own covariance or, for the first cell of a
   // group, to that of the group.
-  Array<char> fitted_cells() const
-  {
-    Array<char> is_fitted = m_is_chosen;
-    for_each_group([&](const int* begin, const int* end) {
-      std::for_each(begin + 1, end, [&](int c) { is_fitted[c] = false; });
-    });
-    for(const auto& cell : m_given)
-    {
-      const int g = m_group_of.empty() ? -1 : m_group_of[cell.first];
-      is_fitted[g < 0 ? cell.first : m_groups.items[m_groups.begin[g]]] = false;
-    }
-    return is_fitted;
-  }
+  Array<char> fitted_cells() const { return m_groups.fitted_cells(m_is_chosen); }
 
   // The covariance that the rotation of a cell is fitted to, as a function of the positions; for
   // the first cell of a group that of the group, for the others nothing.
@@ -374,16 +345,11 @@ public:
   {
     result.clear();
     std::visit([&](const auto& cells) {
-      const auto add = [&](int cell) {
-        cells.add_coefficients(cell, m_rest, result);
-        m_bending.add_coefficients(cell, result);
-      };
-      const int g = m_group_of.empty() ? -1 : m_group_of[c];
-      if(g < 0)
-        return add(c);
-      if(c == m_groups.items[m_groups.begin[g]])
-        for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
-          add(m_groups.items[k]);
+      if(c == m_groups.leader(c))
+        m_groups.for_each_of_group(c, [&](int cell) {
+          cells.add_coefficients(cell, m_rest, result);
+          m_bending.add_coefficients(cell, result);
+        });
     }, m_cells);
   }
 
@@ -401,11 +367,6 @@ public:
 
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
-
-  void complete(std::vector<Matrix_3x3>& rotations) const
-  {
-    rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
-  }
 
   // of the cells that count, in the rest shape
   void measure()
@@ -450,20 +411,14 @@ private:
       std::array<Matrix_3x3, batch_size> covariances;
       covariances_of_cells(x, begin, end, covariances.data());
       for(int c = begin; c < end; ++c)
-        if(is_fitted[c] && (m_group_of.empty() || m_group_of[c] < 0))
+        if(is_fitted[c] && m_groups.is_alone(c))
           f(c, covariances[static_cast<std::size_t>(c - begin)]);
     });
-    for_each_group([&](const int* begin, const int* end) {
-      if(!is_fitted[*begin])
-        return;
-      Matrix_3x3 sum{}, covariance;
-      for(const int* c = begin; c != end; ++c)
-      {
-        covariances_of_cells(x, *c, *c + 1, &covariance);
-        for(std::size_t entry = 0; entry < 9; ++entry)
-          sum[entry] += covariance[entry];
-      }
-      f(*begin, sum);
+    m_groups.for_each_group([&](const int* begin, const int* end) {
+      if(is_fitted[*begin])
+        f(*begin, sum_of_covariances(begin, end, [&](int first, int last, Matrix_3x3* covariances) {
+          covariances_of_cells(x, first, last, covariances);
+        }));
     });
   }
 
@@ -496,34 +451,25 @@ private:
            m_smooth.evaluate(rotations);
   }
 
-  // calls f(begin, end) for the cells of each group
+  // of the cells of a group; compute_covariances(begin, end, result) does that for cells
   template <typename Function>
-  void for_each_group(const Function& f) const
+  static Matrix_3x3 sum_of_covariances(const int* begin, const int* end,
+                                       const Function& compute_covariances)
   {
-    for(int g = 0; g < m_groups.size(); ++g)
-      f(m_groups.items.data() + m_groups.begin[g], m_groups.items.data() + m_groups.begin[g + 1]);
-  }
-
-  // of a cell, and those that share it
-  void set_rotation_of_group(int c, const Matrix_3x3& rotation,
-                             std::vector<Matrix_3x3>& rotations) const
-  {
-    const Matrix_3x3 copy = rotation;
-    const int g = m_group_of.empty() ? -1 : m_group_of[c];
-    if(g < 0)
-      rotations[static_cast<std::size_t>(c)] = copy;
-    else
-      for(int k = m_groups.begin[g]; k < m_groups.begin[g + 1]; ++k)
-        rotations[static_cast<std::size_t>(m_groups.items[k])] = copy;
+    Matrix_3x3 sum{}, covariance;
+    for(const int* c = begin; c != end; ++c)
+    {
+      compute_covariances(*c, *c + 1, &covariance);
+      add(sum, 1, covariance);
+    }
+    return sum;
   }
 
   std::variant<Star_energy, Simplex_energy> m_cells;
   Bending m_bending;
   Smooth_rotations m_smooth;
   Sequential_fit m_sequential_fit; // then there are no groups
-  Index_lists m_groups;   // of cells
-  Array<int> m_group_of;  // each cell, or -1; empty if there are no groups
-  std::vector<std::pair<int, Matrix_3x3>> m_given; // rotations of cells
+  Rotation_groups m_groups;
   int m_number_of_movable_vertices = 0;
   int m_number_of_free_vertices = 0;
   Array<char> m_is_chosen;  // for each cell whether it counts

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
 #include <utility>
@@ -46,9 +47,7 @@ public:
                       Matrix_3x3& covariance) const
   {
     for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        covariance[entry] +=
-          m_factors[c] * rotations[static_cast<std::size_t>(m_neighbours.items[k])][entry];
+      add(covariance, m_factors[c], rotations[static_cast<std::size_t>(m_neighbours.items[k])]);
   }
 
 private:

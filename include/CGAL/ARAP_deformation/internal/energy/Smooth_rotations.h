@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
 #include <limits>
@@ -83,9 +84,7 @@ public:
   void add_neighbours(int c, const std::vector<Matrix_3x3>& rotations, Matrix_3x3& sum) const
   {
     for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        sum[entry] +=
-          m_weights[k] * rotations[static_cast<std::size_t>(m_neighbours.items[k])][entry];
+      add(sum, m_weights[k], rotations[static_cast<std::size_t>(m_neighbours.items[k])]);
   }
 
   // calls f(c, d, s_cd) for each pair of neighbours c < d

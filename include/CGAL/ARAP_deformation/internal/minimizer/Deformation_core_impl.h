@@ -238,8 +238,7 @@ std::optional<Matrix_3x3> Deformation_core::mean_at_corners(int s,
     if(const Matrix_3x3* const rotation = rotation_at(m_region.corners_of(s)[k]))
     {
       has_one = true;
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        sum[entry] += (*rotation)[entry];
+      add(sum, 1, *rotation);
     }
   return has_one ? std::optional<Matrix_3x3>(Svd_rotation::closest(sum)) : std::nullopt;
 }
@@ -382,7 +381,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                 x)(m_state->energy, m_state->system);
     }();
     const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
-      to_set.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
+      m_state->energy.complete(to_set);
       set_rotations_of_cells(vectors, to_set);
       Array<Coordinates>().swap(vectors); // memory is at its peak from now on
     };

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <algorithm>
@@ -50,8 +51,7 @@ Rigid_fit::Rigid_fit(const Array<Coordinates>& from, const Array<Coordinates>& t
   for(int step = 0; step < 3; ++step)
   {
     Matrix_3x3 sum = covariance;
-    for(std::size_t k = 0; k < 9; ++k)
-      sum[k] += 1e-11 * size * m_rotation[k];
+    add(sum, 1e-11 * size, m_rotation);
     m_rotation = Svd_rotation::closest(sum);
   }
   for(std::size_t k = 0; k < from.size(); ++k)

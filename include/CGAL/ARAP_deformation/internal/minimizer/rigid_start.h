@@ -295,8 +295,7 @@ private:
       for(const int *v = begin, *last = end - 1; v != end; last = v++)
         add_product(covariance, edge(x, *v, *last), edge(region.rest, *v, *last));
       for(const int* v = begin; v != end; ++v)
-        for(std::size_t k = 0; k < 9; ++k)
-          covariances[*v][k] += covariance[k];
+        add(covariances[*v], 1, covariance);
     }
     Array<char> is_turned(region.number_of_vertices(), false);
     for_each_block(covariances.size(), [&](std::size_t begin, std::size_t end) {

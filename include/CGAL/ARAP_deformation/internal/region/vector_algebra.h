@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,11 +47,11 @@ inline Coordinates difference(const Coordinates& a, const Coordinates& b)
 }
 
 // target += factor * a
-inline void add(Coordinates& target, double factor, const Coordinates& a)
+template <std::size_t n>
+void add(std::array<double, n>& target, double factor, const std::array<double, n>& a)
 {
-  target[0] += factor * a[0];
-  target[1] += factor * a[1];
-  target[2] += factor * a[2];
+  for(std::size_t k = 0; k < n; ++k)
+    target[k] += factor * a[k];
 }
 
 inline Coordinates product(const Matrix_3x3& m, const Coordinates& a)
