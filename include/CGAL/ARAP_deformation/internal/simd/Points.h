@@ -31,7 +31,9 @@ class Points
 {
 public:
   Points() = default; // none
-  Points(const Array<Coordinates>& points) : m_numbers(points.data()->data()) {}
+  Points(const Array<Coordinates>& points)
+    : m_numbers(points.empty() ? nullptr : points.front().data())
+  {}
 
   CGAL_ARAP_ALWAYS_INLINE Double4 operator[](int v) const
   {
