@@ -112,9 +112,9 @@ private:
     return m_block_updates.get() + m_block_updates_begin[block];
   }
 
-  // `memory` is a stack of the updates of supernodes of the block whose parents are to come, of
-  // each the lower triangle, column by column. The supernodes are in postorder: the updates of the
-  // children of the next one are the last. Its columns and its update are computed after them.
+  // `memory` is a stack of the updates whose supernodes wait for their parents in the block, of each
+  // the lower triangle, column by column. The supernodes are in postorder: the updates of the
+  // children of the next one are on top. Its own columns and update are computed above them.
   template <typename Assemble>
   void factorize_block(int block, const Assemble& assemble, double* memory)
   {
