@@ -112,8 +112,8 @@ private:
     return m_block_updates.get() + m_block_updates_begin[block];
   }
 
-  // `memory` is a stack of the updates whose supernodes wait for their parents in the block, of each
-  // the lower triangle, column by column. The supernodes are in postorder: the updates of the
+  // `memory` is a stack of the updates whose supernodes wait for their parents in the block, the
+  // lower triangle of each, column by column. The supernodes are in postorder: the updates of the
   // children of the next one are on top. Its own columns and update are computed above them.
   template <typename Assemble>
   void factorize_block(int block, const Assemble& assemble, double* memory)
