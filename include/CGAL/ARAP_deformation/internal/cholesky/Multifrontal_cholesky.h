@@ -94,10 +94,10 @@ private:
                             std::accumulate(begin, end, std::size_t(0)));
     }
     m_block_updates_begin.resize(blocks.size(), 0);
-    for(const Block& b : blocks) // parents before their children
+    for(std::size_t k = 0; k < blocks.size(); ++k) // parents before their children
     {
-      std::size_t begin = m_block_updates_begin[&b - blocks.data()];
-      for(int child = b.children_begin; child < b.children_end; ++child)
+      std::size_t begin = m_block_updates_begin[k];
+      for(int child = blocks[k].children_begin; child < blocks[k].children_end; ++child)
       {
         m_block_updates_begin[child] = begin;
         begin += sizes[child];

@@ -216,7 +216,8 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
       static_cast<std::size_t>(sort_and_add_up(neighbours.begin(), neighbours.end())));
   };
 
-  // found twice: to keep them in between would take longer
+  // Found twice: to keep them in between saves a little time, but takes more memory than the stars,
+  // and the C library does not give back what other threads have allocated.
   Stars stars;
   stars.neighbours.begin.resize(n + 1);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {

@@ -28,9 +28,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Arrays of numbers that tasks take for a while. They are allocated by the thread that starts the
-// tasks, for as many as run at a time: what other threads allocate large, the C library would keep
-// for them.
+// Arrays of numbers that tasks take for a while. The thread that starts the tasks allocates them,
+// for as many tasks as run at a time: what other threads allocate, the C library keeps for them.
 class Task_memory
 {
 public:
