@@ -45,7 +45,8 @@ public:
   // for each row of the factor.
   Supernodal_cholesky(const Sparse_matrix& a, Array<int> order)
   {
-    m_entries.resize(a.nonZeros()); // below the supernodes in memory, which are released soon
+    // before the supernodes, which are released soon and would leave a gap below it
+    m_entries = Array<Entry>(static_cast<int>(a.nonZeros()));
     const Supernodes supernodes = find_supernodes(a, order);
     m_structure = Supernodal_structure(supernodes, order);
     for(const Supernodal_structure::Supernode& s : m_structure.supernodes())
