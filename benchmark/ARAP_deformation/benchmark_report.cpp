@@ -286,6 +286,9 @@ void plot_starts(std::ostream& out, const Json& results, const std::string& fold
       const std::string& colour = colours[number_of_sizes++ % std::size(colours)];
       plot.add(size + ", defaults", "lines " + colour, curves["default"]);
       plot.add(size + ", from the rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+      if(curves.contains("default, no coarse start"))
+        plot.add(size + ", no coarse start", "lines dashtype 4 " + colour,
+                 curves["default, no coarse start"]);
       if(curves.contains("default, no coarse metric"))
         plot.add(size + ", no coarse metric", "lines dashtype 3 " + colour,
                  curves["default, no coarse metric"]);

@@ -10,7 +10,8 @@
 // Author(s)     : The ARAP_deformation authors
 
 // The coarse metric of quasi-Newton runs: its deformations, and its matrix against the second
-// derivative of the energy. test_large_runs has runs with it.
+// derivative of the energy; the coarse surface that a run starts with. test_large_runs has runs
+// with both.
 
 #include "include/check.h"
 #include "include/domains.h"
@@ -19,6 +20,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_matrix.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
@@ -26,8 +28,10 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -202,10 +206,94 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
     }
 }
 
+// A coarse surface has the topology of the fine one and its orientation, and the positions of some
+// of its vertices. Fixed vertices next to free ones have nodes, closer to each other than others,
+// and what is not next to a free one has none.
+void test_region(const std::string& name, const Region& fine, int euler_characteristic)
+{
+  test_case() = "region, " + name;
+  const int n = fine.number_of_vertices();
+  Array<char> is_fixed(n, false);
+  for(const bool has_fixed : {false, true})
+  {
+    if(has_fixed)
+      for(int v = 0; v < n; ++v)
+        is_fixed[v] = fine.rest[v][0] > 0.8;
+    const Coarse_region coarse(fine, is_fixed);
+    const Region& region = coarse.region();
+    const int m = region.number_of_vertices();
+    CHECK(m > 10 && m == coarse.space().number_of_nodes());
+    std::set<std::array<int, 2>> edges; // of polygons, from one corner to the next
+    for(int s = 0; s < region.number_of_simplices(); ++s)
+    {
+      const int* const corners = region.corners_of(s);
+      const int k = region.number_of_corners(s);
+      CHECK(k >= 3);
+      for(int i = 0; i < k; ++i)
+        CHECK(edges.insert({corners[i], corners[(i + 1) % k]}).second);
+    }
+    int number_of_borders = 0, number_of_fixed = 0;
+    for(const auto& [a, b] : edges)
+      number_of_borders += edges.count({b, a}) == 0;
+    for(int node = 0; node < m; ++node)
+    {
+      CHECK(region.rest[node] == fine.rest[coarse.space().vertex_of(node)]);
+      CHECK(coarse.is_fixed(node) == (is_fixed[coarse.space().vertex_of(node)] != 0));
+      number_of_fixed += coarse.is_fixed(node);
+    }
+    if(!has_fixed)
+    {
+      CHECK(m < n / 4);
+      CHECK(number_of_borders == 0 && number_of_fixed == 0);
+      const int number_of_edges = static_cast<int>(edges.size()) / 2;
+      CHECK(m - number_of_edges + region.number_of_simplices() == euler_characteristic);
+      continue;
+    }
+    CHECK(number_of_fixed > 8 && number_of_fixed < m / 2);
+    Array<char> is_near(n, false);
+    for(int s = 0; s < fine.number_of_simplices(); ++s)
+    {
+      const int* const begin = fine.corners_of(s);
+      const int* const end = begin + fine.number_of_corners(s);
+      if(std::any_of(begin, end, [&](int v) { return !is_fixed[v]; }))
+        for(const int* v = begin; v != end; ++v)
+          is_near[*v] = true;
+    }
+    for(int v = 0; v < n; ++v)
+      CHECK(coarse.space().has_nodes(v) == (is_near[v] != 0));
+  }
+}
+
 } // namespace coarse
 
 int main()
 {
+  const double pi = std::acos(-1.0);
+  const auto torus = [pi](double u, double v) {
+    const double r = 1 + 0.4 * std::cos(2 * pi * v);
+    return Eigen::Vector3d(r * std::cos(2 * pi * u), r * std::sin(2 * pi * u),
+                           0.4 * std::sin(2 * pi * v));
+  };
+  const Shape fine_torus = grid("torus", 72, 30, torus, true, true);
+  coarse::test_region("torus", problem::region_of(fine_torus.points, fine_torus.triangles), 0);
+  std::vector<std::array<std::size_t, 4>> quads;
+  for(std::size_t k = 0; k < fine_torus.triangles.size(); k += 2) // two triangles each
+  {
+    const auto &t = fine_torus.triangles[k], &u = fine_torus.triangles[k + 1];
+    if(t[2] == u[1]) // (a, b, c) and (a, c, d)
+      quads.push_back({t[0], t[1], t[2], u[2]});
+    else // (a, b, d) and (b, c, d)
+      quads.push_back({t[0], t[1], u[1], t[2]});
+  }
+  problem::Region of_quads = problem::region_of(fine_torus.points, quads);
+  of_quads.dimension = 2;
+  coarse::test_region("torus of quads", of_quads, 0);
+  Shape sphere = octahedron();
+  for(int k = 0; k < 5; ++k)
+    sphere = subdivided("sphere", sphere, [](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(p.normalized());
+    });
+  coarse::test_region("sphere", problem::region_of(sphere.points, sphere.triangles), 2);
   const Shape sheet = grid("sheet", 32, 26, [](double u, double v) {
     return Eigen::Vector3d(2 * u, v, 0.4 * u * v + 0.2 * u * u);
   });

@@ -9,7 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Runs on shapes that are large enough for the coarse metric, with it and without.
+// Runs on shapes that are large enough for the coarse metric and for a coarse run to start with,
+// with these and without.
 
 #include "include/check.h"
 #include "include/domains.h"
@@ -46,6 +47,13 @@ struct Run
   }
 };
 
+Shape sheet(int m, int n)
+{
+  return grid("sheet", m, n, [](double u, double v) {
+    return Eigen::Vector3d(4 * u, 1.5 * v, 0.2 * std::sin(3 * v) + 0.1 * std::cos(9 * u));
+  });
+}
+
 // the ends of a sheet, which are turned against each other and pushed together
 Scenario twist(const Shape& shape, double angle)
 {
@@ -66,9 +74,7 @@ Scenario twist(const Shape& shape, double angle)
 // the number of threads, nor on what the session has done before.
 void test_runs()
 {
-  const Shape shape = grid("sheet", 270, 124, [](double u, double v) {
-    return Eigen::Vector3d(4 * u, 1.5 * v, 0.2 * std::sin(3 * v) + 0.1 * std::cos(9 * u));
-  });
+  const Shape shape = sheet(270, 124);
   for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
   {
     test_case() = "runs";
@@ -102,8 +108,81 @@ void test_runs()
   }
 }
 
+// The first energy of a run and the last one, and its iterations.
+struct Course
+{
+  double first, last;
+  unsigned int iterations;
+
+  Course(const Shape& shape, const Scenario& s, const Options& options, double weight = 0)
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Deformation d(mesh);
+    CHECK(d.set_options(options));
+    prepare(d, s, all_vertices(mesh));
+    if(weight > 0) // of a soft target
+    {
+      const Mesh::Vertex_index middle(static_cast<Mesh::size_type>(shape.points.size() / 2));
+      d.insert_control_vertex(middle);
+      CHECK(d.set_target_weight(middle, weight));
+    }
+    const Report report = d.deform();
+    CHECK(report.status == CGAL::ARAP::Status::converged ||
+          report.status == CGAL::ARAP::Status::iteration_limit);
+    CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+    first = report.energy.front();
+    last = report.final_energy();
+    iterations = report.iterations;
+  }
+};
+
+// A run whose handles were torn away starts with a coarse run after the guess by rotations. It does
+// not depend on the number of threads. With few iterations or with soft targets there is none.
+void test_starts()
+{
+  const Shape shape = sheet(200, 110);
+  const Scenario s = twist(shape, 1.5);
+  for(const Cell_scheme& cells :
+      {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+  {
+    test_case() = "starts";
+    Options options = options_for(cells, CGAL::ARAP::Minimizer::automatic,
+                                  CGAL::ARAP::Initial_guess::automatic);
+    options.bending_length = cells == Cell_scheme::spokes() ? 0.02 : 0;
+    options.tolerance = 1e-2;
+    options.threads = 1;
+    if(cells == Cell_scheme::elements()) // these bend without energy: the end is far away
+      options.iterations = 100;
+    Options changed = options;
+    changed.initial_guess = CGAL::ARAP::Initial_guess::rotations;
+    const Course without(shape, s, changed);
+    const Course with(shape, s, options);
+    CHECK_AT_MOST(with.first, 0.1 * without.first);
+    CHECK_AT_MOST(with.last, 1.01 * without.last);
+    CHECK_AT_MOST(with.iterations, 1.1 * without.iterations);
+
+    changed = options;
+    changed.threads = 3;
+    changed.iterations = 20;
+    const Course parallel(shape, s, changed);
+    changed.threads = 1;
+    CHECK(Course(shape, s, changed).last == parallel.last);
+    changed.iterations = 19; // the guess by rotations, but for rounding: it is found by another way
+    CHECK_AT_MOST(std::abs(Course(shape, s, changed).first / without.first - 1), 1e-9);
+    if(cells == Cell_scheme::spokes())
+    {
+      changed.iterations = 20;
+      changed.initial_guess = CGAL::ARAP::Initial_guess::rotations;
+      const double first = Course(shape, s, changed, 1).first;
+      changed.initial_guess = CGAL::ARAP::Initial_guess::automatic;
+      CHECK_AT_MOST(std::abs(Course(shape, s, changed, 1).first / first - 1), 1e-9);
+    }
+  }
+}
+
 int main()
 {
   test_runs();
+  test_starts();
   return checks_result();
 }

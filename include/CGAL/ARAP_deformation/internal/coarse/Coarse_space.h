@@ -21,7 +21,6 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace CGAL {
@@ -40,7 +39,18 @@ public:
   explicit Coarse_space(const Sparse_matrix& matrix)
   {
     const Index_lists graph = graph_of(matrix);
-    choose_nodes(graph);
+    choose_nodes(graph, {}, 300); // balls overlap: about a hundred vertices for each node
+    weigh_nodes(graph);
+  }
+
+  // From the neighbours of each vertex, with balls of so many vertices; with smaller ones around
+  // those that come first, which are on a boundary and few.
+  Coarse_space(const Index_lists& graph, const Array<char>& comes_first,
+               std::size_t vertices_of_a_ball)
+  {
+    constexpr std::size_t vertices_of_a_star = 7;
+    choose_nodes(graph, comes_first, vertices_of_a_star);
+    choose_nodes(graph, {}, vertices_of_a_ball);
     weigh_nodes(graph);
   }
 
@@ -57,7 +67,7 @@ private:
   static Index_lists graph_of(const Sparse_matrix& matrix)
   {
     const int n = static_cast<int>(matrix.cols());
-    const auto for_each_edge = [&](const auto& f) {
+    return lists_of_pairs(n, [&](const auto& f) {
       for(int j = 0; j < n; ++j)
         for(Sparse_matrix::InnerIterator entry(matrix, j); entry; ++entry)
           if(const int i = static_cast<int>(entry.row()); i != j && entry.value() != 0)
@@ -65,31 +75,19 @@ private:
             f(i, j);
             f(j, i);
           }
-    };
-    Index_lists graph;
-    graph.begin = Array<int>(n + 1, 0);
-    for_each_edge([&](int i, int) { ++graph.begin[i + 1]; });
-    std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
-    graph.items = Array<int>(graph.begin.back());
-    Array<int> next(graph.begin.begin(), graph.begin.end() - 1);
-    for_each_edge([&](int i, int j) { graph.items[next[i]++] = j; });
-    return graph;
+    });
   }
 
-  // A vertex is a node if it is not in the ball around any node before it.
-  void choose_nodes(const Index_lists& graph)
+  // A vertex is a node if it is not in the ball around any node before it; of some only, if any are
+  // chosen.
+  void choose_nodes(const Index_lists& graph, const Array<char>& is_chosen,
+                    std::size_t vertices_of_a_ball)
   {
-    constexpr std::size_t vertices_of_a_ball = 300; // balls overlap: about a hundred for each node
     Array<char> is_in_ball(graph.size(), false);
     Array<int> last_node(graph.size(), -1), ball;
-    for(int v = 0; v < graph.size(); ++v)
-    {
-      if(is_in_ball[v] || graph.begin[v] == graph.begin[v + 1])
-        continue;
-      const int node = number_of_nodes();
-      m_vertices.push_back(v);
-      ball.assign(1, v);
-      last_node[v] = node;
+    const auto cover = [&](int node) {
+      ball.assign(1, m_vertices[node]);
+      last_node[m_vertices[node]] = node;
       for(std::size_t k = 0; k < ball.size() && ball.size() < vertices_of_a_ball; ++k)
         for(int e = graph.begin[ball[k]]; e < graph.begin[ball[k] + 1]; ++e)
           if(const int i = graph.items[e]; last_node[i] != node)
@@ -99,7 +97,16 @@ private:
           }
       for(int i : ball)
         is_in_ball[i] = true;
-    }
+    };
+    for(int node = 0; node < number_of_nodes(); ++node)
+      cover(node);
+    for(int v = 0; v < graph.size(); ++v)
+      if(!is_in_ball[v] && graph.begin[v] != graph.begin[v + 1] &&
+         (is_chosen.empty() || is_chosen[v]))
+      {
+        m_vertices.push_back(v);
+        cover(number_of_nodes() - 1);
+      }
   }
 
   // The weights are (1 - d / D)^2, D a little more than the distance of one node more.

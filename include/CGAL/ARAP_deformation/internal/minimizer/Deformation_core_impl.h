@@ -14,9 +14,14 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
 #include <CGAL/ARAP_deformation/internal/energy/make_deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
@@ -36,6 +41,7 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
+#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
@@ -268,24 +274,100 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
   return given;
 }
 
-// sets the rotations of cells, from the rotation vectors of vertices
-CGAL_ARAP_INLINE_FUNCTION
-void Deformation_core::set_rotations_of_cells(const Array<Coordinates>& vectors,
+// sets the rotations of cells, from rotation_at(v) of vertices
+template <typename Function>
+void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
                                               std::vector<Matrix_3x3>& rotations) const
 {
   if(m_energy_model.cells.has_vertex_cells())
   {
     for(std::size_t v = 0; v < rotations.size(); ++v)
-      rotations[v] = rotation_of_vector(vectors[v]);
+      rotations[v] = rotation_at(v);
     return;
   }
   Array<Matrix_3x3> of_vertices;
-  of_vertices.reserve(vectors.size());
-  for(const Coordinates& vector : vectors)
-    of_vertices.push_back(rotation_of_vector(vector));
+  of_vertices.reserve(m_region.rest.size());
+  for(std::size_t v = 0; v < m_region.rest.size(); ++v)
+    of_vertices.push_back(rotation_at(v));
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
     rotations[static_cast<std::size_t>(s)] =
       *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
+}
+
+// Whether a run on a surface with fewer vertices would tell where to start. It would not pay on
+// volumes, which need few iterations, and for a preview or a frame; and it has neither rows nor a
+// stiffness.
+CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::can_start_coarsely(const Options& options) const
+{
+  constexpr std::size_t least_vertices = 20000;
+  constexpr unsigned int least_iterations = 20;
+  return m_region.dimension == 2 && options.iterations >= least_iterations &&
+         m_constraints.number_of_free_vertices() >= least_vertices &&
+         m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
+         m_energy_model.stiffness.empty() && m_energy_model.fit_order.empty();
+}
+
+// The rotation at each vertex, from a run on a surface with fewer vertices, which begins at x or,
+// if it is large itself, with one on a still coarser surface; none if that fails. The run need not
+// end: what is left to be done depends on the finer surface.
+CGAL_ARAP_INLINE_FUNCTION
+Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
+                                                     const Array<Coordinates>& x) const
+{
+  const Coarse_region coarse(m_region, m_constraints.is_fixed);
+  const Coarse_space& space = coarse.space();
+  Energy_model model;
+  model.cells = has_vertex_cells() ? m_energy_model.cells : Cell_scheme::spokes();
+  model.bending_length = m_energy_model.bending_length;
+  Deformation_core core(
+    {std::make_shared<Edge_weight_model_of<Safe_cotangent_weight>>(Safe_cotangent_weight()),
+     m_models.closest_rotations,
+     std::make_shared<Linear_solver_of<Multifrontal_cholesky_solver>>(
+       Multifrontal_cholesky_solver()),
+     m_models.is_parallel},
+    coarse.region(), std::move(model), m_order, options.threads);
+  core.m_is_coarse = true;
+  Constraints constraints;
+  Array<Coordinates> positions;
+  for(int node = 0; node < space.number_of_nodes(); ++node)
+  {
+    constraints.is_fixed.push_back(coarse.is_fixed(node));
+    positions.push_back(x[static_cast<std::size_t>(space.vertex_of(node))]);
+  }
+  Stages stages;
+  if(core.diagnosis().status != Status::success ||
+     core.set_constraints(std::move(constraints), Unconstrained_components::fixed, options.threads,
+                          stages).status != Status::success)
+    return {};
+  Options coarse_options;
+  coarse_options.initial_guess = Initial_guess::previous;
+  coarse_options.minimizer = Minimizer::quasi_newton;
+  coarse_options.verify_minimum = false;
+  coarse_options.iterations = 100;
+  coarse_options.tolerance = 3e-3;
+  coarse_options.threads = options.threads;
+  Targets targets;
+  std::vector<Matrix_3x3> rotations;
+  Report report;
+  core.run(coarse_options, [](unsigned int, double) { return Visitor_action::proceed; }, targets,
+           positions, rotations, report);
+
+  Array<Matrix_3x3> result(space.number_of_vertices(), identity_matrix());
+  for_each_block(result.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<Matrix_3x3> sums(end - begin, Matrix_3x3{});
+    for(std::size_t v = begin; v < end; ++v)
+    {
+      const int* const nodes = space.nodes(static_cast<int>(v));
+      const float* const weights = space.weights(static_cast<int>(v));
+      if(!space.has_nodes(static_cast<int>(v)))
+        sums[v - begin] = identity_matrix();
+      for(int k = 0; k < Coarse_space::most_nodes && weights[k] > 0; ++k)
+        add(sums[v - begin], weights[k], rotations[static_cast<std::size_t>(nodes[k])]);
+    }
+    m_models.closest_rotations(end - begin, sums.data(), result.data() + begin);
+  });
+  return result;
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -382,10 +464,26 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     }();
     const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
       m_state->energy.complete(to_set);
-      set_rotations_of_cells(vectors, to_set);
+      set_rotations_of_cells([&](std::size_t v) { return rotation_of_vector(vectors[v]); },
+                             to_set);
       Array<Coordinates>().swap(vectors); // memory is at its peak from now on
     };
     if(!vectors.empty() && !minimization.start_with(set_rotations, is_placed, is_tried))
+      return {Status::solver_failed};
+  }
+  if((is_tried || m_is_coarse) && is_certain && is_quasi_newton && can_start_coarsely(options) &&
+     !are_all_placed())
+  {
+    Array<Matrix_3x3> coarse = [&] {
+      Scoped_seconds seconds(report.seconds.initial_guess);
+      return coarse_rotations(options, x);
+    }();
+    const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
+      m_state->energy.complete(to_set);
+      set_rotations_of_cells([&](std::size_t v) { return coarse[v]; }, to_set);
+      Array<Matrix_3x3>().swap(coarse);
+    };
+    if(!coarse.empty() && !minimization.start_with(set_rotations, is_placed, true))
       return {Status::solver_failed};
   }
   if(m_order == Minimization_order::global_first)

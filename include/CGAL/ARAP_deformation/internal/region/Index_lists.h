@@ -52,23 +52,31 @@ inline Index_lists lists_by_first(std::vector<std::pair<int, int>> pairs)
   return result;
 }
 
+// For each first number of the pairs, which are below n, the list of their second numbers, in the
+// order in which for_each_pair(f) calls f(first, second). It is called twice.
+template <typename For_each_pair>
+Index_lists lists_of_pairs(int n, const For_each_pair& for_each_pair)
+{
+  Index_lists result;
+  result.begin = Array<int>(n + 1, 0);
+  for_each_pair([&](int first, int) { ++result.begin[first + 1]; });
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  result.items = Array<int>(result.begin.back());
+  Array<int> next(result.begin.begin(), result.begin.end() - 1);
+  for_each_pair([&](int first, int second) { result.items[next[first]++] = second; });
+  return result;
+}
+
 // For each number below n what name(k, place) is where list k has it, at that place in `items`.
 template <typename Naming>
 Index_lists inverse(const Index_lists& lists, int n, const Naming& name)
 {
-  Index_lists result;
-  result.begin = Array<int>(n + 1, 0);
-  for(int item : lists.items)
-    if(item < n)
-      ++result.begin[item + 1];
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.items = Array<int>(result.begin.back());
-  Array<int> next(result.begin.begin(), result.begin.end() - 1);
-  for(int k = 0; k < lists.size(); ++k)
-    for(int place = lists.begin[k]; place < lists.begin[k + 1]; ++place)
-      if(const int item = lists.items[place]; item < n)
-        result.items[next[item]++] = name(k, place);
-  return result;
+  return lists_of_pairs(n, [&](const auto& f) {
+    for(int k = 0; k < lists.size(); ++k)
+      for(int place = lists.begin[k]; place < lists.begin[k + 1]; ++place)
+        if(const int item = lists.items[place]; item < n)
+          f(item, name(k, place));
+  });
 }
 
 // for each place in `items` its list
