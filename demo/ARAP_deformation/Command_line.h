@@ -167,7 +167,7 @@ inline boost::program_options::options_description described_options()
     ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
      "laplacian, or automatic: previous, or rotations where a handle is torn away by over a "
-     "tenth of the diagonal and that is better")
+     "tenth of the diagonal and that is better, and on large surfaces then a run on a coarser one")
     ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<std::string>()->value_name("T")

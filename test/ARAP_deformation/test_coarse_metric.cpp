@@ -55,7 +55,7 @@ void test_transfer(const Region& region)
   test_case() = "transfer";
   Problem problem(region, Energy_model(), 0.01);
   problem.minimization();
-  const Coarse_space space(problem.system.laplacian().matrix);
+  const Coarse_space space(problem.system.laplacian().matrix, problem.region.rest);
   const int n = space.number_of_vertices(), m = space.number_of_nodes();
   CHECK(m > 3);
   for(int v = 0; v < n; ++v)
@@ -169,7 +169,8 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
       Minimization run = problem.minimization();
       const CGAL::ARAP::Sparse_matrix matrix =
         problem.system.with_rows(problem.constraints.rows);
-      Coarse_transfer transfer{Coarse_space(problem.system.laplacian().matrix)};
+      Coarse_transfer transfer{Coarse_space(problem.system.laplacian().matrix,
+                                            problem.region.rest)};
       Coarse_matrix coarse(transfer, problem.energy, problem.system.laplacian().matrix);
       run.evaluate();
       transfer.place(problem.constraints.is_fixed, problem.x);
@@ -206,19 +207,24 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
     }
 }
 
+Array<char> fixed_vertices(const Region& region)
+{
+  Array<char> result;
+  for(const Coordinates& p : region.rest)
+    result.push_back(p[0] > 0.8);
+  return result;
+}
+
 // A coarse surface has the topology of the fine one and its orientation, and the positions of some
-// of its vertices. Fixed vertices next to free ones have nodes, closer to each other than others,
-// and what is not next to a free one has none.
+// of its vertices. Where some are fixed, it has all polygons at vertices beside free ones, and no
+// other.
 void test_region(const std::string& name, const Region& fine, int euler_characteristic)
 {
   test_case() = "region, " + name;
   const int n = fine.number_of_vertices();
-  Array<char> is_fixed(n, false);
   for(const bool has_fixed : {false, true})
   {
-    if(has_fixed)
-      for(int v = 0; v < n; ++v)
-        is_fixed[v] = fine.rest[v][0] > 0.8;
+    const Array<char> is_fixed = has_fixed ? fixed_vertices(fine) : Array<char>(n, false);
     const Coarse_region coarse(fine, is_fixed);
     const Region& region = coarse.region();
     const int m = region.number_of_vertices();
@@ -243,25 +249,61 @@ void test_region(const std::string& name, const Region& fine, int euler_characte
     }
     if(!has_fixed)
     {
-      CHECK(m < n / 4);
+      CHECK(m < n / 3);
       CHECK(number_of_borders == 0 && number_of_fixed == 0);
       const int number_of_edges = static_cast<int>(edges.size()) / 2;
       CHECK(m - number_of_edges + region.number_of_simplices() == euler_characteristic);
       continue;
     }
     CHECK(number_of_fixed > 8 && number_of_fixed < m / 2);
-    Array<char> is_near(n, false);
-    for(int s = 0; s < fine.number_of_simplices(); ++s)
+    Array<char> is_near(n, false); // free, or beside those, or beside those in turn
+    for(int v = 0; v < n; ++v)
+      is_near[v] = !is_fixed[v];
+    for(int rings = 0; rings < 2; ++rings)
     {
-      const int* const begin = fine.corners_of(s);
-      const int* const end = begin + fine.number_of_corners(s);
-      if(std::any_of(begin, end, [&](int v) { return !is_fixed[v]; }))
-        for(const int* v = begin; v != end; ++v)
-          is_near[*v] = true;
+      const Array<char> is_nearer = is_near;
+      for(int s = 0; s < fine.number_of_simplices(); ++s)
+      {
+        const int* const begin = fine.corners_of(s);
+        const int* const end = begin + fine.number_of_corners(s);
+        if(std::any_of(begin, end, [&](int v) { return is_nearer[v] != 0; }))
+          for(const int* v = begin; v != end; ++v)
+            is_near[*v] = true;
+      }
     }
     for(int v = 0; v < n; ++v)
       CHECK(coarse.space().has_nodes(v) == (is_near[v] != 0));
   }
+}
+
+// The nodes and their weights do not depend on the order of vertices, triangles and corners.
+void test_order(const Shape& shape)
+{
+  test_case() = "order, " + shape.name;
+  std::vector<std::size_t> place;
+  const Shape other_shape = shuffled(shape, place);
+  const Region region = region_of(shape.points, shape.triangles),
+               other_region = region_of(other_shape.points, other_shape.triangles);
+  const auto compare = [&](const Coarse_space& space, const Coarse_space& other) {
+    CHECK(space.number_of_nodes() == other.number_of_nodes());
+    for(int v = 0; v < space.number_of_vertices(); ++v)
+      for(int k = 0, w = static_cast<int>(place[static_cast<std::size_t>(v)]);
+          k < Coarse_space::most_nodes; ++k)
+      {
+        CHECK(space.weights(v)[k] == other.weights(w)[k]);
+        CHECK(space.nodes(v)[k] == other.nodes(w)[k]);
+      }
+    for(int node = 0; node < space.number_of_nodes(); ++node)
+      CHECK(static_cast<std::size_t>(other.vertex_of(node)) ==
+            place[static_cast<std::size_t>(space.vertex_of(node))]);
+  };
+  compare(Coarse_region(region, fixed_vertices(region)).space(),
+          Coarse_region(other_region, fixed_vertices(other_region)).space());
+  Problem problem(region, Energy_model(), 0.01), other(other_region, Energy_model(), 0.01);
+  problem.minimization();
+  other.minimization();
+  compare(Coarse_space(problem.system.laplacian().matrix, region.rest),
+          Coarse_space(other.system.laplacian().matrix, other_region.rest));
 }
 
 } // namespace coarse
@@ -293,6 +335,8 @@ int main()
     sphere = subdivided("sphere", sphere, [](const Eigen::Vector3d& p) {
       return Eigen::Vector3d(p.normalized());
     });
+  coarse::test_order(fine_torus);
+  coarse::test_order(sphere);
   coarse::test_region("sphere", problem::region_of(sphere.points, sphere.triangles), 2);
   const Shape sheet = grid("sheet", 32, 26, [](double u, double v) {
     return Eigen::Vector3d(2 * u, v, 0.4 * u * v + 0.2 * u * u);

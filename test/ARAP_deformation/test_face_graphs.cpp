@@ -318,29 +318,16 @@ Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme ce
   return result;
 }
 
-// vertices, faces and the corners of each face in another order
 Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
 {
-  std::mt19937 random(11);
-  std::vector<std::size_t> place(shape.points.size());
-  std::iota(place.begin(), place.end(), std::size_t(0));
-  std::shuffle(place.begin(), place.end(), random);
-  Shape shuffled = shape;
+  std::vector<std::size_t> place;
+  Mesh mesh = make_mesh<Mesh>(shuffled(shape, place));
   Scenario moved = s;
   for(std::size_t v = 0; v < place.size(); ++v)
   {
-    shuffled.points[place[v]] = shape.points[v];
     moved.selection[place[v]] = s.selection[v];
     moved.targets[place[v]] = s.targets[v];
   }
-  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
-  for(auto& t : shuffled.triangles)
-  {
-    std::rotate(t.begin(), t.begin() + random() % 3, t.end());
-    for(auto& v : t)
-      v = place[v];
-  }
-  Mesh mesh = make_mesh<Mesh>(shuffled);
   const Result result = deform(Face_graph_domain<Mesh>(mesh), all_vertices(mesh), moved, cells);
   Result restored = result;
   for(std::size_t v = 0; v < place.size(); ++v)

@@ -27,9 +27,9 @@ namespace ARAP {
 enum class Initial_guess
 {
   automatic, ///< `previous`; but where a handle has been torn away from its neighbours by more than
-             ///< a tenth of the bounding box, `rotations` if its energy is lower; and on surfaces
-             ///< with 20,000 free vertices or more, what a run on a coarser surface tells
-             ///< (\ref ARAPDeformation_CoarseStart)
+             ///< a tenth of the bounding box, `rotations` if its energy is lower. Quasi-Newton
+             ///< runs on surfaces with 20,000 free vertices or more then deform a coarser surface
+             ///< (\ref ARAPDeformation_CoarseStart).
   previous, ///< the current positions: for interaction, where each frame starts from the last
   rotations, ///< Poisson editing \cgalCite{Zayer2005Harmonic}: the rotations of the handles against
              ///< the rest shape are interpolated harmonically, and one global step with them gives

@@ -115,7 +115,7 @@ struct Problem
     CHECK(system.prepare(constraints, work));
     CHECK(system.meet(targets.hard, x));
     return Minimization(energy, models.closest_rotations, system, constraints, options, observe,
-                        targets, x, rotations, coarse_metric, report);
+                        region.rest, targets, x, rotations, coarse_metric, report);
   }
 };
 

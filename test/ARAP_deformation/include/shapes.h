@@ -108,6 +108,26 @@ Shape subdivided(const std::string& name, const Shape& coarse, const Function& f
   return fine;
 }
 
+// vertices, triangles and the corners of each triangle in another order; a vertex v is at place[v]
+inline Shape shuffled(const Shape& shape, std::vector<std::size_t>& place)
+{
+  std::mt19937 random(11);
+  place.resize(shape.points.size());
+  std::iota(place.begin(), place.end(), std::size_t(0));
+  std::shuffle(place.begin(), place.end(), random);
+  Shape result = shape;
+  for(std::size_t v = 0; v < place.size(); ++v)
+    result.points[place[v]] = shape.points[v];
+  std::shuffle(result.triangles.begin(), result.triangles.end(), random);
+  for(auto& t : result.triangles)
+  {
+    std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+    for(auto& v : t)
+      v = place[v];
+  }
+  return result;
+}
+
 inline Shape two_components(const Shape& shape)
 {
   Shape both = shape;

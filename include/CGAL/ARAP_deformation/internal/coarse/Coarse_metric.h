@@ -36,8 +36,9 @@ class Coarse_metric
 {
 public:
   // what depends on neither positions nor constraints
-  Coarse_metric(const Deformation_energy& energy, const Sparse_matrix& laplacian)
-    : m_transfer(Coarse_space(laplacian)), m_matrix(m_transfer, energy, laplacian)
+  Coarse_metric(const Deformation_energy& energy, const Sparse_matrix& laplacian,
+                const Array<Coordinates>& rest)
+    : m_transfer(Coarse_space(laplacian, rest)), m_matrix(m_transfer, energy, laplacian)
   {}
 
   // Computes P and the factor of C at the positions x; false if there is none. `matrix` is L with

@@ -14,7 +14,6 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
@@ -23,21 +22,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A surface with about a fifth of the vertices of another, where that can move: the vertices next
-// to one of its nodes are a cell of a Voronoi diagram by numbers of edges, and where three cells or
-// more meet in a polygon they have one in the dual. Fixed vertices next to free ones have nodes of
-// their own, closer to each other.
+// A surface with about a fifth of the vertices of another, which are its nodes, around all that can
+// move. The vertices nearest to a node, in numbers of edges, are its Voronoi cell, and where three
+// cells or more meet in a polygon there is one with their nodes. Fixed vertices have nodes of their
+// own, closer to each other: a shape bends most where it is held.
 class Coarse_region
 {
 public:
-  // `is_fixed` has an entry for each movable vertex
+  // `fine` is a surface; `is_fixed` has an entry for each of its movable vertices
   Coarse_region(const Region& fine, const Array<char>& is_fixed)
-    : m_is_free(free_vertices(fine, is_fixed)), m_space(graph_of(fine), others(m_is_free), 12)
+    : m_is_free(free_vertices(fine, is_fixed)), m_is_near(near_vertices(fine)),
+      m_space(graph_of(fine), fine.rest, complement(m_is_free), vertices_of_a_ball)
   {
     const int m = m_space.number_of_nodes();
     m_region.number_of_movable_vertices = m_region.number_of_centres =
@@ -48,16 +49,27 @@ public:
     m_region.indices = Array<std::size_t>(m);
     std::iota(m_region.indices.begin(), m_region.indices.end(), std::size_t(0));
     for(int s = 0; s < fine.number_of_simplices(); ++s)
-      if(has_free(fine, s))
+      if(has_corner(fine, s, m_is_near))
         add_polygon(fine, s);
     m_region.number_of_movable_simplices = m_region.number_of_simplices();
   }
 
   const Region& region() const { return m_region; }
+  Region release_region() { return std::move(m_region); }
   const Coarse_space& space() const { return m_space; }
   bool is_fixed(int node) const { return !m_is_free[m_space.vertex_of(node)]; }
 
 private:
+  // makes about one vertex in five a node, as balls overlap
+  static constexpr std::size_t vertices_of_a_ball = 12;
+
+  static bool has_corner(const Region& fine, int s, const Array<char>& is_chosen)
+  {
+    const int* const begin = fine.corners_of(s);
+    return std::any_of(begin, begin + fine.number_of_corners(s),
+                       [&](int v) { return is_chosen[v] != 0; });
+  }
+
   static Array<char> free_vertices(const Region& fine, const Array<char>& is_fixed)
   {
     Array<char> result(fine.number_of_vertices(), false);
@@ -66,26 +78,31 @@ private:
     return result;
   }
 
-  static Array<char> others(Array<char> chosen)
+  // The free vertices and those beside them: all polygons at these are needed, as fixed vertices
+  // have cells, too.
+  Array<char> near_vertices(const Region& fine) const
+  {
+    Array<char> result(fine.number_of_vertices(), false);
+    for(int s = 0; s < fine.number_of_simplices(); ++s)
+      if(has_corner(fine, s, m_is_free))
+        for(int k = 0; k < fine.number_of_corners(s); ++k)
+          result[fine.corners_of(s)[k]] = true;
+    return result;
+  }
+
+  static Array<char> complement(Array<char> chosen)
   {
     for(char& is_chosen : chosen)
       is_chosen = !is_chosen;
     return chosen;
   }
 
-  bool has_free(const Region& fine, int s) const
-  {
-    const int* const begin = fine.corners_of(s);
-    return std::any_of(begin, begin + fine.number_of_corners(s),
-                       [this](int v) { return m_is_free[v] != 0; });
-  }
-
-  // the neighbours of each vertex in polygons that have free vertices, twice for two polygons
+  // the neighbours of each vertex, twice where they are so in two polygons
   Index_lists graph_of(const Region& fine) const
   {
     return lists_of_pairs(fine.number_of_vertices(), [&](const auto& f) {
       for(int s = 0; s < fine.number_of_simplices(); ++s)
-        if(has_free(fine, s))
+        if(has_corner(fine, s, m_is_near))
         {
           const int* const corners = fine.corners_of(s);
           for(int n = fine.number_of_corners(s), k = n - 1, l = 0; l < n; k = l++)
@@ -111,7 +128,7 @@ private:
       m_region.first_corner.push_back(static_cast<int>(corners.size()));
   }
 
-  Array<char> m_is_free; // for each vertex
+  Array<char> m_is_free, m_is_near; // for each vertex
   Coarse_space m_space;
   Region m_region;
 };

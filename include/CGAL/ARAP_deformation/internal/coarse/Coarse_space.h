@@ -20,6 +20,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -27,30 +28,33 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Nodes, which are vertices that are spread evenly over the graph of a matrix, and for each vertex
-// the nodes next to it, with weights that add up to one and fade with the distance. A distance is a
+// Nodes, which are vertices that are spread evenly over a graph, and for each vertex the nodes that
+// are nearest to it, with weights that add up to one and fade with the distance. A distance is a
 // number of edges: what the energy makes of a wave depends on its length in edges.
 class Coarse_space
 {
 public:
   static constexpr int most_nodes = 3; // of a vertex; a fourth makes a surface no faster
 
-  // from the lower triangle of a matrix
-  explicit Coarse_space(const Sparse_matrix& matrix)
+  // from the lower triangle of a matrix; the points decide in which order vertices become nodes
+  Coarse_space(const Sparse_matrix& matrix, const Array<Coordinates>& points)
   {
     const Index_lists graph = graph_of(matrix);
-    choose_nodes(graph, {}, 300); // balls overlap: about a hundred vertices for each node
+    // balls overlap: about a hundred vertices for each node
+    choose_nodes(graph, vertices_along_an_axis(graph, points), 300);
     weigh_nodes(graph);
   }
 
-  // From the neighbours of each vertex, with balls of so many vertices; with smaller ones around
-  // those that come first, which are on a boundary and few.
-  Coarse_space(const Index_lists& graph, const Array<char>& comes_first,
-               std::size_t vertices_of_a_ball)
+  // From the neighbours of each vertex, with balls of so many vertices; first from some vertices,
+  // with smaller balls.
+  Coarse_space(const Index_lists& graph, const Array<Coordinates>& points,
+               const Array<char>& comes_first, std::size_t vertices_of_a_ball)
   {
-    constexpr std::size_t vertices_of_a_star = 7;
-    choose_nodes(graph, comes_first, vertices_of_a_star);
-    choose_nodes(graph, {}, vertices_of_a_ball);
+    Array<int> vertices = vertices_along_an_axis(graph, points);
+    const auto end_of_first = std::stable_partition(vertices.begin(), vertices.end(),
+                                                    [&](int v) { return comes_first[v] != 0; });
+    choose_nodes(graph, Array<int>(vertices.begin(), end_of_first), vertices_of_a_ball / 2);
+    choose_nodes(graph, Array<int>(end_of_first, vertices.end()), vertices_of_a_ball);
     weigh_nodes(graph);
   }
 
@@ -58,7 +62,7 @@ public:
   int number_of_vertices() const { return static_cast<int>(m_nodes.size()) / most_nodes; }
   int vertex_of(int node) const { return m_vertices[node]; }
 
-  // The nodes of a vertex, the next one first, and their weights: 0 if it has fewer nodes, or none.
+  // The nodes of a vertex, the nearest one first, and their weights: 0 where it has fewer.
   const int* nodes(int v) const { return m_nodes.data() + most_nodes * std::ptrdiff_t(v); }
   const float* weights(int v) const { return m_weights.data() + most_nodes * std::ptrdiff_t(v); }
   bool has_nodes(int v) const { return weights(v)[0] > 0; }
@@ -70,7 +74,7 @@ private:
     return lists_of_pairs(n, [&](const auto& f) {
       for(int j = 0; j < n; ++j)
         for(Sparse_matrix::InnerIterator entry(matrix, j); entry; ++entry)
-          if(const int i = static_cast<int>(entry.row()); i != j && entry.value() != 0)
+          if(const int i = static_cast<int>(entry.row()); i != j)
           {
             f(i, j);
             f(j, i);
@@ -78,20 +82,47 @@ private:
     });
   }
 
-  // A vertex is a node if it is not in the ball around any node before it; of some only, if any are
-  // chosen.
-  void choose_nodes(const Index_lists& graph, const Array<char>& is_chosen,
+  // Those with neighbours, in an order that does not depend on their numbers, unless two are at the
+  // same point.
+  static Array<int> vertices_along_an_axis(const Index_lists& graph,
+                                           const Array<Coordinates>& points)
+  {
+    Array<int> vertices;
+    for(int v = 0; v < graph.size(); ++v)
+      if(graph.begin[v] != graph.begin[v + 1])
+        vertices.push_back(v);
+    std::sort(vertices.begin(), vertices.end(), [&](int a, int b) {
+      return points[a] != points[b] ? points[a] < points[b] : a < b;
+    });
+    return vertices;
+  }
+
+  // A vertex is a node if it is not in the ball around any node before it. A ball grows by rings,
+  // which do not depend on the order of neighbours: by those of the node, and then by all vertices
+  // with two neighbours in it, which makes it round.
+  void choose_nodes(const Index_lists& graph, const Array<int>& vertices,
                     std::size_t vertices_of_a_ball)
   {
+    struct Link { int node = -1, vertex = -1; };
     Array<char> is_in_ball(graph.size(), false);
     Array<int> last_node(graph.size(), -1), ball;
+    Array<Link> links(graph.size()); // from the ball of a node to vertices that are not in it
     const auto cover = [&](int node) {
       ball.assign(1, m_vertices[node]);
       last_node[m_vertices[node]] = node;
-      for(std::size_t k = 0; k < ball.size() && ball.size() < vertices_of_a_ball; ++k)
-        for(int e = graph.begin[ball[k]]; e < graph.begin[ball[k] + 1]; ++e)
-          if(const int i = graph.items[e]; last_node[i] != node)
+      for(std::size_t k = 0, end = 1; k < ball.size() && ball.size() < vertices_of_a_ball;
+          end = ball.size())
+        for(; k < end; ++k)
+          for(int e = graph.begin[ball[k]]; e < graph.begin[ball[k] + 1]; ++e)
           {
+            const int i = graph.items[e];
+            if(last_node[i] == node)
+              continue;
+            if(k > 0 && (links[i].node != node || links[i].vertex == ball[k]))
+            {
+              links[i] = {node, ball[k]};
+              continue;
+            }
             last_node[i] = node;
             ball.push_back(i);
           }
@@ -100,33 +131,41 @@ private:
     };
     for(int node = 0; node < number_of_nodes(); ++node)
       cover(node);
-    for(int v = 0; v < graph.size(); ++v)
-      if(!is_in_ball[v] && graph.begin[v] != graph.begin[v + 1] &&
-         (is_chosen.empty() || is_chosen[v]))
+    for(int v : vertices)
+      if(!is_in_ball[v])
       {
         m_vertices.push_back(v);
         cover(number_of_nodes() - 1);
       }
   }
 
-  // The weights are (1 - d / D)^2, D a little more than the distance of one node more.
+  // The weights are (1 - d / D)^2, D a little more than the distance of one node more. Of nodes at
+  // the same distance the first ones count.
   void weigh_nodes(const Index_lists& graph)
   {
     struct Label { int node = -1, distance = 0; };
     constexpr int most_labels = most_nodes + 1;
     const int n = graph.size();
     Array<Label> labels(n * most_labels);
-    const auto add_label = [&](int v, const Label& added) { // unless it has it, or enough others
-      Label* label = labels.data() + most_labels * std::ptrdiff_t(v);
-      for(Label* const end = label + most_labels; label != end; ++label)
-        if(label->node < 0)
-        {
-          *label = added;
-          return true;
-        }
-        else if(label->node == added.node)
-          break;
-      return false;
+    const auto labels_of = [&](int v) { return labels.data() + most_labels * std::ptrdiff_t(v); };
+    const auto has_label = [&](int v, int node) {
+      return std::any_of(labels_of(v), labels_of(v) + most_labels,
+                         [&](const Label& label) { return label.node == node; });
+    };
+    // Labels are in ascending order; a later node at the same distance may lose its place.
+    const auto add_label = [&](int v, const Label& added) {
+      Label* const begin = labels_of(v);
+      Label* const end = begin + most_labels;
+      Label* place = begin;
+      for(; place != end && place->node >= 0 &&
+            (place->distance < added.distance || place->node <= added.node); ++place)
+        if(place->node == added.node)
+          return false;
+      if(place == end || (place->node >= 0 && has_label(v, added.node)))
+        return false;
+      std::move_backward(place, end - 1, end);
+      *place = added;
+      return true;
     };
     Array<std::pair<int, int>> front, next; // vertices, with the node that they are reached from
     for(int node = 0; node < number_of_nodes(); ++node)
@@ -138,9 +177,10 @@ private:
     {
       next.clear();
       for(const auto& [v, node] : front)
-        for(int e = graph.begin[v]; e < graph.begin[v + 1]; ++e)
-          if(add_label(graph.items[e], {node, distance}))
-            next.emplace_back(graph.items[e], node);
+        if(has_label(v, node))
+          for(int e = graph.begin[v]; e < graph.begin[v + 1]; ++e)
+            if(add_label(graph.items[e], {node, distance}))
+              next.emplace_back(graph.items[e], node);
       front.swap(next);
     }
 

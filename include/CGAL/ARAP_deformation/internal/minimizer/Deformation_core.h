@@ -137,7 +137,7 @@ private:
   template <typename Function>
   void set_rotations_of_cells(const Function& rotation_at,
                               std::vector<Matrix_3x3>& rotations) const;
-  bool can_start_coarsely(const Options& options) const;
+  bool can_have_coarse_start(const Options& options) const;
   Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
   std::vector<std::pair<int, Matrix_3x3>>
   rotations_of_cells(const std::vector<Frame>& frames) const;
@@ -148,7 +148,7 @@ private:
   Region m_region;
   Energy_model m_energy_model;
   Minimization_order m_order;
-  bool m_is_coarse = false; // so that its runs are only for others to start with
+  bool m_is_coarse = false; // it is the coarser surface of another
   std::size_t m_weights_version = 0;
   std::unique_ptr<State> m_state;
   Array<char> m_is_isolated; // for each movable vertex

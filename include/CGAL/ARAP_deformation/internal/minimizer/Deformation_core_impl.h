@@ -15,11 +15,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/edge_weights.h>
-#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
+#include <CGAL/ARAP_deformation/internal/coarse/blended_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/energy/laplacian_of.h>
@@ -41,7 +41,6 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
-#include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
@@ -294,13 +293,13 @@ void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
       *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
 }
 
-// Whether a run on a surface with fewer vertices would tell where to start. It would not pay on
-// volumes, which need few iterations, and for a preview or a frame; and it has neither rows nor a
-// stiffness.
+// Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
+// need few iterations, nor for a preview or a frame; and that surface has no rows, no stiffness and
+// no order of fits.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::can_start_coarsely(const Options& options) const
+bool Deformation_core::can_have_coarse_start(const Options& options) const
 {
-  constexpr std::size_t least_vertices = 20000;
+  constexpr std::size_t least_vertices = 20000; // with fewer it takes longer than it saves
   constexpr unsigned int least_iterations = 20;
   return m_region.dimension == 2 && options.iterations >= least_iterations &&
          m_constraints.number_of_free_vertices() >= least_vertices &&
@@ -308,25 +307,24 @@ bool Deformation_core::can_start_coarsely(const Options& options) const
          m_energy_model.stiffness.empty() && m_energy_model.fit_order.empty();
 }
 
-// The rotation at each vertex, from a run on a surface with fewer vertices, which begins at x or,
-// if it is large itself, with one on a still coarser surface; none if that fails. The run need not
-// end: what is left to be done depends on the finer surface.
+// The rotation at each vertex, from a run on a coarser surface. That begins at x, or if it is
+// large, too, with a run on a still coarser one. None if that fails, or would take too long.
 CGAL_ARAP_INLINE_FUNCTION
 Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
                                                      const Array<Coordinates>& x) const
 {
-  const Coarse_region coarse(m_region, m_constraints.is_fixed);
+  Coarse_region coarse(m_region, m_constraints.is_fixed);
   const Coarse_space& space = coarse.space();
-  Energy_model model;
-  model.cells = has_vertex_cells() ? m_energy_model.cells : Cell_scheme::spokes();
-  model.bending_length = m_energy_model.bending_length;
-  Deformation_core core(
-    {std::make_shared<Edge_weight_model_of<Safe_cotangent_weight>>(Safe_cotangent_weight()),
-     m_models.closest_rotations,
-     std::make_shared<Linear_solver_of<Multifrontal_cholesky_solver>>(
-       Multifrontal_cholesky_solver()),
-     m_models.is_parallel},
-    coarse.region(), std::move(model), m_order, options.threads);
+  if(space.number_of_nodes() > space.number_of_vertices() / 2)
+    return {};
+  Core_models models = m_models;
+  models.weight = // the user's may depend on the mesh
+    std::make_shared<Edge_weight_model_of<Safe_cotangent_weight>>(Safe_cotangent_weight());
+  Energy_model energy_model;
+  energy_model.cells = has_vertex_cells() ? m_energy_model.cells : Cell_scheme::spokes();
+  energy_model.bending_length = m_energy_model.bending_length;
+  constexpr unsigned int threads = 0; // those of the arena that this is in
+  Deformation_core core(models, coarse.release_region(), std::move(energy_model), m_order, threads);
   core.m_is_coarse = true;
   Constraints constraints;
   Array<Coordinates> positions;
@@ -337,37 +335,26 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   }
   Stages stages;
   if(core.diagnosis().status != Status::success ||
-     core.set_constraints(std::move(constraints), Unconstrained_components::fixed, options.threads,
+     core.set_constraints(std::move(constraints), Unconstrained_components::fixed, threads,
                           stages).status != Status::success)
     return {};
   Options coarse_options;
   coarse_options.initial_guess = Initial_guess::previous;
   coarse_options.minimizer = Minimizer::quasi_newton;
+  coarse_options.coarse_metric = options.coarse_metric;
   coarse_options.verify_minimum = false;
   coarse_options.iterations = 100;
-  coarse_options.tolerance = 3e-3;
-  coarse_options.threads = options.threads;
+  // it need not converge: the rest depends on the finer surface
+  coarse_options.tolerance = (std::max)(3e-3, options.tolerance);
   Targets targets;
   std::vector<Matrix_3x3> rotations;
   Report report;
-  core.run(coarse_options, [](unsigned int, double) { return Visitor_action::proceed; }, targets,
-           positions, rotations, report);
-
-  Array<Matrix_3x3> result(space.number_of_vertices(), identity_matrix());
-  for_each_block(result.size(), [&](std::size_t begin, std::size_t end) {
-    std::vector<Matrix_3x3> sums(end - begin, Matrix_3x3{});
-    for(std::size_t v = begin; v < end; ++v)
-    {
-      const int* const nodes = space.nodes(static_cast<int>(v));
-      const float* const weights = space.weights(static_cast<int>(v));
-      if(!space.has_nodes(static_cast<int>(v)))
-        sums[v - begin] = identity_matrix();
-      for(int k = 0; k < Coarse_space::most_nodes && weights[k] > 0; ++k)
-        add(sums[v - begin], weights[k], rotations[static_cast<std::size_t>(nodes[k])]);
-    }
-    m_models.closest_rotations(end - begin, sums.data(), result.data() + begin);
-  });
-  return result;
+  const Status status =
+    core.run(coarse_options, [](unsigned int, double) { return Visitor_action::proceed; }, targets,
+             positions, rotations, report).status;
+  if(status != Status::converged && status != Status::iteration_limit)
+    return {};
+  return blended_rotations(space, rotations, core.m_state->energy.fitted_cells());
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -437,7 +424,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return {Status::solver_failed};
   }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
-                            m_constraints, options, observe, targets, x, rotations,
+                            m_constraints, options, observe, m_region.rest, targets, x, rotations,
                             m_state->coarse_metric, report);
   if(!is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end())
   {
@@ -455,6 +442,16 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                    minimization.evaluate();
                                    return minimization.force();
                                  }));
+  using Start = Minimization::Start;
+  // starts with the rotations that rotation_of() makes of these, one for each vertex
+  const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {
+    return minimization.start_with([&](std::vector<Matrix_3x3>& to_set) {
+      m_state->energy.complete(to_set);
+      set_rotations_of_cells([&](std::size_t v) { return rotation_of(values[v]); }, to_set);
+      decltype(values)().swap(values); // memory is at its peak from now on
+    }, is_placed, only_if_lower);
+  };
+  Start start = Start::taken;
   if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
   {
     Array<Coordinates> vectors = [&] {
@@ -462,30 +459,24 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return Harmonic_rotations(m_region, m_constraints, neighborhood.is_near, targets,
                                 x)(m_state->energy, m_state->system);
     }();
-    const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
-      m_state->energy.complete(to_set);
-      set_rotations_of_cells([&](std::size_t v) { return rotation_of_vector(vectors[v]); },
-                             to_set);
-      Array<Coordinates>().swap(vectors); // memory is at its peak from now on
-    };
-    if(!vectors.empty() && !minimization.start_with(set_rotations, is_placed, is_tried))
-      return {Status::solver_failed};
+    if(!vectors.empty())
+      start = start_with(std::move(vectors), rotation_of_vector, is_tried);
   }
-  if((is_tried || m_is_coarse) && is_certain && is_quasi_newton && can_start_coarsely(options) &&
-     !are_all_placed())
+  // where the guess is rejected, as where the last run ended with a spike, there is no reason to
+  // begin again
+  if((is_tried || m_is_coarse) && start == Start::taken && is_certain && is_quasi_newton &&
+     can_have_coarse_start(options) && !are_all_placed())
   {
-    Array<Matrix_3x3> coarse = [&] {
+    Array<Matrix_3x3> rotations_of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
       return coarse_rotations(options, x);
     }();
-    const auto set_rotations = [&](std::vector<Matrix_3x3>& to_set) {
-      m_state->energy.complete(to_set);
-      set_rotations_of_cells([&](std::size_t v) { return coarse[v]; }, to_set);
-      Array<Matrix_3x3>().swap(coarse);
-    };
-    if(!coarse.empty() && !minimization.start_with(set_rotations, is_placed, true))
-      return {Status::solver_failed};
+    if(!rotations_of_vertices.empty())
+      start = start_with(std::move(rotations_of_vertices),
+                         [](const Matrix_3x3& rotation) { return rotation; }, true);
   }
+  if(start == Start::failed)
+    return {Status::solver_failed};
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
   return {is_quasi_newton ? minimize_quasi_newton(minimization)

@@ -57,13 +57,14 @@ public:
 
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
-               const Observer& observe, Targets& targets, Array<Coordinates>& x_,
+               const Observer& observe, const Array<Coordinates>& rest, Targets& targets,
+               Array<Coordinates>& x_,
                std::vector<Matrix_3x3>& rotations, std::unique_ptr<Coarse_metric>& coarse_metric,
                Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
       m_constraints(constraints), m_rows(constraints.rows), m_inertia(constraints.inertia),
-      m_observe(observe), m_targets(targets), m_rotations(rotations),
+      m_observe(observe), m_rest(rest), m_targets(targets), m_rotations(rotations),
       m_coarse_metric(coarse_metric)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
@@ -95,11 +96,12 @@ public:
     return complete(m_energy.evaluate(x, m_rotations, m_force));
   }
 
+  enum class Start { taken, rejected, failed }; // where the solver fails
+
   // Replaces x by the solution of the global step with the rotations that a function sets, but for
-  // vertices that are placed; if `is_tried` only where that lowers the energy. False if the solver
-  // fails.
+  // vertices that are placed; if `is_tried` only where that lowers the energy.
   template <typename Function>
-  bool start_with(const Function& set_rotations, const std::vector<char>& is_placed, bool is_tried)
+  Start start_with(const Function& set_rotations, const std::vector<char>& is_placed, bool is_tried)
   {
     Array<Coordinates> step;
     const double energy = is_tried ? evaluate() : 0;
@@ -110,7 +112,7 @@ public:
     {
       Scoped_seconds seconds(report.seconds.initial_guess);
       if(!solve(step))
-        return false;
+        return Start::failed;
     }
     Array<Coordinates>& before = step;
     for(std::size_t v = 0; v < number_of_vertices; ++v)
@@ -125,8 +127,9 @@ public:
     {
       std::copy(before.begin(), before.end(), x.begin());
       m_last_rotations = last_rotations;
+      return Start::rejected;
     }
-    return true;
+    return Start::taken;
   }
 
   // Replaces x by other positions, with rotations that are fitted to these alone, if that lowers
@@ -210,7 +213,7 @@ public:
       return nullptr;
     const Sparse_matrix& laplacian = m_system.laplacian().matrix;
     if(!m_coarse_metric)
-      m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian);
+      m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian, m_rest);
     const bool has_rows = m_rows.size() > 0;
     const Sparse_matrix own = has_rows ? m_system.with_rows(m_rows) : Sparse_matrix();
     return m_coarse_metric->build(m_energy, has_rows ? own : laplacian, m_constraints.is_fixed, x,
@@ -390,6 +393,7 @@ private:
   const double m_inertia;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
+  const Array<Coordinates>& m_rest;
   Targets& m_targets;
   std::vector<Matrix_3x3>& m_rotations;
   std::unique_ptr<Coarse_metric>& m_coarse_metric;

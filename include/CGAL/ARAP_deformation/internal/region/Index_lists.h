@@ -52,7 +52,7 @@ inline Index_lists lists_by_first(std::vector<std::pair<int, int>> pairs)
   return result;
 }
 
-// For each first number of the pairs, which are below n, the list of their second numbers, in the
+// For each number below n the list of the second numbers of the pairs that have it first, in the
 // order in which for_each_pair(f) calls f(first, second). It is called twice.
 template <typename For_each_pair>
 Index_lists lists_of_pairs(int n, const For_each_pair& for_each_pair)
