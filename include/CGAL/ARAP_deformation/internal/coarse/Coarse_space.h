@@ -42,7 +42,7 @@ public:
     const Index_lists graph = graph_of(matrix);
     // balls overlap: about a hundred vertices for each node
     choose_nodes(graph, vertices_along_an_axis(graph, points), 300);
-    weigh_nodes(graph);
+    weigh(nearest_nodes(graph));
   }
 
   // From the neighbours of each vertex, with balls of so many vertices; first from some vertices,
@@ -55,7 +55,7 @@ public:
                                                     [&](int v) { return comes_first[v] != 0; });
     choose_nodes(graph, Array<int>(vertices.begin(), end_of_first), vertices_of_a_ball / 2);
     choose_nodes(graph, Array<int>(end_of_first, vertices.end()), vertices_of_a_ball);
-    weigh_nodes(graph);
+    weigh(nearest_nodes(graph));
   }
 
   int number_of_nodes() const { return static_cast<int>(m_vertices.size()); }
@@ -68,6 +68,9 @@ public:
   bool has_nodes(int v) const { return weights(v)[0] > 0; }
 
 private:
+  struct Label { int node = -1, distance = 0; };
+  static constexpr int most_labels = most_nodes + 1;
+
   static Index_lists graph_of(const Sparse_matrix& matrix)
   {
     const int n = static_cast<int>(matrix.cols());
@@ -139,29 +142,21 @@ private:
       }
   }
 
-  // The weights are (1 - d / D)^2, D a little more than the distance of one node more. Of nodes at
-  // the same distance the first ones count.
-  void weigh_nodes(const Index_lists& graph)
+  // For each vertex the nearest nodes, in ascending order of distances; of nodes at the same
+  // distance the first ones.
+  Array<Label> nearest_nodes(const Index_lists& graph) const
   {
-    struct Label { int node = -1, distance = 0; };
-    constexpr int most_labels = most_nodes + 1;
-    const int n = graph.size();
-    Array<Label> labels(n * most_labels);
+    Array<Label> labels(graph.size() * most_labels);
     const auto labels_of = [&](int v) { return labels.data() + most_labels * std::ptrdiff_t(v); };
-    const auto has_label = [&](int v, int node) {
-      return std::any_of(labels_of(v), labels_of(v) + most_labels,
-                         [&](const Label& label) { return label.node == node; });
-    };
-    // Labels are in ascending order; a later node at the same distance may lose its place.
+    // Unless it has it or nearer ones; a later node at the same distance may lose its place.
     const auto add_label = [&](int v, const Label& added) {
-      Label* const begin = labels_of(v);
-      Label* const end = begin + most_labels;
-      Label* place = begin;
+      Label* place = labels_of(v);
+      Label* const end = place + most_labels;
       for(; place != end && place->node >= 0 &&
             (place->distance < added.distance || place->node <= added.node); ++place)
         if(place->node == added.node)
           return false;
-      if(place == end || (place->node >= 0 && has_label(v, added.node)))
+      if(place == end)
         return false;
       std::move_backward(place, end - 1, end);
       *place = added;
@@ -177,13 +172,21 @@ private:
     {
       next.clear();
       for(const auto& [v, node] : front)
-        if(has_label(v, node))
+        if(const Label* const begin = labels_of(v);
+           std::any_of(begin, begin + most_labels,
+                       [node = node](const Label& label) { return label.node == node; }))
           for(int e = graph.begin[v]; e < graph.begin[v + 1]; ++e)
             if(add_label(graph.items[e], {node, distance}))
               next.emplace_back(graph.items[e], node);
       front.swap(next);
     }
+    return labels;
+  }
 
+  // The weights are (1 - d / D)^2, D a little more than the distance of one node more.
+  void weigh(const Array<Label>& labels)
+  {
+    const int n = static_cast<int>(labels.size()) / most_labels;
     m_nodes = Array<int>(n * most_nodes);
     m_weights = Array<float>(n * most_nodes, 0);
     for(int v = 0; v < n; ++v)
