@@ -121,7 +121,8 @@ void measure(const Shape<N>& shape, const Kind& kind, Json& section, double cgal
   };
   std::vector<Start> starts = {{"default", ARAP::Initial_guess::automatic, true},
                                {"rest shape", ARAP::Initial_guess::previous, true}};
-  if(N == 3 && !kind.is_soft && shape.points.size() > 20000) // where it would have one
+  if(N == 3 && !kind.is_soft && kind.cells.has_vertex_cells() &&
+     shape.points.size() > 20000) // where it would have one
     starts.push_back({"default, no coarse start", ARAP::Initial_guess::rotations, true});
   // the same; the largest takes too long without
   if(shape.points.size() > 30000 && shape.points.size() < 500000)

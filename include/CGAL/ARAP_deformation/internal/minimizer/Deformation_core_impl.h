@@ -294,14 +294,14 @@ void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
 }
 
 // Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
-// need few iterations, nor for a preview or a frame; and that surface has no rows, no stiffness and
-// no order of fits.
+// need few iterations, nor for elements, which hardly resist bending, nor for a preview or a frame;
+// and that surface has no rows, no stiffness and no order of fits.
 CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::can_have_coarse_start(const Options& options) const
 {
   constexpr std::size_t least_vertices = 20000; // with fewer it takes longer than it saves
   constexpr unsigned int least_iterations = 20;
-  return m_region.dimension == 2 && options.iterations >= least_iterations &&
+  return m_region.dimension == 2 && has_vertex_cells() && options.iterations >= least_iterations &&
          m_constraints.number_of_free_vertices() >= least_vertices &&
          m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
          m_energy_model.stiffness.empty() && m_energy_model.fit_order.empty();
@@ -321,7 +321,7 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   models.weight = // the user's may depend on the mesh
     std::make_shared<Edge_weight_model_of<Safe_cotangent_weight>>(Safe_cotangent_weight());
   Energy_model energy_model;
-  energy_model.cells = has_vertex_cells() ? m_energy_model.cells : Cell_scheme::spokes();
+  energy_model.cells = m_energy_model.cells;
   energy_model.bending_length = m_energy_model.bending_length;
   constexpr unsigned int threads = 0; // those of the arena that this is in
   Deformation_core core(models, coarse.release_region(), std::move(energy_model), m_order, threads);
