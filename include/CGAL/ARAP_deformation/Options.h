@@ -103,7 +103,7 @@ struct Options
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of
   /// the Laplacian, after its first five iterations and where it looks at the second derivative:
-  /// see \ref ARAPDeformation_CoarseMetric. It then takes between two thirds and a sixth of the
+  /// see \ref ARAPDeformation_CoarseMetric. It then takes between a third and two thirds of the
   /// iterations, and about 160 bytes more for each vertex of the region. To prepare it takes as
   /// long as some ten iterations; this is done when it is first needed, and kept until the weights
   /// change. Local/global runs, time steps, runs with `smoothing_length` or with control points
