@@ -33,8 +33,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -322,13 +320,8 @@ Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
 {
   std::vector<std::size_t> place;
   Mesh mesh = make_mesh<Mesh>(shuffled(shape, place));
-  Scenario moved = s;
-  for(std::size_t v = 0; v < place.size(); ++v)
-  {
-    moved.selection[place[v]] = s.selection[v];
-    moved.targets[place[v]] = s.targets[v];
-  }
-  const Result result = deform(Face_graph_domain<Mesh>(mesh), all_vertices(mesh), moved, cells);
+  const Result result =
+    deform(Face_graph_domain<Mesh>(mesh), all_vertices(mesh), shuffled(s, place), cells);
   Result restored = result;
   for(std::size_t v = 0; v < place.size(); ++v)
     restored.points[v] = result.points[place[v]];

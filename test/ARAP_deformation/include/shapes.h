@@ -239,6 +239,18 @@ struct Scenario
   std::vector<Eigen::Vector3d> targets; // of all vertices: the free ones' are their places
 };
 
+// for the shape in another order, whose vertex v is at place[v]
+inline Scenario shuffled(const Scenario& s, const std::vector<std::size_t>& place)
+{
+  Scenario result = s;
+  for(std::size_t v = 0; v < place.size(); ++v)
+  {
+    result.selection[place[v]] = s.selection[v];
+    result.targets[place[v]] = s.targets[v];
+  }
+  return result;
+}
+
 inline Eigen::Isometry3d rigid_motion(double angle, const Eigen::Vector3d& axis,
                                       const Eigen::Vector3d& translation)
 {

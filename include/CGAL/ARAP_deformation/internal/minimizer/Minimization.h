@@ -58,9 +58,8 @@ public:
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
                const Observer& observe, const Array<Coordinates>& rest, Targets& targets,
-               Array<Coordinates>& x_,
-               std::vector<Matrix_3x3>& rotations, std::unique_ptr<Coarse_metric>& coarse_metric,
-               Report& report_)
+               Array<Coordinates>& x_, std::vector<Matrix_3x3>& rotations,
+               std::unique_ptr<Coarse_metric>& coarse_metric, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
       m_constraints(constraints), m_rows(constraints.rows), m_inertia(constraints.inertia),

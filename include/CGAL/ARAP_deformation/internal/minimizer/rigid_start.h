@@ -193,15 +193,10 @@ private:
     if(!std::is_sorted(pairs.begin(), pairs.end()))
       std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    Index_lists result;
-    result.begin = Array<int>(count + 1, 0);
-    for(const auto& pair : pairs)
-    {
-      ++result.begin[pair.first + 1];
-      result.items.push_back(pair.second);
-    }
-    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-    return result;
+    return lists_of_pairs(count, [&](const auto& f) {
+      for(const auto& pair : pairs)
+        f(pair.first, pair.second);
+    });
   }
 
   // Adds the motion of a part if its constraints are those of a rigid copy.
