@@ -11,7 +11,8 @@
 
 #include "include/dense_reference.h"
 
-#include <Eigen/Dense>
+#include "include/dense_algebra.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -141,7 +142,7 @@ void Dense_reference::solve(std::vector<Eigen::Vector3d>& x, const Expected& exp
         right.row(n + r) -= c * x[v].transpose();
     }
   }
-  const Eigen::MatrixXd solution = whole.fullPivLu().solve(right);
+  const Eigen::MatrixXd solution = dense_solution(whole, right);
   for(Eigen::Index k = 0; k < n; ++k)
     x[m_free[k]] = (is_start ? x[m_free[k]] : Eigen::Vector3d(0, 0, 0)) +
                    solution.row(k).transpose();
@@ -166,9 +167,10 @@ void Dense_reference::laplacian_guess(std::vector<Eigen::Vector3d>& x) const
     else
       columns.col(m_row[v]) = l.col(v);
   }
-  const Eigen::MatrixXd solution = columns.colPivHouseholderQr().solve(l * (p - fixed));
+  const Matrix_of_long_doubles solution =
+    least_squares(columns.cast<long double>(), (l * (p - fixed)).cast<long double>());
   for(Eigen::Index k = 0; k < n; ++k)
-    x[m_free[k]] = solution.row(k).transpose();
+    x[m_free[k]] = solution.row(k).transpose().cast<double>();
 }
 
 double Dense_reference::cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& p,

@@ -68,6 +68,14 @@ std::string scene(const std::string& arguments)
 }
 #endif
 
+std::string text_of(const Eigen::Matrix4d& map)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << map << '\n';
+  return out.str();
+}
+
 // The command arap_deform on surfaces, run as a user runs it: results, report, formats, and what it
 // says and leaves behind when it is given nonsense.
 namespace surfaces {
@@ -473,14 +481,6 @@ std::vector<Eigen::Vector3d> read_points(const std::string& file)
   return points;
 }
 
-std::string text(const Eigen::Affine3d& map)
-{
-  std::ostringstream out;
-  out.precision(17);
-  out << map.matrix() << '\n';
-  return out.str();
-}
-
 // Several handles, each with its own matrix; hard and soft; against the library.
 void test_handles()
 {
@@ -492,10 +492,10 @@ void test_handles()
   for(const auto& p : shape.points)
     statuses += std::to_string(handle(p)) + '\n';
   write("two.sel", statuses);
-  const Eigen::Affine3d maps[2] = {
-    Eigen::Affine3d(rigid_motion(0.4, {1, 2, 3}, {0.2, 0, 0.1})),
-    Eigen::Affine3d(rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0}))};
-  write("two.def", text(maps[0]) + "# the other\n" + text(maps[1]));
+  const Affine_map maps[2] = {rigid_motion(0.4, {1, 2, 3}, {0.2, 0, 0.1}),
+                          rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0})};
+  const std::string first = text_of(maps[0].matrix()), second = text_of(maps[1].matrix());
+  write("two.def", first + "# the other\n" + second);
   for(const std::string soft : {"", " --soft 2.5"})
   {
     Mesh mesh = make_mesh<Mesh>(shape);
@@ -541,10 +541,10 @@ void test_handles()
   check_refused(onto + "plane:0,0,6,0,0,0 --soft 1", 2, "the normal 0,0,0 has no direction");
   check_refused(onto + "z:4.. --soft 1", 2, "expected plane:X,Y,Z,NX,NY,NZ");
 
-  write("three.def", text(maps[0]) + text(maps[0]) + text(maps[1]));
+  write("three.def", first + first + second);
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def: has 3 matrices, but there are 2 handles");
-  write("three.def", text(maps[0]) + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
+  write("three.def", first + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def, matrix 2: the transform is singular");
 }
@@ -559,10 +559,11 @@ void test_frames()
   CHECK(content(folder / "one-0001.off") == content(folder / "plain.off"));
 
   // two key frames, the second a stretch, in six frames
-  const Eigen::Affine3d first(rigid_motion(2, {1, 0.5, 0.3}, {3, 0, 1}));
-  const Eigen::Affine3d second = first * Eigen::Scaling(1., 1., 1.5);
-  write("first.def", text(first));
-  write("second.def", text(second));
+  const Affine_map first = rigid_motion(2, {1, 0.5, 0.3}, {3, 0, 1});
+  Affine_map second = first; // is no rigid one
+  second.linear.col(2) *= 1.5;
+  write("first.def", text_of(first.matrix()));
+  write("second.def", text_of(second.matrix()));
   CHECK(run("in.off --selection in.sel --transform first.def --transform second.def --frames 6 "
             "-o six.off --report r.json").exit_code == 0);
   CHECK(!fs::exists(folder / "six.off") && !fs::exists(folder / "six-0007.off"));
@@ -578,23 +579,23 @@ void test_frames()
   for(int frame = 1; frame <= 6; ++frame)
   {
     const auto points = read_points("six-000" + std::to_string(frame) + ".off");
-    Eigen::Affine3d map = first;
+    Affine_map map = first;
     if(frame <= 3) // turns at constant speed, and the centre moves along a straight line
     {
       const double share = frame / 3.;
-      const Eigen::AngleAxisd turn(Eigen::Matrix3d(first.linear()));
-      map.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
-      map.translation() = (1 - share) * centre + share * (first * centre) - map.linear() * centre;
+      const Eigen::AngleAxisd turn(first.linear);
+      map = rigid_motion(share * turn.angle(), turn.axis(), {0, 0, 0});
+      map.translation = (1 - share) * centre + share * (first * centre) - map * centre;
     }
     else // only the stretch changes
     {
       const double share = (frame - 3) / 3.;
-      map = first * Eigen::Scaling(1., 1., 1 + 0.5 * share);
+      map.linear.col(2) *= 1 + 0.5 * share;
     }
     for(std::size_t v : handle)
       if(frame % 3 == 0) // exactly
       {
-        const auto& m = frame == 3 ? first : second;
+        const Eigen::Matrix4d m = (frame == 3 ? first : second).matrix();
         const auto& p = shape.points[v];
         for(int k = 0; k < 3; ++k)
           CHECK(points[v][k] == m(k, 0) * p.x() + m(k, 1) * p.y() + m(k, 2) * p.z() + m(k, 3));
@@ -894,18 +895,16 @@ void test_gltf()
   write("in.gltf", json.dump());
   CHECK(run("in.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o out.glb --quiet").exit_code == 0);
   const Glb glb = read_glb("out.glb");
-  const Eigen::Affine3d to_scene = Eigen::Translation3d(1, 2, 3) *
-                                   Eigen::Quaterniond(0.8, 0.6, 0, 0) * Eigen::Scaling(2.);
-  const Eigen::Affine3d turn =
-    Eigen::Translation3d(0, 1, 0) *
-    Eigen::AngleAxisd(50 * std::acos(-1.0) / 180, P(1, 2, 3).normalized()) *
-    Eigen::Translation3d(0, -1, 0);
-  const Eigen::Affine3d expected = to_scene.inverse() * turn * to_scene;
+  const Affine_map to_scene = {2 * Eigen::Quaterniond(0.8, 0.6, 0, 0).toRotationMatrix(),
+                               P(1, 2, 3)};
+  const Affine_map turn =
+    motion_about(P(0, 1, 0), rigid_motion(50 * std::acos(-1.0) / 180, P(1, 2, 3), P(0, 0, 0)));
+  const Affine_map expected = to_scene.inverse() * turn * to_scene;
   for(std::size_t i = 0; i < 6; ++i)
     for(int k = 0; k < 3; ++k)
     {
       CHECK_AT_MOST(std::abs(glb.numbers[3 * i + k] - (expected * local[i])[k]), 1e-6);
-      CHECK_AT_MOST(std::abs(glb.numbers[18 + 3 * i + k] - (expected.linear() * normal)[k]), 1e-6);
+      CHECK_AT_MOST(std::abs(glb.numbers[18 + 3 * i + k] - (expected.linear * normal)[k]), 1e-6);
     }
   for(std::size_t i = 36; i < numbers.size(); ++i)
     CHECK(glb.numbers[i] == numbers[i]);
@@ -1155,8 +1154,8 @@ void test_cell_values()
                : z(corner(f, false)) > 2.1 && z(corner(f, true)) < 3.1 ? 0 : -1;
       });
     }
-    const Eigen::Affine3d map(rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0}));
-    write("bend.def", text(map));
+    const Affine_map map = rigid_motion(1.1, {1, 0, 0.3}, {0.5, 0.5, 0});
+    write("bend.def", text_of(map.matrix()));
     for(auto v : mesh.vertices())
     {
       if(status(shape.points[v]) != 0)
@@ -1363,14 +1362,6 @@ std::string selection(const std::vector<int>& statuses)
   return text;
 }
 
-std::string matrix(const Eigen::Isometry3d& motion)
-{
-  std::ostringstream out;
-  out.precision(17);
-  out << motion.matrix() << '\n';
-  return out.str();
-}
-
 // what is in the Vertices of a .mesh file of this test
 std::vector<Eigen::Vector3d> read_points(const std::string& file)
 {
@@ -1396,7 +1387,7 @@ nlohmann::json report() { return nlohmann::json::parse(content(folder / "r.json"
 struct Task
 {
   std::vector<int> statuses;
-  Eigen::Isometry3d motion;
+  Affine_map motion;
 };
 
 Task make_task()
@@ -1410,7 +1401,7 @@ Task make_task()
 void write_task(const Task& task)
 {
   write("in.sel", selection(task.statuses));
-  write("in.def", matrix(task.motion));
+  write("in.def", text_of(task.motion.matrix()));
 }
 
 const std::string call = "in.mesh --selection in.sel --transform in.def -o out.mesh "
@@ -1558,7 +1549,7 @@ void test_terms()
     {"--turn",
      [&](auto& d) {
        for(std::size_t v : d.control_vertices())
-         CHECK(d.set_target_rotation(v, task.motion.rotation()));
+         CHECK(d.set_target_rotation(v, task.motion.linear));
      }},
     {"--soft 0.1", [&](auto& d) { CHECK(d.set_target_weight(d.control_vertices(), 0.1)); }},
     {"--solver eigen", {}}, {"--rotation svd", {}}, {"--solver single_precision", {}},

@@ -36,6 +36,8 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -376,7 +378,7 @@ void test_weights(const Held_shape<Dimension>& shape)
 template <int Dimension>
 void test_rigid(const Held_shape<Dimension>& shape)
 {
-  const Eigen::Isometry3d motion = rigid_motion(1.2, {1, 2, 3}, {0.4, 0.5, -0.2});
+  const Affine_map motion = rigid_motion(1.2, {1, 2, 3}, {0.4, 0.5, -0.2});
   std::vector<Eigen::Vector3d> moved;
   for(const auto& p : shape.points)
     moved.push_back(motion * p);

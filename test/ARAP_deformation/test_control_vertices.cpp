@@ -14,6 +14,7 @@
 
 #include "include/check.h"
 #include "include/compiled_solvers.h"
+#include "include/dense_algebra.h"
 #include "include/domains.h"
 #include "include/length.h"
 #include "include/shapes.h"
@@ -26,7 +27,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
@@ -221,7 +221,7 @@ void test_rigid_motion()
       if(!is_run())
         continue;
       test_case() = "rigid motion, " + name + ", by " + std::to_string(distance);
-      const Eigen::Isometry3d motion = rigid_motion(
+      const Affine_map motion = rigid_motion(
         0.8, Eigen::Vector3d(1, 3, 2), Eigen::Vector3d(0.5, 0.1, 0.7) * (distance * diameter));
       const double rounding = distance * distance * 1e-20; // of the energy
       Soup_of<std::decay_t<decltype(simplices)>> soup(
@@ -1085,7 +1085,9 @@ using CGAL::ARAP::Coordinates;
 Eigen::MatrixXd dense_matrix(const Eigen::MatrixXd& laplacian, const Eigen::MatrixXd& rows,
                              const Eigen::VectorXd& weights, const std::vector<char>& is_fixed)
 {
-  Eigen::MatrixXd a = laplacian + rows.transpose() * weights.asDiagonal() * rows;
+  Eigen::MatrixXd a = laplacian;
+  for(Eigen::Index k = 0; k < rows.rows(); ++k)
+    a += weights[k] * rows.row(k).transpose() * rows.row(k);
   for(Eigen::Index v = 0; v < a.rows(); ++v)
     if(is_fixed[static_cast<std::size_t>(v)])
     {
@@ -1162,7 +1164,7 @@ void test_all()
         right(v, c) = x[v][c] = entry(generator);
     CHECK(system.solve(x));
     const Eigen::MatrixXd solution =
-      dense_matrix(dense, rows, weights, constraints.is_fixed).llt().solve(right);
+      dense_solution(dense_matrix(dense, rows, weights, constraints.is_fixed), right);
     double error = 0;
     for(int v = 0; v < n; ++v)
       for(int c = 0; c < 3; ++c)

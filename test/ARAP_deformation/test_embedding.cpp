@@ -23,6 +23,10 @@
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedron_3.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 

@@ -1179,8 +1179,7 @@ void test_two_handles(const Model& model)
   Scenario s = scenario(Shape{"", model.points, {}}, 1.2);
   const std::vector<int> handles = s.selection; // 0 and 2
   const auto moved = [&](int handle, double angle) {
-    const auto motion = Eigen::Translation3d(0.3, 0, 0.1) *
-                        Eigen::AngleAxisd(angle, Eigen::Vector3d(1, handle, -1).normalized());
+    const Affine_map motion = rigid_motion(angle, {1, double(handle), -1}, {0.3, 0, 0.1});
     for(std::size_t v = 0; v < s.targets.size(); ++v)
       if(handles[v] == handle)
         s.targets[v] = motion * model.points[v];
@@ -1319,14 +1318,10 @@ void test_all()
           handle.push_back(shape.points[v]);
           place.push_back(x[v]);
         }
-      Eigen::Matrix3Xd from(3, handle.size()), to(3, handle.size());
-      for(std::size_t k = 0; k < handle.size(); ++k)
-      {
-        from.col(Eigen::Index(k)) = handle[k];
-        to.col(Eigen::Index(k)) = place[k];
-      }
-      const Eigen::AngleAxisd motion(
-        Eigen::Matrix3d(Eigen::umeyama(from, to, false).topLeftCorner<3, 3>()));
+      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+      for(std::size_t k = 1; k < handle.size(); ++k)
+        covariance += (handle[k] - handle[0]) * (place[k] - place[0]).transpose();
+      const Eigen::AngleAxisd motion(Dense_reference::closest_rotation(covariance));
       for(std::size_t v = 0; v < x.size(); ++v)
         if(s.selection[v] == 2)
           vectors[v] = motion.angle() * motion.axis();

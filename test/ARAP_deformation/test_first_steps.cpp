@@ -13,6 +13,7 @@
 // points that others move, weights that change, and messages on what did not move.
 
 #include "include/check.h"
+#include "include/dense_algebra.h"
 #include "include/domains.h"
 #include "include/length.h"
 #include "include/shapes.h"
@@ -68,6 +69,8 @@ bool says(const CGAL::ARAP::Outcome& outcome, const std::string& part)
 // Runs whose minimum is zero.
 namespace rigid {
 
+const Affine_map identity{};
+
 // Moves handles rigidly, one motion after the other, and nothing else is fixed.
 template <typename Domain>
 void test_shape(const std::string& name, const Domain& domain, std::vector<Point>& points,
@@ -84,7 +87,7 @@ void test_shape(const std::string& name, const Domain& domain, std::vector<Point
     d.insert_control_vertex(v);
     CHECK(d.set_target_weight(v, weight));
   }
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  Affine_map motion = identity;
   for(const auto& step : {rigid_motion(0, Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -2, 5)),
                           rigid_motion(1.1, Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(0, 0.1, 0)),
                           rigid_motion(3.1, Eigen::Vector3d(1, 0, 3), Eigen::Vector3d(40, 0, 0))})
@@ -199,8 +202,8 @@ struct Soup_session
   }
 
   // motion(v) is that of the handle v
-  template <typename Motion>
-  Report run(const Motion& motion, unsigned int iterations = 1000)
+  template <typename Affine_map>
+  Report run(const Affine_map& motion, unsigned int iterations = 1000)
   {
     for(std::size_t v : handles)
       CHECK(deformation.set_target_position(v, point(motion(v) * rest[v])));
@@ -210,8 +213,8 @@ struct Soup_session
   }
 
   // a run whose minimum is zero, after which all points are those of motion(v)
-  template <typename Motion>
-  void check_run_to_rest(const Motion& motion)
+  template <typename Affine_map>
+  void check_run_to_rest(const Affine_map& motion)
   {
     const Report report = run(motion);
     CHECK(report.status == Status::converged);
@@ -231,7 +234,6 @@ using Surface =
 using Volume =
   Soup_session<CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>, Tetrahedra>;
 
-const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
 
 // calls f(weight, minimizer) for hard and soft targets and both minimizers
 template <typename Function>
@@ -252,8 +254,8 @@ void test_parts()
     const std::size_t n = both.points.size() / 2;
     Surface s(both.points, both.triangles, {0, 20, 70, n - 1, n, n + 20, n + 70, 2 * n - 1}, weight,
               minimizer);
-    const Eigen::Isometry3d left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
-    const Eigen::Isometry3d right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
+    const Affine_map left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
+    const Affine_map right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
     s.check_run_to_rest([&](std::size_t v) { return v < n ? left : right; });
     s.check_run_to_rest([&](std::size_t v) { return v < n ? right : left; });
     s.run([&](std::size_t v) {
@@ -279,7 +281,7 @@ void test_deformed()
       }, 60);
       CHECK(report.final_energy() > 1e-6 * report.energy_scale);
     };
-    for(const Eigen::Isometry3d& motion :
+    for(const Affine_map& motion :
         {identity, rigid_motion(3, {1, 2, 0}, {5, 0, -1}), rigid_motion(0, {1, 0, 0}, {0, 0, 1})})
     {
       deform();
@@ -319,9 +321,7 @@ void test_twist()
     test_case() = "twist, weight " + std::to_string(weight);
     Volume s(shape.points, shape.tetrahedra, ends, weight, minimizer);
     const auto turned_by = [&](double angle) {
-      const Eigen::Isometry3d turn =
-        Eigen::Translation3d(box.center()) * rigid_motion(angle, {1, 0, 0}, {0, 0, 0}) *
-        Eigen::Translation3d(-box.center());
+      const Affine_map turn = motion_about(box.center(), rigid_motion(angle, {1, 0, 0}, {0, 0, 0}));
       return [&, turn](std::size_t v) {
         return s.rest[v].x() == box.min().x() ? identity : turn;
       };
@@ -355,8 +355,8 @@ void test_laplacian()
     const std::size_t n = both.points.size() / 2;
     Surface s(both.points, both.triangles, {0, 20, 70, n - 1, n, n + 20, n + 70, 2 * n - 1}, weight,
               minimizer, Initial_guess::laplacian);
-    const Eigen::Isometry3d left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
-    const Eigen::Isometry3d right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
+    const Affine_map left = rigid_motion(2, {1, 0.3, 0}, {0.2, 0, 1});
+    const Affine_map right = rigid_motion(-1.3, {0, 1, 2}, {0, -3, 0});
     s.check_run_to_rest([&](std::size_t v) { return v < n ? left : right; });
     s.run([&](std::size_t v) {
       return v < n ? left : rigid_motion(double(v), {0, 1, 2}, {0, 0, 0});
@@ -396,7 +396,7 @@ void test_rows()
   region.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}};
   region.first_corner = {0, 3, 6};
   region.corners = {0, 1, 2, 1, 3, 2};
-  const Eigen::Isometry3d motion = rigid_motion(1.2, {1, 2, 3}, {0, 4, 0});
+  const Affine_map motion = rigid_motion(1.2, {1, 2, 3}, {0, 4, 0});
   for(double sum : {1.0, 0.0, 2.0})
   {
     Constraints constraints;
@@ -1040,7 +1040,7 @@ void test_guess()
 // dense solution, in numbers with more digits.
 void test_weights()
 {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix = Matrix_of_long_doubles;
   const Shape shape = sheet(10);
   Scenario s = scenario(shape);
   for(std::size_t v = 0; v < s.targets.size(); ++v)
@@ -1079,7 +1079,7 @@ void test_weights()
         fixed.row(Eigen::Index(v)) = s.targets[v].transpose().cast<long double>();
     }
     columns.conservativeResize(n, Eigen::Index(free.size()));
-    const Matrix solution = columns.householderQr().solve(l * (rest - fixed));
+    const Matrix solution = least_squares(columns, l * (rest - fixed));
     for(std::size_t v = 0; v < free.size(); ++v)
       expected[free[v]] = solution.row(Eigen::Index(v)).transpose().cast<double>();
 

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SparseCore>
 
 #include <cmath>
 #include <cstddef>

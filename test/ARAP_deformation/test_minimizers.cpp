@@ -163,8 +163,9 @@ void test_minimum()
     const Scenario s = scenario(shape);
     const Report slow = run(shape, s, options_for(Minimizer::local_global), 2000, 0);
     const Report fast = run(shape, s, options_for(Minimizer::quasi_newton), 300, 0);
-    CHECK_AT_MOST(fast.energy.back(), slow.energy.back() * (1 + 1e-5));
-    const double close = slow.energy.back() * (1 + 1e-4);
+    const double zero = 1e-15 * slow.energy_scale; // of components that move rigidly
+    CHECK_AT_MOST(fast.energy.back(), slow.energy.back() * (1 + 1e-5) + zero);
+    const double close = slow.energy.back() * (1 + 1e-4) + zero;
     const unsigned int n = iterations_to(close, fast), m = iterations_to(close, slow);
     CHECK_AT_MOST(n, m + 10);
     sum += n;
@@ -480,9 +481,9 @@ namespace invariants {
 using Deformation = CGAL::ARAP_deformation<Mesh>;
 using CGAL::ARAP::Minimizer;
 
-const Eigen::Isometry3d motion = rigid_motion(1.1, {-1, 0.4, 2}, {3, -1, 0.5});
+const Affine_map motion = rigid_motion(1.1, {-1, 0.4, 2}, {3, -1, 0.5});
 
-double largest_distance(const Mesh& a, const Mesh& b, const Eigen::Isometry3d& m)
+double largest_distance(const Mesh& a, const Mesh& b, const Affine_map& m)
 {
   double distance = 0;
   for(auto v : a.vertices())
@@ -576,7 +577,7 @@ void check_rigid_guess(const Shape& shape, Cell_scheme cells, Minimizer minimize
     double distance = 0;
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j < 3; ++j)
-        distance = larger(distance, std::abs(r[3 * i + j] - motion.linear()(i, j)));
+        distance = larger(distance, std::abs(r[3 * i + j] - motion.linear(i, j)));
     number_of_turned_cells += distance < 1e-7;
   };
   if(cells.has_vertex_cells())

@@ -336,7 +336,7 @@ void test_linear_maps()
   for(int k = 0; k < 10; ++k)
   {
     const Eigen::Matrix3d map =
-      rigid_motion(3 * entry(random), {1, entry(random), entry(random)}, {0, 0, 0}).linear() *
+      rigid_motion(3 * entry(random), {1, entry(random), entry(random)}, {0, 0, 0}).linear *
       (Eigen::Matrix3d::Identity() +
        0.3 * Eigen::Matrix3d::NullaryExpr([&] { return entry(random); }));
     const Eigen::Matrix3d rotation = Dense_reference::closest_rotation(map.transpose());

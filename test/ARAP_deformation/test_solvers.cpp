@@ -12,6 +12,7 @@
 // The solvers: conformance, and one deformation with each of them and with each rotation fitting.
 
 #include "include/compiled_solvers.h"
+#include "include/dense_algebra.h"
 #include "include/domains.h"
 #include "include/Single_precision_solver.h"
 #include "include/term_runs.h"
@@ -91,7 +92,7 @@ void check_solution(CGAL::ARAP::Multifrontal_cholesky_solver& solver, const Spar
     x[k] = {b(k, 0), b(k, 1), b(k, 2)};
   CHECK(solver.solve(n, x.data()));
   const Eigen::MatrixXd expected =
-    Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>().ldlt().solve(b);
+    dense_solution(Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>(), b);
   double error = 0;
   for(std::size_t k = 0; k < n; ++k)
     for(int c = 0; c < 3; ++c)
@@ -172,7 +173,7 @@ public:
   {
     m_matrix = &a;
     d = 2;
-    return Eigen::FullPivLU<Eigen::MatrixXd>(a.dense).isInvertible();
+    return is_invertible(a.dense);
   }
 
   bool linear_solver(const Vector& b, Vector& x)
@@ -180,7 +181,7 @@ public:
     Eigen::VectorXd column(b.dimension());
     for(int k = 0; k < b.dimension(); ++k)
       column[k] = 2 * b[k];
-    column = m_matrix->dense.fullPivLu().solve(column).eval();
+    column = dense_solution(m_matrix->dense, column);
     for(int k = 0; k < b.dimension(); ++k)
       x[k] = column[k];
     return true;

@@ -104,7 +104,7 @@ void test_non_manifold()
       triangles.push_back({4 * k + 4, 4 * k + sheet, 4 * k + 4 + sheet});
     }
   Scenario s{std::vector<int>(points.size(), 1), points};
-  const Eigen::Isometry3d turn = rigid_motion(1.5, {0, 0, 1}, {0.5, 0, 0});
+  const Affine_map turn = rigid_motion(1.5, {0, 0, 1}, {0.5, 0, 0});
   for(int k = 0; k < 4; ++k)
   {
     s.selection[k] = 0;
@@ -529,7 +529,7 @@ public:
     return {x, y, number(-1, 1)};
   }
 
-  Eigen::Isometry3d rigid_motion()
+  Affine_map rigid_motion()
   {
     const double angle = number(-3, 3);
     const Eigen::Vector3d axis = vector() + Eigen::Vector3d(2, 0, 0);
@@ -715,7 +715,7 @@ private:
   // A rigid motion of the rest shape and the targets moves the result.
   void check_moved(const Session& session, const Report& report)
   {
-    const Eigen::Isometry3d motion = m_random.rigid_motion();
+    const Affine_map motion = m_random.rigid_motion();
     Problem<N> problem = m_problem;
     for(auto& p : problem.shape.points)
       p = motion * p;
@@ -757,7 +757,7 @@ private:
   // stays, at energy zero.
   void check_rigid_targets()
   {
-    const Eigen::Isometry3d motion = m_random.rigid_motion();
+    const Affine_map motion = m_random.rigid_motion();
     Problem<N> problem = m_problem;
     problem.options.initial_guess = Initial_guess::previous;
     for(std::size_t v = 0; v < problem.roles.size(); ++v)
@@ -995,7 +995,7 @@ void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>
   const Domain domain(now, simplices);
 
   // a similarity: a motion, and a scale
-  const Eigen::Isometry3d motion = rigid_motion(2, {1, -2, 0.5}, {3, 0, 5});
+  const Affine_map motion = rigid_motion(2, {1, -2, 0.5}, {3, 0, 5});
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool has_volume = !std::isnan(quality(domain, rest).volume_change);
   for(const double scale : {1., 1.5})

@@ -24,7 +24,7 @@
 #include <CGAL/ARAP_deformation/conformance/check_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <array>
 #include <cmath>
@@ -63,10 +63,7 @@ void for_all_options(const Function& f)
         f(options_for(cells, minimizer, guess));
 }
 
-inline double sum_of_phases(const CGAL::ARAP::Phase_seconds& s)
-{
-  return s.preprocess + s.transfer + s.initial_guess + s.local_steps + s.global_steps + s.visitor;
-}
+double sum_of_phases(const CGAL::ARAP::Phase_seconds& s);
 
 // what a domain asks of a point, and nothing else
 class Bare_point
@@ -124,12 +121,7 @@ inline bool is_finite_point(const Point& p)
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
 
-inline std::vector<std::size_t> numbers(std::size_t n)
-{
-  std::vector<std::size_t> all(n);
-  std::iota(all.begin(), all.end(), std::size_t(0));
-  return all;
-}
+std::vector<std::size_t> numbers(std::size_t n);
 
 // what the domain of ranges gives; Dimension 3 if the simplices are tetrahedra
 template <int Dimension, typename Simplices>
@@ -143,47 +135,15 @@ Result reference(const std::vector<Eigen::Vector3d>& vectors, const Simplices& s
 }
 
 // Energies relative to the first one, positions relative to the diameter.
-inline void compare(const Result& a, const Result& b, double diameter, double energy_tolerance,
-                    double position_tolerance)
-{
-  CHECK(a.energy.size() == b.energy.size() && a.points.size() == b.points.size());
-  for(std::size_t k = 0; k < a.energy.size() && k < b.energy.size(); ++k)
-    CHECK_AT_MOST(std::abs(a.energy[k] - b.energy[k]),
-                  energy_tolerance * a.energy[0] + std::pow(position_tolerance * diameter, 2));
-  for(std::size_t v = 0; v < a.points.size() && v < b.points.size(); ++v)
-    CHECK_AT_MOST((a.points[v] - b.points[v]).norm(), position_tolerance * diameter);
-}
+void compare(const Result& a, const Result& b, double diameter, double energy_tolerance,
+             double position_tolerance);
 
-inline void compare(const Result& a, const Result& b, double diameter, double tolerance = 1e-10)
-{
-  compare(a, b, diameter, tolerance, tolerance);
-}
+void compare(const Result& a, const Result& b, double diameter, double tolerance = 1e-10);
 
 using Polygons = std::vector<std::vector<std::size_t>>;
 
 // a tube of quads, closed by two polygons with many corners
-inline Shape tube(Polygons& polygons)
-{
-  const std::size_t around = 14, along = 12;
-  Shape shape{"tube", {}, {}};
-  for(std::size_t j = 0; j <= along; ++j)
-    for(std::size_t i = 0; i < around; ++i)
-      shape.points.emplace_back(std::cos(2 * 3.14159265 * i / around),
-                                std::sin(2 * 3.14159265 * i / around), 0.45 * j);
-  for(std::size_t j = 0; j < along; ++j)
-    for(std::size_t i = 0; i < around; ++i)
-      polygons.push_back({j * around + i, j * around + (i + 1) % around,
-                          (j + 1) * around + (i + 1) % around, (j + 1) * around + i});
-  std::vector<std::size_t> bottom, top;
-  for(std::size_t i = 0; i < around; ++i)
-  {
-    bottom.push_back(around - 1 - i);
-    top.push_back(along * around + i);
-  }
-  polygons.push_back(bottom);
-  polygons.push_back(top);
-  return shape;
-}
+Shape tube(Polygons& polygons);
 
 // A block of n x m x k cubes with a rounded side, each cut in five tetrahedra.
 struct Block
@@ -194,48 +154,8 @@ struct Block
   double diameter() const { return diameter_of(points); }
 };
 
-inline Block block(int nx, int ny, int nz)
-{
-  Block block;
-  for(int x = 0; x <= nx; ++x)
-    for(int y = 0; y <= ny; ++y)
-      for(int z = 0; z <= nz; ++z)
-        block.points.emplace_back(0.5 * x, 0.4 * y + 0.05 * std::sin(1.3 * x),
-                                  0.3 * z + 0.04 * x * y / (nx + 1.0));
-  const auto vertex = [=](int x, int y, int z) {
-    return std::size_t((x * (ny + 1) + y) * (nz + 1) + z);
-  };
-  for(int x = 0; x < nx; ++x)
-    for(int y = 0; y < ny; ++y)
-      for(int z = 0; z < nz; ++z)
-      {
-        // odd cubes are mirrored, so that the diagonals of neighbours meet
-        const int a = (x + y + z) % 2, b = 1 - a;
-        const auto corner = [&](int i, int j, int k) {
-          return vertex(x + (i ? b : a), y + j, z + k);
-        };
-        std::vector<std::array<std::size_t, 4>> five = {
-          {corner(0, 0, 0), corner(1, 0, 0), corner(0, 1, 0), corner(0, 0, 1)},
-          {corner(1, 1, 0), corner(0, 1, 0), corner(1, 0, 0), corner(1, 1, 1)},
-          {corner(1, 0, 1), corner(1, 0, 0), corner(0, 0, 1), corner(1, 1, 1)},
-          {corner(0, 1, 1), corner(0, 1, 0), corner(1, 1, 1), corner(0, 0, 1)},
-          {corner(1, 0, 0), corner(0, 1, 0), corner(0, 0, 1), corner(1, 1, 1)}};
-        for(auto& t : five)
-        {
-          Eigen::Matrix3d edges;
-          for(int k = 0; k < 3; ++k)
-            edges.col(k) = block.points[t[k + 1]] - block.points[t[0]];
-          if(edges.determinant() < 0)
-            std::swap(t[0], t[1]);
-          block.tetrahedra.push_back(t);
-        }
-      }
-  return block;
-}
+Block block(int nx, int ny, int nz);
 
-inline Scenario scenario(const Block& block, double angle = 0.9)
-{
-  return scenario(Shape{"", block.points, {}}, angle);
-}
+Scenario scenario(const Block& block, double angle = 0.9);
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DOMAINS_H

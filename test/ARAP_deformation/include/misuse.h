@@ -17,6 +17,8 @@
 
 #include <CGAL/ARAP_deformation.h>
 
+#include <Eigen/Geometry>
+
 #include <string>
 #include <vector>
 

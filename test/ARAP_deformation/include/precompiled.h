@@ -17,6 +17,7 @@
 // and so compiles without this header.
 
 #include "compiled_sessions.h"
+#include "dense_algebra.h"
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
@@ -24,7 +25,6 @@
 #include <CGAL/ARAP_deformation/conformance/check_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>

@@ -12,7 +12,8 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_SHAPES_H
 #define CGAL_ARAP_DEFORMATION_TEST_SHAPES_H
 
-// Small shapes made in code, and a handle scenario that fits them all.
+// Small shapes made in code, and a handle scenario that fits them all. They are compiled once, in
+// shapes.cpp.
 
 #include "check.h"
 
@@ -20,17 +21,12 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <map>
-#include <numeric>
-#include <random>
+#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -38,13 +34,7 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
 // of the bounding box of points
-inline double diameter_of(const std::vector<Eigen::Vector3d>& points)
-{
-  Eigen::AlignedBox3d box;
-  for(const auto& p : points)
-    box.extend(p);
-  return box.diagonal().norm();
-}
+double diameter_of(const std::vector<Eigen::Vector3d>& points);
 
 struct Shape
 {
@@ -57,133 +47,23 @@ struct Shape
 
 // A sheet of nu x nv quads, each cut in two, at the points f(u, v) with u and v in [0, 1].
 // Closed in u, or in u and v, if `wrap_u`, `wrap_v`.
-template <typename Function>
-Shape grid(const std::string& name, int nu, int nv, const Function& f, bool wrap_u = false,
-           bool wrap_v = false)
-{
-  Shape shape{name, {}, {}};
-  const int columns = wrap_u ? nu : nu + 1, rows = wrap_v ? nv : nv + 1;
-  for(int i = 0; i < columns; ++i)
-    for(int j = 0; j < rows; ++j)
-      shape.points.push_back(f(double(i) / nu, double(j) / nv));
-  const auto vertex = [&](int i, int j) { return std::size_t((i % columns) * rows + j % rows); };
-  for(int i = 0; i < nu; ++i)
-    for(int j = 0; j < nv; ++j)
-    {
-      const std::size_t a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-                        d = vertex(i, j + 1);
-      if((i + j) % 2 == 0)
-        shape.triangles.insert(shape.triangles.end(), {{a, b, c}, {a, c, d}});
-      else
-        shape.triangles.insert(shape.triangles.end(), {{a, b, d}, {b, c, d}});
-    }
-  return shape;
-}
+Shape grid(const std::string& name, int nu, int nv,
+           const std::function<Eigen::Vector3d(double, double)>& f, bool wrap_u = false,
+           bool wrap_v = false);
 
-inline Shape octahedron()
-{
-  return {"octahedron",
-          {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
-}
+Shape octahedron();
 
 // each triangle cut in four, the new vertices moved by `f`
-template <typename Function>
-Shape subdivided(const std::string& name, const Shape& coarse, const Function& f)
-{
-  Shape fine{name, coarse.points, {}};
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
-  const auto middle = [&](std::size_t a, std::size_t b) {
-    const auto [it, is_new] = middles.insert({std::minmax(a, b), fine.points.size()});
-    if(is_new)
-      fine.points.push_back(f(0.5 * (coarse.points[a] + coarse.points[b])));
-    return it->second;
-  };
-  for(const auto& [a, b, c] : coarse.triangles)
-  {
-    const std::size_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    fine.triangles.insert(fine.triangles.end(),
-                          {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-  }
-  return fine;
-}
+Shape subdivided(const std::string& name, const Shape& coarse,
+                 const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& f);
 
 // vertices, triangles and the corners of each triangle in another order; a vertex v is at place[v]
-inline Shape shuffled(const Shape& shape, std::vector<std::size_t>& place)
-{
-  std::mt19937 random(11);
-  place.resize(shape.points.size());
-  std::iota(place.begin(), place.end(), std::size_t(0));
-  std::shuffle(place.begin(), place.end(), random);
-  Shape result = shape;
-  for(std::size_t v = 0; v < place.size(); ++v)
-    result.points[place[v]] = shape.points[v];
-  std::shuffle(result.triangles.begin(), result.triangles.end(), random);
-  for(auto& t : result.triangles)
-  {
-    std::rotate(t.begin(), t.begin() + random() % 3, t.end());
-    for(auto& v : t)
-      v = place[v];
-  }
-  return result;
-}
+Shape shuffled(const Shape& shape, std::vector<std::size_t>& place);
 
-inline Shape two_components(const Shape& shape)
-{
-  Shape both = shape;
-  both.name = "two of " + shape.name;
-  for(const auto& p : shape.points)
-    both.points.push_back(p + Eigen::Vector3d(1.5 * shape.diameter(), 0, 0));
-  for(const auto& [a, b, c] : shape.triangles)
-    both.triangles.push_back({a + shape.points.size(), b + shape.points.size(),
-                              c + shape.points.size()});
-  return both;
-}
+Shape two_components(const Shape& shape);
 
 // A dozen of them: open and closed, flat and curved, with sharp and obtuse and irregular triangles.
-inline std::vector<Shape> shapes()
-{
-  using V = Eigen::Vector3d;
-  const double pi = std::acos(-1.0);
-  const auto normalized = [](const V& p) { return V(p.normalized()); };
-  const Shape sphere =
-    subdivided("sphere", subdivided("", subdivided("", octahedron(), normalized), normalized),
-               normalized);
-  std::vector<Shape> all;
-  all.push_back({"tetrahedron", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                 {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}});
-  all.push_back(octahedron());
-  all.push_back(sphere);
-  all.push_back(subdivided("ellipsoid", sphere, [](const V& p) { return p; }));
-  for(auto& p : all.back().points)
-    p = V(3 * p.x(), p.y(), 0.6 * p.z());
-  all.push_back(grid("flat sheet", 12, 6, [](double u, double v) { return V(2 * u, v, 0); }));
-  all.push_back(grid("bumpy sheet", 16, 12, [=](double u, double v) {
-    return V(2 * u, 1.5 * v, 0.1 * std::sin(6 * pi * u) * std::cos(4 * pi * v));
-  }));
-  all.push_back(grid("obtuse sheet", 10, 8, [](double u, double v) {
-    return V(u + 2.5 * v, 0.6 * v, 0.1 * u * u);
-  }));
-  all.push_back(grid("cylinder", 12, 15, [=](double u, double v) {
-    return V(std::cos(2 * pi * u), std::sin(2 * pi * u), 5 * v);
-  }, true));
-  all.push_back(grid("torus", 16, 10, [=](double u, double v) {
-    const double r = 2 + 0.7 * std::cos(2 * pi * v);
-    return V(r * std::cos(2 * pi * u), r * std::sin(2 * pi * u), 0.7 * std::sin(2 * pi * v));
-  }, true, true));
-  all.push_back(grid("saddle", 10, 10, [](double u, double v) {
-    return V(2 * u - 1, 2 * v - 1, (2 * u - 1) * (2 * u - 1) - (2 * v - 1) * (2 * v - 1));
-  }));
-  all.push_back(two_components(grid("strip", 14, 3, [](double u, double v) {
-    return V(0.5 * v, 4 * u, 0.2 * u * u);
-  })));
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
-  all.push_back(grid("irregular sheet", 14, 14, [&](double u, double v) {
-    return V(u + jitter(random) / 14, v + jitter(random) / 14, 0.3 * u * v + jitter(random) / 14);
-  }));
-  return all;
-}
+std::vector<Shape> shapes();
 
 template <typename FaceGraph, typename Faces>
 FaceGraph make_mesh(const std::vector<Eigen::Vector3d>& vectors, const Faces& faces)
@@ -198,6 +78,9 @@ FaceGraph make_mesh(const std::vector<Eigen::Vector3d>& vectors, const Faces& fa
   return mesh;
 }
 
+using Triangles = decltype(Shape::triangles);
+extern template Mesh make_mesh<Mesh>(const std::vector<Eigen::Vector3d>&, const Triangles&);
+
 template <typename TriangleMesh>
 TriangleMesh make_mesh(const Shape& shape)
 {
@@ -208,18 +91,11 @@ inline Eigen::Vector3d vector(const Point& p) { return {p.x(), p.y(), p.z()}; }
 inline const Eigen::Vector3d& vector(const Eigen::Vector3d& p) { return p; }
 inline Point point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-inline std::vector<Point> points_of(const Mesh& mesh)
-{
-  return {mesh.points().begin(), mesh.points().end()};
-}
+double distance(const Eigen::Vector3d& p, const Eigen::Vector3d& q);
 
-inline std::vector<Point> points_of(const std::vector<Eigen::Vector3d>& vectors)
-{
-  std::vector<Point> points;
-  for(const auto& p : vectors)
-    points.push_back(point(p));
-  return points;
-}
+std::vector<Point> points_of(const Mesh& mesh);
+
+std::vector<Point> points_of(const std::vector<Eigen::Vector3d>& vectors);
 
 // the largest distance of two points at the same place; vast if their numbers differ
 template <typename P, typename Q>
@@ -227,7 +103,7 @@ double largest_distance(const std::vector<P>& a, const std::vector<Q>& b)
 {
   double largest = a.size() == b.size() ? 0 : 1e300;
   for(std::size_t k = 0; k < a.size() && k < b.size(); ++k)
-    largest = larger(largest, (vector(a[k]) - vector(b[k])).norm());
+    largest = larger(largest, distance(vector(a[k]), vector(b[k])));
   return largest;
 }
 
@@ -240,50 +116,27 @@ struct Scenario
 };
 
 // for the shape in another order, whose vertex v is at place[v]
-inline Scenario shuffled(const Scenario& s, const std::vector<std::size_t>& place)
-{
-  Scenario result = s;
-  for(std::size_t v = 0; v < place.size(); ++v)
-  {
-    result.selection[place[v]] = s.selection[v];
-    result.targets[place[v]] = s.targets[v];
-  }
-  return result;
-}
+Scenario shuffled(const Scenario& s, const std::vector<std::size_t>& place);
 
-inline Eigen::Isometry3d rigid_motion(double angle, const Eigen::Vector3d& axis,
-                                      const Eigen::Vector3d& translation)
+// p -> linear p + translation. Eigen's own maps take longer to compile in each program.
+struct Affine_map
 {
-  return Eigen::Translation3d(translation) * Eigen::AngleAxisd(angle, axis.normalized());
-}
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
-inline Scenario scenario(const Shape& shape, double angle = 0.9)
-{
-  Eigen::AlignedBox3d box;
-  for(const auto& p : shape.points)
-    box.extend(p);
-  int axis;
-  box.sizes().maxCoeff(&axis);
-  std::vector<std::size_t> order(shape.points.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return shape.points[a][axis] < shape.points[b][axis];
-  });
-  const std::size_t count = (std::max)(order.size() / 6, std::size_t(1)), n = order.size();
-  const Eigen::Isometry3d motion =
-    Eigen::Translation3d(box.center()) *
-    rigid_motion(angle, Eigen::Vector3d(1, 2, 0.5), 0.2 * box.sizes()) *
-    Eigen::Translation3d(-box.center());
-  Scenario result{std::vector<int>(n, 1), shape.points};
-  for(std::size_t k = 0; k < (std::max)(count, std::size_t(2)) && k + 1 < n; ++k)
-    result.selection[order[k]] = 0;
-  for(std::size_t k = n - count; k < n; ++k)
-  {
-    result.selection[order[k]] = 2;
-    result.targets[order[k]] = motion * shape.points[order[k]];
-  }
-  return result;
-}
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const;
+  Affine_map operator*(const Affine_map& first) const;
+  Affine_map inverse() const;
+  Eigen::Matrix4d matrix() const;
+};
+
+Affine_map rigid_motion(double angle, const Eigen::Vector3d& axis,
+                        const Eigen::Vector3d& translation);
+
+// the motion as it is seen from a center
+Affine_map motion_about(const Eigen::Vector3d& center, const Affine_map& motion);
+
+Scenario scenario(const Shape& shape, double angle = 0.9);
 
 // the point of a class with a domain, and of one without
 template <typename Deformation>
@@ -316,13 +169,7 @@ void prepare(Deformation& deformation, const Scenario& s,
 }
 
 // whether two meshes of one connectivity have the same points, to the last bit
-inline bool same_points(const Mesh& a, const Mesh& b)
-{
-  for(auto v : a.vertices())
-    if(a.point(v) != b.point(v))
-      return false;
-  return true;
-}
+bool same_points(const Mesh& a, const Mesh& b);
 
 template <typename TriangleMesh>
 auto all_vertices(const TriangleMesh& mesh)
