@@ -31,7 +31,7 @@ std::vector<std::size_t> numbers(std::size_t n)
 }
 
 void compare(const Result& a, const Result& b, double diameter, double energy_tolerance,
-                    double position_tolerance)
+             double position_tolerance)
 {
   CHECK(a.energy.size() == b.energy.size() && a.points.size() == b.points.size());
   for(std::size_t k = 0; k < a.energy.size() && k < b.energy.size(); ++k)

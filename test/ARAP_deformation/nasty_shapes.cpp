@@ -17,6 +17,47 @@
 
 namespace {
 
+// each simplex with corners of its own
+template <std::size_t N>
+Nasty_shape<N> unwelded(const Nasty_shape<N>& shape)
+{
+  Nasty_shape<N> result;
+  for(const auto& simplex : shape.simplices)
+  {
+    result.simplices.emplace_back();
+    for(std::size_t k = 0; k < N; ++k)
+    {
+      result.simplices.back()[k] = result.points.size();
+      result.points.push_back(shape.points[simplex[k]]);
+    }
+  }
+  return result;
+}
+
+// both beside each other, with nothing between them
+template <std::size_t N>
+Nasty_shape<N> beside(Nasty_shape<N> a, const Nasty_shape<N>& b)
+{
+  const std::size_t n = a.points.size();
+  for(const auto& p : b.points)
+    a.points.push_back(p + Eigen::Vector3d(0, 0, 5));
+  for(auto simplex : b.simplices)
+  {
+    for(std::size_t& corner : simplex)
+      corner += n;
+    a.simplices.push_back(simplex);
+  }
+  return a;
+}
+
+template <std::size_t N, typename Function>
+Nasty_shape<N> moved(Nasty_shape<N> shape, const Function& f)
+{
+  for(auto& p : shape.points)
+    p = f(p);
+  return shape;
+}
+
 // What surfaces and volumes have in common; `shape` is a good one.
 template <std::size_t N>
 void add_common_shapes(const Nasty_shape<N>& shape, std::vector<Nasty_shape<N>>& shelf)

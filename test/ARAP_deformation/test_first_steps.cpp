@@ -202,8 +202,8 @@ struct Soup_session
   }
 
   // motion(v) is that of the handle v
-  template <typename Affine_map>
-  Report run(const Affine_map& motion, unsigned int iterations = 1000)
+  template <typename Motion>
+  Report run(const Motion& motion, unsigned int iterations = 1000)
   {
     for(std::size_t v : handles)
       CHECK(deformation.set_target_position(v, point(motion(v) * rest[v])));
@@ -213,8 +213,8 @@ struct Soup_session
   }
 
   // a run whose minimum is zero, after which all points are those of motion(v)
-  template <typename Affine_map>
-  void check_run_to_rest(const Affine_map& motion)
+  template <typename Motion>
+  void check_run_to_rest(const Motion& motion)
   {
     const Report report = run(motion);
     CHECK(report.status == Status::converged);
@@ -233,7 +233,6 @@ using Surface =
   Soup_session<CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, Triangles>, Triangles>;
 using Volume =
   Soup_session<CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>, Tetrahedra>;
-
 
 // calls f(weight, minimizer) for hard and soft targets and both minimizers
 template <typename Function>

@@ -20,14 +20,12 @@
 #include <Eigen/SVD>
 #include <Eigen/SparseLU>
 
-#include <vector>
-
 using Matrix_of_long_doubles = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 // x with a x = b, by Gaussian elimination
 Eigen::MatrixXd dense_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// whether it is so by far
+// whether a is far from singular
 bool is_invertible(const Eigen::MatrixXd& a);
 
 // of a symmetric matrix
