@@ -108,6 +108,30 @@ Block block(int nx, int ny, int nz)
   return block;
 }
 
+Block unit_cubes(int nx, int ny, int nz)
+{
+  Block block;
+  const std::array<std::size_t, 3> stride = {std::size_t((ny + 1) * (nz + 1)),
+                                             std::size_t(nz + 1), 1};
+  for(int x = 0; x <= nx; ++x)
+    for(int y = 0; y <= ny; ++y)
+      for(int z = 0; z <= nz; ++z)
+      {
+        const std::size_t a = block.points.size();
+        block.points.emplace_back(x, y, z);
+        if(x == nx || y == ny || z == nz)
+          continue;
+        std::array<int, 3> order = {0, 1, 2};
+        do
+        {
+          const std::size_t b = a + stride[order[0]], c = b + stride[order[1]];
+          block.tetrahedra.push_back({a, b, c, c + stride[order[2]]});
+        }
+        while(std::next_permutation(order.begin(), order.end()));
+      }
+  return block;
+}
+
 Scenario scenario(const Block& block, double angle)
 {
   return scenario(Shape{"", block.points, {}}, angle);

@@ -27,7 +27,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -1396,40 +1395,23 @@ Pulled square(int quads)
   return pulled;
 }
 
-// each small cube is cut in six tetrahedra, alike
 Pulled cube(int edges)
 {
   Pulled pulled;
-  auto& [name, points, tetrahedra] = pulled.model;
-  const auto vertex = [=](const std::array<int, 3>& p) {
-    return std::size_t((p[0] * (edges + 1) + p[1]) * (edges + 1) + p[2]);
+  const Block cubes = unit_cubes(edges, edges, edges);
+  for(const auto& p : cubes.points)
+    pulled.model.points.push_back(p / edges);
+  for(const auto& t : cubes.tetrahedra)
+    pulled.model.simplices.emplace_back(t.begin(), t.end());
+  const auto vertex = [=](int x, int y, int z) {
+    return std::size_t((x * (edges + 1) + y) * (edges + 1) + z);
   };
-  for(int x = 0; x <= edges; ++x)
-    for(int y = 0; y <= edges; ++y)
-      for(int z = 0; z <= edges; ++z)
-      {
-        points.emplace_back(double(x) / edges, double(y) / edges, double(z) / edges);
-        std::array<int, 3> order = {0, 1, 2};
-        do
-        {
-          std::array<int, 3> p = {x, y, z};
-          Dense_reference::Simplex tetrahedron = {vertex(p)};
-          for(int axis : order)
-          {
-            ++p[std::size_t(axis)];
-            tetrahedron.push_back(vertex(p));
-          }
-          if((std::max)({x, y, z}) < edges)
-            tetrahedra.push_back(tetrahedron);
-        }
-        while(std::next_permutation(order.begin(), order.end()));
-      }
   const int m = edges / 2;
-  pulled.middle = vertex({m, m, m});
+  pulled.middle = vertex(m, m, m);
   for(int k : {edges / 8, edges / 4, 3 * edges / 8})
   {
-    pulled.places.push_back(vertex({m + k, m, m}));
-    pulled.places.push_back(vertex({m, m, m + k}));
+    pulled.places.push_back(vertex(m + k, m, m));
+    pulled.places.push_back(vertex(m, m, m + k));
   }
   return pulled;
 }

@@ -23,7 +23,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -267,28 +266,11 @@ void test_large_rotations()
 // tetrahedra, each cell scheme: a block is twisted
 void test_tetrahedra()
 {
-  using Tetrahedra = std::vector<std::array<int, 4>>;
+  using Tetrahedra = decltype(Block::tetrahedra);
   using Soup = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>;
   const int length = 8;
-  std::vector<Point> rest;
-  Tetrahedra tetrahedra;
-  for(int i = 0; i <= length; ++i)
-    for(int j = 0; j < 3; ++j)
-      for(int k = 0; k < 3; ++k)
-        rest.emplace_back(i, j, k);
-  const std::array<int, 3> stride = {9, 3, 1};
-  for(int i = 0; i < length; ++i)
-    for(int j = 0; j < 2; ++j)
-      for(int k = 0; k < 2; ++k)
-      {
-        std::array<int, 3> order = {0, 1, 2};
-        do
-        {
-          const int a = 9 * i + 3 * j + k, b = a + stride[order[0]], c = b + stride[order[1]];
-          tetrahedra.push_back({a, b, c, c + stride[order[2]]});
-        }
-        while(std::next_permutation(order.begin(), order.end()));
-      }
+  const Block block = unit_cubes(length, 2, 2);
+  const std::vector<Point> rest = points_of(block.points);
   for(Cell_scheme cells : all_cell_schemes)
   {
     test_case() = "tetrahedra";
@@ -296,7 +278,7 @@ void test_tetrahedra()
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
     {
       std::vector<Point> points = rest;
-      Soup soup(points, tetrahedra);
+      Soup soup(points, block.tetrahedra);
       CGAL::ARAP_deformation<Soup> d(soup);
       CHECK(d.set_options(options_for(minimizer, cells)));
       for(std::size_t v = 9; v < rest.size(); ++v)

@@ -824,27 +824,6 @@ const Vertex_measure all_measures[] = {Vertex_measure::edge_length_error,
                                        Vertex_measure::size_change, Vertex_measure::angle_change,
                                        Vertex_measure::spike};
 
-// cubes of six tetrahedra around a diagonal, every other one of the opposite orientation
-std::vector<std::array<std::size_t, 4>> block(int n, Points& points)
-{
-  std::vector<std::array<std::size_t, 4>> tetrahedra;
-  for(int k = 0; k < (n + 1) * (n + 1) * (n + 1); ++k)
-    points.emplace_back(k % (n + 1), k / (n + 1) % (n + 1), k / (n + 1) / (n + 1));
-  std::array<std::size_t, 3> steps = {1, std::size_t(n + 1), std::size_t((n + 1) * (n + 1))};
-  for(int k = 0; k < n * n * n; ++k)
-  {
-    const std::size_t a = k % n + steps[1] * (k / n % n) + steps[2] * (k / n / n);
-    std::sort(steps.begin(), steps.end());
-    const auto s = steps;
-    std::array<int, 3> order = {0, 1, 2};
-    do
-      tetrahedra.push_back({a, a + s[order[0]], a + s[order[0]] + s[order[1]],
-                            a + s[0] + s[1] + s[2]});
-    while(std::next_permutation(order.begin(), order.end()));
-  }
-  return tetrahedra;
-}
-
 double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   const double c = a.normalized().dot(b.normalized());
@@ -1088,9 +1067,8 @@ void test_all()
       test_shape<2>(shape.points, shape.triangles);
     }
   test_case() = "quality of a block";
-  Points points;
-  const auto tetrahedra = block(2, points);
-  test_shape<3>(points, tetrahedra);
+  const Block cubes = unit_cubes(2, 2, 2);
+  test_shape<3>(cubes.points, cubes.tetrahedra);
   test_polygons();
   test_self_intersections();
 }

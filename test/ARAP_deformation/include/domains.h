@@ -156,6 +156,9 @@ struct Block
 
 Block block(int nx, int ny, int nz);
 
+// Unit cubes, each cut in six tetrahedra of both orientations around the same diagonal.
+Block unit_cubes(int nx, int ny, int nz);
+
 Scenario scenario(const Block& block, double angle = 0.9);
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DOMAINS_H

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace CGAL {
@@ -54,6 +56,7 @@ public:
     if(has_no_iterations_left())
       return without_look();
     const double tolerated = m_run.tolerated_decrease(), start = m_run.value();
+    m_small_gains = m_last_energy - start < 0.01 * tolerated ? m_small_gains + 1 : 0;
     Second_look look(m_run);
     auto finding = look.begin(1e-3 * tolerated);
     for(unsigned int k = 0; k < most_steps && finding == Second_look::Finding::nothing_yet; ++k)
@@ -85,20 +88,19 @@ public:
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      if(m_number_of_moves == most_moves ||
-         (is_saddle ? m_number_of_moves > 0 && m_last_energy - start < 0.01 * tolerated
-                    : does_model_hold(look, 0.1 * tolerated)))
+      if(m_number_of_moves == most_moves || m_small_gains >= 2 ||
+         (!is_saddle && does_model_hold(look, tolerated)))
         return Status::converged; // the gap is certain, or as certain as it becomes
     }
 
-    bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1);
+    bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1, 0);
     if(is_saddle)
     {
       const Array<Coordinates>& direction = look.direction();
       const double first = 0.01 * m_run.diameter / largest_entry(direction);
       const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
-      is_lower |= descend_along(direction, sign * first, 100 * first) ||
-                  descend_along(direction, -sign * first, 100 * first);
+      is_lower |= descend_along(direction, sign * first, 100 * first, 2) ||
+                  descend_along(direction, -sign * first, 100 * first, 2);
     }
     if(!is_lower) // rounding errors are all that is left
       return Status::converged;
@@ -150,21 +152,43 @@ private:
     return m_run.evaluate();
   }
 
-  // Whether the model of the energy holds, up to this, where it is what it is here: behind its
-  // minimum, as far again. If not, as in a valley that is curved, it does not tell what is left.
-  bool does_model_hold(const Second_look& look, double error)
+  // The same after steps of local/global, which lead back into a curved valley.
+  double energy_at(const Array<Coordinates>& before, const Array<Coordinates>& direction, double t,
+                   int relaxing_steps)
+  {
+    double energy = energy_at(before, direction, t);
+    Array<Coordinates> step;
+    for(int k = 0; k < relaxing_steps; ++k)
+    {
+      {
+        Scoped_seconds global(m_run.report.seconds.global_steps);
+        if(!m_run.solve(step))
+          break;
+      }
+      energy = energy_at(m_run.x, step, 1);
+    }
+    return energy;
+  }
+
+  // Whether the model of the energy holds behind its minimum, as far from it as x is, where it has
+  // the value that it has at x. If not, as in a curved valley, it does not tell what is left.
+  bool does_model_hold(const Second_look& look, double tolerated)
   {
     const double value = m_run.value();
     const Array<Coordinates> before = m_run.x;
     const double change = energy_at(before, look.solution(), 2) - value;
     energy_at(before, look.solution(), 0);
     m_run.keep_energy();
-    return std::abs(change - 4 * (look.curvature() - look.gap())) <= error;
+    const double predicted = 4 * (look.curvature() - look.gap());
+    const double error = std::abs(change - predicted);
+    return error <= 0.1 * tolerated &&
+           error <= (std::max)(0.2 * std::abs(predicted), 1e-3 * tolerated);
   }
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
   // far as it goes on falling when the step is doubled, or until that is `longest`.
-  bool descend_along(const Array<Coordinates>& direction, double first, double longest)
+  bool descend_along(const Array<Coordinates>& direction, double first, double longest,
+                     int relaxing_steps)
   {
     if(!std::isfinite(first))
       return false;
@@ -173,7 +197,7 @@ private:
     double best = 0;
     for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)
     {
-      const double energy = energy_at(before, direction, t);
+      const double energy = energy_at(before, direction, t, relaxing_steps);
       if(energy < lowest)
       {
         lowest = energy;
@@ -182,7 +206,7 @@ private:
       if(best != 0 && (best != t || 2 * std::abs(t) > longest))
         break;
     }
-    energy_at(before, direction, best);
+    energy_at(before, direction, best, best != 0 ? relaxing_steps : 0);
     if(best == 0)
       m_run.keep_energy();
     return best != 0;
@@ -190,7 +214,8 @@ private:
 
   Minimization& m_run;
   unsigned int m_number_of_moves = 0;
-  double m_last_energy = 0; // where it last moved on from
+  unsigned int m_small_gains = 0; // how many of the last moves gained next to nothing
+  double m_last_energy = std::numeric_limits<double>::infinity(); // where it last moved on from
 };
 
 } // namespace internal
