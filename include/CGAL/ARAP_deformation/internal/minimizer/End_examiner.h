@@ -88,7 +88,7 @@ public:
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      if(m_number_of_moves == most_moves || m_small_gains >= 2 ||
+      if(m_number_of_moves == most_moves || m_small_gains >= most_small_gains ||
          (!is_saddle && does_model_hold(look, tolerated)))
         return Status::converged; // the gap is certain, or as certain as it becomes
     }
@@ -99,8 +99,8 @@ public:
       const Array<Coordinates>& direction = look.direction();
       const double first = 0.01 * m_run.diameter / largest_entry(direction);
       const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
-      is_lower |= descend_along(direction, sign * first, 100 * first, 2) ||
-                  descend_along(direction, -sign * first, 100 * first, 2);
+      is_lower |= descend_along(direction, sign * first, 100 * first, relaxing_steps) ||
+                  descend_along(direction, -sign * first, 100 * first, relaxing_steps);
     }
     if(!is_lower) // rounding errors are all that is left
       return Status::converged;
@@ -114,7 +114,9 @@ public:
 
 private:
   static constexpr unsigned int most_steps = 200; // of a look
-  static constexpr unsigned int most_moves = 10; // from saddle points, if the gap is small
+  static constexpr unsigned int most_moves = 10; // if the gap is small
+  static constexpr unsigned int most_small_gains = 2; // by moves in a row
+  static constexpr int relaxing_steps = 2; // from places along a direction of negative curvature
 
   // the last one may be needed to move on
   bool has_no_iterations_left() const
@@ -154,11 +156,11 @@ private:
 
   // The same after steps of local/global, which lead back into a curved valley.
   double energy_at(const Array<Coordinates>& before, const Array<Coordinates>& direction, double t,
-                   int relaxing_steps)
+                   int steps)
   {
     double energy = energy_at(before, direction, t);
     Array<Coordinates> step;
-    for(int k = 0; k < relaxing_steps; ++k)
+    for(int k = 0; k < steps; ++k)
     {
       {
         Scoped_seconds global(m_run.report.seconds.global_steps);
@@ -186,9 +188,10 @@ private:
   }
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
-  // far as it goes on falling when the step is doubled, or until that is `longest`.
+  // far as it goes on falling when the step is doubled, or until that is `longest`. Energies are
+  // compared after some steps of local/global.
   bool descend_along(const Array<Coordinates>& direction, double first, double longest,
-                     int relaxing_steps)
+                     int steps)
   {
     if(!std::isfinite(first))
       return false;
@@ -197,7 +200,7 @@ private:
     double best = 0;
     for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)
     {
-      const double energy = energy_at(before, direction, t, relaxing_steps);
+      const double energy = energy_at(before, direction, t, steps);
       if(energy < lowest)
       {
         lowest = energy;
@@ -206,7 +209,7 @@ private:
       if(best != 0 && (best != t || 2 * std::abs(t) > longest))
         break;
     }
-    energy_at(before, direction, best, best != 0 ? relaxing_steps : 0);
+    energy_at(before, direction, best, best != 0 ? steps : 0);
     if(best == 0)
       m_run.keep_energy();
     return best != 0;
