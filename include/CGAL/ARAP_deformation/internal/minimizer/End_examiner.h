@@ -131,15 +131,6 @@ private:
     return m_number_of_moves > 0 ? Status::iteration_limit : Status::converged;
   }
 
-  static double largest_entry(const Array<Coordinates>& points)
-  {
-    double largest = 0;
-    for(const Coordinates& p : points)
-      for(double entry : p)
-        largest = (std::max)(largest, std::abs(entry));
-    return largest;
-  }
-
   // moves x
   double energy_at(const Array<Coordinates>& before,
                    const Array<Coordinates>& direction, double t)

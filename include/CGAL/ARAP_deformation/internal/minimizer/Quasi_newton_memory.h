@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pairs.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/simd/vector_kernels.h>
 
@@ -265,15 +266,6 @@ private:
   static const double* entries(const Array<Coordinates>& points)
   {
     return points.data()->data();
-  }
-
-  static double largest_entry(const Array<Coordinates>& d)
-  {
-    double largest = 0;
-    for(const Coordinates& p : d)
-      for(double entry : p)
-        largest = (std::max)(largest, std::abs(entry));
-    return largest;
   }
 
   static double unit(const Array<Coordinates>& d)
