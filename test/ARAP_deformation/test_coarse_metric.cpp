@@ -15,6 +15,7 @@
 
 #include "include/check.h"
 #include "include/domains.h"
+#include "include/length.h"
 #include "include/problem.h"
 #include "include/shapes.h"
 
@@ -341,7 +342,7 @@ int main()
   const Shape sheet = grid("sheet", 32, 26, [](double u, double v) {
     return Eigen::Vector3d(2 * u, v, 0.4 * u * v + 0.2 * u * u);
   });
-  const Block bar = block(13, 6, 6);
+  const Block bar = block(short_or_long(8, 13), 6, 6);
   coarse::test_transfer(problem::region_of(sheet.points, sheet.triangles));
   coarse::test_matrix("sheet", sheet.points, sheet.triangles);
   coarse::test_matrix("bar", bar.points, bar.tetrahedra);

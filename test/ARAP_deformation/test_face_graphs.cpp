@@ -9,10 +9,11 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-// Surfaces in data structures for halfedges: kernels, a class derived from Surface_mesh, removed
-// elements, a const mesh with an output map, a part of a mesh, maps of a user's, other orders of
-// vertices and faces, polygons, all terms of the energy, and shapes that are not clean.
+// Surfaces in data structures for halfedges: removed elements, a const mesh with an output map,
+// large polygons, other orders of vertices and faces, all terms of the energy, and shapes that are
+// not clean. test_mesh_types has other types of meshes and of points.
 
+#include "include/mesh_type.h"
 #include "include/nasty_runs.h"
 #include "include/term_runs.h"
 
@@ -21,11 +22,7 @@
 #include <CGAL/arap_deform.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
-#include <CGAL/boost/graph/Face_filtered_graph.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
-#include <CGAL/Polyhedron_items_with_id_3.h>
 
 #include <boost/property_map/property_map.hpp>
 
@@ -36,38 +33,7 @@
 #include <string>
 #include <vector>
 
-// what newer versions of CGAL ship as CGAL/Testsuite/DerivedSurfaceMesh.h
-struct Derived_mesh : Mesh
-{
-  std::string name;
-};
-
-#define CGAL_GRAPH_TRAITS_INHERITANCE_CLASS_NAME Derived_mesh
-#define CGAL_GRAPH_TRAITS_INHERITANCE_BASE_CLASS_NAME CGAL::Surface_mesh<Point>
-#include <CGAL/boost/graph/graph_traits_inheritance_macros.h>
-
 using CGAL::ARAP::Face_graph_domain;
-
-template <typename Mesh_>
-void test_mesh_type(const std::string& name, double tolerance = 1e-10)
-{
-  test_case() = name;
-  static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Mesh_>::Deformation_domain,
-                               Face_graph_domain<Mesh_>>);
-  for(const Shape& shape : shapes())
-  {
-    const Scenario s = scenario(shape);
-    for(Cell_scheme cells : all_cell_schemes)
-    {
-      Mesh_ mesh = make_mesh<Mesh_>(shape);
-      const Face_graph_domain<Mesh_> domain(mesh);
-      if(cells == all_cell_schemes[0])
-        check_conforms(domain);
-      compare(reference<2>(shape.points, shape.triangles, s, cells),
-              deform(domain, all_vertices(mesh), s, cells), shape.diameter(), tolerance);
-    }
-  }
-}
 
 void test_removed_elements()
 {
@@ -143,38 +109,6 @@ void test_const_mesh()
   CHECK(output[isolated] == Point(5, 5, 5));
 }
 
-// a mesh in the plane, turned by a half turn about an axis through it
-void test_planar_mesh()
-{
-  test_case() = "a mesh of points with two coordinates";
-  using Point_2 = CGAL::Simple_cartesian<double>::Point_2;
-  const Shape shape = grid("sheet", 6, 6, [](double u, double v) {
-    return Eigen::Vector3d(u, v + 0.2 * u * u, 0);
-  });
-  CGAL::Surface_mesh<Point_2> mesh;
-  for(const auto& p : shape.points)
-    mesh.add_vertex(Point_2(p.x(), p.y()));
-  for(const auto& t : shape.triangles)
-    mesh.add_face(mesh.vertices().begin()[t[0]], mesh.vertices().begin()[t[1]],
-                  mesh.vertices().begin()[t[2]]);
-  check_conforms(Face_graph_domain(mesh));
-  CGAL::ARAP_deformation<CGAL::Surface_mesh<Point_2>> deformation(mesh);
-  const auto vertices = mesh.vertices();
-  deformation.insert_roi_vertices(vertices.begin(), vertices.end());
-  for(auto v : vertices)
-    if(shape.points[v].x() < 0.3)
-    {
-      deformation.insert_control_vertex(v);
-      deformation.set_target_position(v, Point_2(-mesh.point(v).x(), -mesh.point(v).y()));
-    }
-  CHECK(deformation.deform(100, 1e-12));
-  for(auto v : vertices)
-  {
-    CHECK_AT_MOST(std::abs(mesh.point(v).x() + shape.points[v].x()), 1e-6);
-    CHECK_AT_MOST(std::abs(mesh.point(v).y() + shape.points[v].y()), 1e-6);
-  }
-}
-
 // A polygon with many corners is turned, or refused.
 void test_large_polygon(int n, bool is_refused)
 {
@@ -219,103 +153,6 @@ void test_large_polygon(int n, bool is_refused)
   }
 }
 
-// points of a type that has nothing but what is asked for
-void test_bare_points()
-{
-  test_case() = "bare points";
-  const Shape shape = shapes()[8];
-  const Scenario s = scenario(shape);
-  Mesh mesh = make_mesh<Mesh>(shape);
-  std::vector<Bare_point> points;
-  for(const auto& p : shape.points)
-    points.emplace_back(p.x(), p.y(), p.z());
-  const auto map = boost::make_iterator_property_map(points.begin(),
-                                                     get(boost::vertex_index, mesh));
-  const auto domain =
-    CGAL::ARAP::make_face_graph_domain(mesh, CGAL::parameters::vertex_point_map(map));
-  check_conforms(domain);
-  compare(reference<2>(shape.points, shape.triangles, s, Cell_scheme::spokes()),
-          deform(domain, all_vertices(mesh), s, Cell_scheme::spokes()), shape.diameter());
-}
-
-// the faces of one half of a shape, without the other half
-void test_filtered_graph()
-{
-  test_case() = "Face_filtered_graph";
-  const Shape shape = shapes()[8];
-  Mesh mesh = make_mesh<Mesh>(shape);
-  auto patch = mesh.add_property_map<Mesh::Face_index, int>("f:patch", 0).first;
-  std::vector<std::array<std::size_t, 3>> selected;
-  for(auto f : mesh.faces())
-  {
-    std::array<std::size_t, 3> corners;
-    std::size_t k = 0;
-    for(auto v : vertices_around_face(halfedge(f, mesh), mesh))
-      corners[k++] = v;
-    if(shape.points[corners[0]].y() < 0.3)
-    {
-      patch[f] = 1;
-      selected.push_back(corners);
-    }
-  }
-  CHECK(selected.size() > 20 && selected.size() + 20 < mesh.number_of_faces());
-  using Graph = CGAL::Face_filtered_graph<Mesh>;
-  Graph graph(mesh, 1, patch);
-  CHECK(graph.is_selection_valid());
-
-  Scenario s = scenario(shape);
-  std::vector<bool> is_in(shape.points.size(), false);
-  for(const auto& corners : selected)
-    for(std::size_t v : corners)
-      is_in[v] = true;
-  std::vector<Mesh::Vertex_index> vertices; // of the selection, and their numbers in the shape
-  Scenario part{{}, {}};
-  for(std::size_t v = 0; v < is_in.size(); ++v)
-  {
-    if(!is_in[v])
-      s.selection[v] = 0;
-    else
-    {
-      vertices.emplace_back(static_cast<Mesh::size_type>(v));
-      part.selection.push_back(s.selection[v]);
-      part.targets.push_back(s.targets[v]);
-    }
-  }
-  for(Cell_scheme cells : all_cell_schemes)
-  {
-    Mesh copy = mesh;
-    Graph copy_graph(copy, 1, copy.add_property_map<Mesh::Face_index, int>("f:patch").first);
-    const Face_graph_domain<Graph> domain(copy_graph);
-    if(cells == all_cell_schemes[0])
-      check_conforms(domain);
-    Result expected = reference<2>(shape.points, selected, s, cells);
-    Result found = deform(domain, vertices, part, cells);
-    std::vector<Eigen::Vector3d> points;
-    for(auto v : vertices)
-      points.push_back(expected.points[v]);
-    expected.points = points;
-    compare(expected, found, shape.diameter());
-  }
-}
-
-// the points in a map of the user's, outside of the mesh
-Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme cells)
-{
-  Mesh mesh = make_mesh<Mesh>(shape);
-  std::map<Mesh::Vertex_index, Point> points;
-  for(auto v : mesh.vertices())
-  {
-    points[v] = mesh.point(v);
-    mesh.point(v) = CGAL::ORIGIN;
-  }
-  const auto domain = CGAL::ARAP::make_face_graph_domain(
-    mesh, CGAL::parameters::vertex_point_map(boost::make_assoc_property_map(points)));
-  const Result result = deform(domain, all_vertices(mesh), s, cells);
-  for(auto v : mesh.vertices())
-    CHECK(mesh.point(v) == CGAL::ORIGIN);
-  return result;
-}
-
 Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
 {
   std::vector<std::size_t> place;
@@ -328,16 +165,15 @@ Result deform_shuffled(const Shape& shape, const Scenario& s, Cell_scheme cells)
   return restored;
 }
 
-void test_own_map_and_order()
+void test_order()
 {
   for(const Shape& shape : shapes())
     for(Cell_scheme cells : all_cell_schemes)
     {
-      test_case() = "own map and order, " + shape.name;
+      test_case() = "order, " + shape.name;
       const Scenario s = scenario(shape);
-      const Result expected = reference<2>(shape.points, shape.triangles, s, cells);
-      compare(expected, deform_with_own_map(shape, s, cells), shape.diameter());
-      compare(expected, deform_shuffled(shape, s, cells), shape.diameter());
+      compare(reference<2>(shape.points, shape.triangles, s, cells),
+              deform_shuffled(shape, s, cells), shape.diameter());
     }
 }
 
@@ -405,26 +241,12 @@ int main()
 {
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   test_mesh_type<Mesh>("Simple_cartesian<double>");
-  test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
-    "Simple_cartesian<float>", 2e-5);
   test_mesh_type<Polyhedron>("Polyhedron_3");
-#ifdef CGAL_ARAP_TEST_ALL // dear to compile
-  test_mesh_type<Derived_mesh>("a derived class");
-  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>>(
-    "EPICK");
-  test_mesh_type<CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>>(
-    "EPECK");
-  test_mesh_type<CGAL::Polyhedron_3<Kernel, CGAL::Polyhedron_items_with_id_3>>(
-    "Polyhedron_3 with ids");
-#endif
   test_removed_elements();
   test_const_mesh();
-  test_planar_mesh();
   for(int n : {5, 64, 65, 100, 1000, 2049, 70000})
     test_large_polygon(n, n > 2048);
-  test_bare_points();
-  test_filtered_graph();
-  test_own_map_and_order();
+  test_order();
   test_polygons<Mesh>();
   test_polygons<Polyhedron>();
   test_terms_of<Mesh>("terms over Surface_mesh");

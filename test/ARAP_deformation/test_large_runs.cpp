@@ -14,6 +14,7 @@
 
 #include "include/check.h"
 #include "include/domains.h"
+#include "include/length.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
@@ -71,12 +72,21 @@ Scenario twist(const Shape& shape, double angle)
   return s;
 }
 
+// what is run: in a short run, spokes
+std::vector<Cell_scheme> schemes()
+{
+  std::vector<Cell_scheme> schemes = {Cell_scheme::spokes()};
+  if(is_long_run())
+    schemes.push_back(Cell_scheme::spokes_and_rims());
+  return schemes;
+}
+
 // Runs with the coarse metric end no higher than without, in fewer iterations, and do not depend on
 // the number of threads, nor on what the session has done before.
 void test_runs()
 {
   const Shape shape = sheet(270, 124);
-  for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+  for(const Cell_scheme& cells : schemes())
   {
     test_case() = "runs";
     const Scenario s = twist(shape, 1.5);
@@ -89,11 +99,13 @@ void test_runs()
     const Run with(shape, s, options);
     CHECK_AT_MOST(with.report.final_energy(), 1.01 * without.report.final_energy());
     CHECK_AT_MOST(with.report.iterations, 0.8 * without.report.iterations);
-    if(cells == Cell_scheme::spokes())
+    if(cells != schemes().front())
       continue;
     options.threads = 3;
     const Run parallel(shape, s, options);
     CHECK(same_points(parallel.mesh, with.mesh) && parallel.report.energy == with.report.energy);
+    if(!is_long_run())
+      continue;
 
     Mesh mesh = make_mesh<Mesh>(shape);
     Deformation d(mesh);
@@ -163,7 +175,7 @@ void test_starts()
 {
   const Shape shape = sheet(200, 110);
   const Scenario s = twist(shape, 1.5);
-  for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+  for(const Cell_scheme& cells : schemes())
   {
     test_case() = "starts";
     Options options = options_with_start(cells, CGAL::ARAP::Initial_guess::rotations);
@@ -247,7 +259,8 @@ int main()
 {
   test_runs();
   test_starts();
-  test_nested_starts();
+  if(is_long_run())
+    test_nested_starts();
   test_runs_without_start();
   return checks_result();
 }

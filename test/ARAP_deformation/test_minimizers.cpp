@@ -583,7 +583,7 @@ void check_rigid_guess(const Shape& shape, Cell_scheme cells, Minimizer minimize
 void test_all()
 {
   CHECK(shapes().size() == 12);
-  Every_nth is_run(3);
+  Every_nth is_run(7);
   for(const Shape& shape : shapes())
     for(Cell_scheme cells : all_cell_schemes)
       for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})

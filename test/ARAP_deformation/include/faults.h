@@ -270,7 +270,7 @@ private:
   Faults& m_faults;
   Fault_statistics& m_statistics;
   bool m_is_mesh_written_whole;
-  std::size_t m_stride = is_long_run() ? 1 : 7;
+  std::size_t m_stride = is_long_run() ? 1 : 17;
 };
 
 inline int faults_result()
