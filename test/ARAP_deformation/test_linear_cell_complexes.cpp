@@ -12,10 +12,10 @@
 // Linear cell complexes: surfaces over combinatorial maps as FaceGraph and over generalized maps,
 // complexes of tetrahedra over both, all terms of the energy, and shapes that are not clean.
 
+#include "include/mesh_type.h"
 #include "include/nasty_runs.h"
 #include "include/term_runs.h"
 
-#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Linear_cell_complex_domain.h>
 #include <CGAL/Linear_cell_complex_for_bgl_combinatorial_map_helper.h>
 #include <CGAL/Linear_cell_complex_for_combinatorial_map.h>
@@ -32,26 +32,6 @@ using Generalized_surface = CGAL::Linear_cell_complex_for_generalized_map<2, 3, 
 using Plain_surface = CGAL::Linear_cell_complex_for_combinatorial_map<2, 3, Traits>; // no FaceGraph
 using Volumes = CGAL::Linear_cell_complex_for_combinatorial_map<3, 3, Traits>;
 using Generalized_volumes = CGAL::Linear_cell_complex_for_generalized_map<3, 3, Traits>;
-
-void test_graph()
-{
-  test_case() = "a surface as FaceGraph";
-  for(const Shape& shape : shapes())
-  {
-    const Scenario s = scenario(shape);
-    for(Cell_scheme cells : all_cell_schemes)
-    {
-      Graph mesh = make_mesh<Graph>(shape);
-      const CGAL::ARAP::Face_graph_domain<Graph> domain(mesh);
-      if(cells == all_cell_schemes[0])
-        check_conforms(domain);
-      compare(reference<2>(shape.points, shape.triangles, s, cells),
-              deform(domain, all_vertices(mesh), s, cells), shape.diameter());
-    }
-  }
-  static_assert(std::is_same_v<CGAL::ARAP_deformation<Graph>::Deformation_domain,
-                               CGAL::ARAP::Face_graph_domain<Graph>>);
-}
 
 // Sews simplices that have the same points in common, seen from darts that meet: those whose points
 // on their facet come in ascending order.
@@ -208,7 +188,7 @@ int main()
     complex.make_segment(a, b);
   });
 
-  test_graph();
+  test_mesh_type<Graph>("a surface as FaceGraph");
   {
     test_case() = "polygons";
     Polygons polygons;

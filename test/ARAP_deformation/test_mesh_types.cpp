@@ -174,18 +174,6 @@ Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme ce
   return result;
 }
 
-void test_own_map()
-{
-  for(const Shape& shape : shapes())
-    for(Cell_scheme cells : all_cell_schemes)
-    {
-      test_case() = "own map, " + shape.name;
-      const Scenario s = scenario(shape);
-      compare(reference<2>(shape.points, shape.triangles, s, cells),
-              deform_with_own_map(shape, s, cells), shape.diameter());
-    }
-}
-
 int main()
 {
   test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
@@ -200,6 +188,6 @@ int main()
   test_planar_mesh();
   test_bare_points();
   test_filtered_graph();
-  test_own_map();
+  compare_all("own map", deform_with_own_map);
   return checks_result();
 }

@@ -57,14 +57,16 @@ void test_plain()
   CHECK((*flat.finite_vertex_handles().begin())->point() != Epick::Point_3(3, 0, 0));
 }
 
+using Triangulation_with_circumcenters = CGAL::Delaunay_triangulation_3<
+  Epick, CGAL::Triangulation_data_structure_3<
+           CGAL::Triangulation_vertex_base_3<Epick>,
+           CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Epick>>>;
+
 // what cells have cached is computed from the new points
 void test_circumcenters()
 {
   test_case() = "cached circumcenters";
-  using Vertex_base = CGAL::Triangulation_vertex_base_3<Epick>;
-  using Cell_base = CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Epick>;
-  using Structure = CGAL::Triangulation_data_structure_3<Vertex_base, Cell_base>;
-  using Triangulation = CGAL::Delaunay_triangulation_3<Epick, Structure>;
+  using Triangulation = Triangulation_with_circumcenters;
   auto t = triangulation<Triangulation>();
   const Block shape = block_of(CGAL::ARAP::make_triangulation_domain(t));
   CGAL::ARAP_deformation<Triangulation> deformation(t);
@@ -88,10 +90,7 @@ void test_circumcenters()
 void test_seconds()
 {
   test_case() = "seconds";
-  using Vertex_base = CGAL::Triangulation_vertex_base_3<Epick>;
-  using Cell_base = CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Epick>;
-  using Structure = CGAL::Triangulation_data_structure_3<Vertex_base, Cell_base>;
-  using Triangulation = CGAL::Delaunay_triangulation_3<Epick, Structure>;
+  using Triangulation = Triangulation_with_circumcenters;
   Triangulation t;
   for(const auto& p : random_points(3000))
     t.insert(Epick::Point_3(p.x(), p.y(), p.z()));

@@ -38,6 +38,8 @@ using Triangles = CGAL::ARAP::Simplex_soup_domain<2, Points, Simplices<std::size
 using Polygons = CGAL::ARAP::Simplex_soup_domain<2, Points, std::vector<std::vector<std::size_t>>>;
 using Tetrahedra = CGAL::ARAP::Simplex_soup_domain<3, Points, Simplices<std::size_t, 4>>;
 using Int_tetrahedra = CGAL::ARAP::Simplex_soup_domain<3, Points, Simplices<int, 4>>;
+using Tetrahedra_as_vectors =
+  CGAL::ARAP::Simplex_soup_domain<3, Points, std::vector<std::vector<std::size_t>>>;
 
 } // namespace compiled_sessions
 
@@ -60,7 +62,8 @@ using Int_tetrahedra = CGAL::ARAP::Simplex_soup_domain<3, Points, Simplices<int,
   CGAL_ARAP_TEST_SESSION(Extern, Triangles)                                                        \
   CGAL_ARAP_TEST_SESSION(Extern, Polygons)                                                         \
   CGAL_ARAP_TEST_SESSION(Extern, Tetrahedra)                                                       \
-  CGAL_ARAP_TEST_SESSION(Extern, Int_tetrahedra)
+  CGAL_ARAP_TEST_SESSION(Extern, Int_tetrahedra)                                                   \
+  CGAL_ARAP_TEST_SESSION(Extern, Tetrahedra_as_vectors)
 
 CGAL_ARAP_TEST_SESSIONS(extern)
 

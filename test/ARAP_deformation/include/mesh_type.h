@@ -23,25 +23,32 @@
 #include <string>
 #include <type_traits>
 
+// What a function makes of each shape, with each cell scheme, is what becomes of ranges.
+template <typename Deformed>
+void compare_all(const std::string& name, const Deformed& deformed, double tolerance = 1e-10)
+{
+  for(const Shape& shape : shapes())
+  {
+    test_case() = name + ", " + shape.name;
+    const Scenario s = scenario(shape);
+    for(Cell_scheme cells : all_cell_schemes)
+      compare(reference<2>(shape.points, shape.triangles, s, cells), deformed(shape, s, cells),
+              shape.diameter(), tolerance);
+  }
+}
+
 template <typename Mesh_>
 void test_mesh_type(const std::string& name, double tolerance = 1e-10)
 {
-  test_case() = name;
   static_assert(std::is_same_v<typename CGAL::ARAP_deformation<Mesh_>::Deformation_domain,
                                CGAL::ARAP::Face_graph_domain<Mesh_>>);
-  for(const Shape& shape : shapes())
-  {
-    const Scenario s = scenario(shape);
-    for(Cell_scheme cells : all_cell_schemes)
-    {
-      Mesh_ mesh = make_mesh<Mesh_>(shape);
-      const CGAL::ARAP::Face_graph_domain<Mesh_> domain(mesh);
-      if(cells == all_cell_schemes[0])
-        check_conforms(domain);
-      compare(reference<2>(shape.points, shape.triangles, s, cells),
-              deform(domain, all_vertices(mesh), s, cells), shape.diameter(), tolerance);
-    }
-  }
+  compare_all(name, [](const Shape& shape, const Scenario& s, Cell_scheme cells) {
+    Mesh_ mesh = make_mesh<Mesh_>(shape);
+    const CGAL::ARAP::Face_graph_domain<Mesh_> domain(mesh);
+    if(cells == all_cell_schemes[0])
+      check_conforms(domain);
+    return deform(domain, all_vertices(mesh), s, cells);
+  }, tolerance);
 }
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_MESH_TYPE_H
