@@ -44,11 +44,12 @@ template <typename Solver>
 class Linear_solver_of : public Linear_solver
 {
 public:
-  explicit Linear_solver_of(Solver solver) : m_solver(std::move(solver)) {}
+  explicit Linear_solver_of(const Solver& solver) : m_solver(solver) {}
+  explicit Linear_solver_of(Solver&& solver) : m_solver(std::move(solver)) {}
 
   std::unique_ptr<Linear_solver> copy() const override
   {
-    return std::make_unique<Linear_solver_of>(Solver(m_solver));
+    return std::make_unique<Linear_solver_of>(m_solver);
   }
 
   bool analyze(const Sparse_matrix& a) override { return m_solver.analyze(a); }
