@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <type_traits>
 #include <vector>
@@ -99,6 +100,7 @@ void test_seconds()
   const std::vector<Triangulation::Vertex_handle> vertices(t.finite_vertex_handles().begin(),
                                                            t.finite_vertex_handles().end());
   prepare(deformation, scenario(block_of(domain)), vertices);
+  const double infinity = std::numeric_limits<double>::infinity();
   double outside = infinity, transfer = infinity, writing = infinity; // the least: others interrupt
   for(int frame = 0; frame < 5; ++frame)
   {
