@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/parallel/Task_memory.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 #ifdef CGAL_LINKED_WITH_CHOLMOD
@@ -518,6 +519,22 @@ void test_solver(const std::string& name, const Solver& solver)
   test_refusals(name, solver);
 }
 
+// Of several blocks, and a NaN in any of them is not lost.
+void test_largest_entry()
+{
+  test_case() = "largest entry";
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  Rows rows(20000, {1, -2, 0});
+  rows[15000][1] = -7;
+  CHECK(CGAL::ARAP::internal::largest_entry(rows.data(), rows.size()) == 7);
+  for(std::size_t k : {std::size_t(0), std::size_t(9000), rows.size() - 1})
+  {
+    Rows with_nan = rows;
+    with_nan[k][0] = not_a_number;
+    CHECK(std::isnan(CGAL::ARAP::internal::largest_entry(with_nan.data(), with_nan.size())));
+  }
+}
+
 int main()
 {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -525,6 +542,7 @@ int main()
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
 #endif
   test_blocks();
+  test_largest_entry();
   test_supernodes();
   test_packed_values();
   test_task_memory();

@@ -19,11 +19,10 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
-#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,20 +56,6 @@ struct Cholesky_factor
   Bordered_substitution<Number> substitution;
 };
 
-// the largest absolute value, or NaN if there is one
-inline double largest_entry(std::size_t n, const Coordinates* x)
-{
-  std::vector<double> largest(n / default_block_size + 1, 0);
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    double most = 0;
-    for(std::size_t v = begin; v < end; ++v)
-      for(double entry : x[v])
-        most = std::abs(entry) <= most ? most : std::abs(entry);
-    largest[begin / default_block_size] = most;
-  });
-  return *std::max_element(largest.begin(), largest.end());
-}
-
 } // namespace internal
 
 struct Multifrontal_cholesky_solver::State
@@ -86,7 +71,7 @@ struct Multifrontal_cholesky_solver::State
     if(!single_factor.values)
       return double_factor.substitution.solve(structure(), double_factor.values.get(), n, x);
     // very small and very large right-hand sides would leave the range of float
-    const double largest = internal::largest_entry(n, x);
+    const double largest = internal::largest_entry(x, n);
     single_factor.substitution.solve(structure(), single_factor.values.get(), n, x,
                                      largest > 1e-300 && std::isfinite(largest) ? largest : 1);
   }

@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -97,7 +98,8 @@ public:
     if(is_saddle)
     {
       const Array<Coordinates>& direction = look.direction();
-      const double first = 0.01 * m_run.diameter / largest_entry(direction);
+      const double first = 0.01 * m_run.diameter /
+                           largest_entry(direction.data(), direction.size());
       const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
       is_lower |= descend_along(direction, sign * first, 100 * first, relaxing_steps) ||
                   descend_along(direction, -sign * first, 100 * first, relaxing_steps);

@@ -17,8 +17,8 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pairs.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 #include <CGAL/ARAP_deformation/internal/simd/vector_kernels.h>
 
@@ -146,7 +146,7 @@ public:
     }, block_size);
     m_number_of_pairs = 0;
     m_trust = 1;
-    m_longest_shift = largest_entry(d);
+    m_longest_shift = largest_entry(d.data(), d.size());
     m_slope = m_d_slope;
     return m_slope;
   }
@@ -270,7 +270,7 @@ private:
 
   static double unit(const Array<Coordinates>& d)
   {
-    const double largest = largest_entry(d);
+    const double largest = largest_entry(d.data(), d.size());
     return largest > 0 && std::isfinite(largest) ? largest : 1;
   }
 

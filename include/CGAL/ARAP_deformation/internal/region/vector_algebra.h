@@ -17,9 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -127,16 +125,6 @@ inline bool is_finite(double x)
 inline bool is_finite(const Coordinates& a)
 {
   return is_finite(a[0]) && is_finite(a[1]) && is_finite(a[2]);
-}
-
-// the largest absolute value of a coordinate
-inline double largest_entry(const Array<Coordinates>& points)
-{
-  double largest = 0;
-  for(const Coordinates& p : points)
-    for(double entry : p)
-      largest = (std::max)(largest, std::abs(entry));
-  return largest;
 }
 
 // the index of the first point with a coordinate that is infinite or not a number, or -1

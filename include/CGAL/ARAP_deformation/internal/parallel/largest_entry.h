@@ -1,0 +1,50 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_LARGEST_ENTRY_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_LARGEST_ENTRY_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// the largest absolute value of a coordinate of n points, or NaN if there is one
+inline double largest_entry(const Coordinates* points, std::size_t n)
+{
+  const auto larger = [](double a, double b) { return b <= a || std::isnan(a) ? a : b; };
+  std::vector<double> of_blocks(n / default_block_size + 1, 0);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    double largest = 0;
+    for(std::size_t v = begin; v < end; ++v)
+      for(double entry : points[v])
+        largest = larger(largest, std::abs(entry));
+    of_blocks[begin / default_block_size] = largest;
+  });
+  double largest = 0;
+  for(double of_block : of_blocks)
+    largest = larger(largest, of_block);
+  return largest;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_PARALLEL_LARGEST_ENTRY_H
