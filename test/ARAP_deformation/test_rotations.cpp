@@ -31,6 +31,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -530,29 +531,30 @@ public:
 };
 
 // What the broken models are made of: a function that is called for each rotation.
-template <typename Function>
 class Broken
 {
 public:
-  explicit Broken(const Function& f) : m_function(&f) {}
+  using Function = std::function<void(std::size_t n, std::size_t k, const Matrix_3x3& covariance,
+                                      const Matrix_3x3& previous, Matrix_3x3& rotation)>;
+
+  explicit Broken(const Function& f) : m_function(f) {}
   void operator()(std::size_t n, const Matrix_3x3* covariances, Matrix_3x3* rotations) const
   {
     for(std::size_t k = 0; k < n; ++k)
     {
       const Matrix_3x3 previous = rotations[k];
       SVD_closest_rotation()(1, covariances + k, rotations + k);
-      (*m_function)(n, k, covariances[k], previous, rotations[k]);
+      m_function(n, k, covariances[k], previous, rotations[k]);
     }
   }
 
 private:
-  const Function* m_function;
+  Function m_function;
 };
 
-template <typename Function>
-std::vector<std::string> check_broken(const Function& f)
+std::vector<std::string> check_broken(const Broken::Function& f)
 {
-  return check_closest_rotation(Broken<Function>(f));
+  return check_closest_rotation(Broken(f));
 }
 
 // turns a rotation by a small angle
