@@ -21,12 +21,17 @@
 #include <random>
 #include <utility>
 
-double diameter_of(const std::vector<Eigen::Vector3d>& points)
+Eigen::AlignedBox3d bounding_box(const std::vector<Eigen::Vector3d>& points)
 {
   Eigen::AlignedBox3d box;
   for(const auto& p : points)
     box.extend(p);
-  return box.diagonal().norm();
+  return box;
+}
+
+double diameter_of(const std::vector<Eigen::Vector3d>& points)
+{
+  return bounding_box(points).diagonal().norm();
 }
 
 Shape grid(const std::string& name, int nu, int nv,
@@ -224,9 +229,7 @@ Affine_map motion_about(const Eigen::Vector3d& center, const Affine_map& motion)
 
 Scenario scenario(const Shape& shape, double angle)
 {
-  Eigen::AlignedBox3d box;
-  for(const auto& p : shape.points)
-    box.extend(p);
+  const Eigen::AlignedBox3d box = bounding_box(shape.points);
   int axis;
   box.sizes().maxCoeff(&axis);
   std::vector<std::size_t> order(shape.points.size());

@@ -1520,9 +1520,7 @@ void test_terms()
   const Task task = make_task();
   write("in.mesh", mesh_file(shape.points));
   write_task(task);
-  Eigen::AlignedBox3d box;
-  for(const auto& p : shape.points)
-    box.extend(p);
+  const Eigen::AlignedBox3d box = bounding_box(shape.points);
   const auto x = [](std::size_t v) { return shape.points[v].x(); };
   const auto set = [](Deformation& d, auto CGAL::ARAP::Options::*option, auto value) {
     CGAL::ARAP::Options options = d.options();

@@ -101,16 +101,14 @@ struct Complex
 
   explicit Complex(const Domain& d) : domain(d)
   {
-    Eigen::AlignedBox3d box;
     for(Vertex v : domain.vertices())
     {
       if(domain.is_isolated(v))
         continue;
       vertices.push_back(v);
       rest.push_back(point(v));
-      box.extend(rest.back());
     }
-    diameter = box.diagonal().norm();
+    diameter = diameter_of(rest);
     for(Vertex v : vertices)
       domain.for_each_incident_simplex(v, [&](const auto&, const auto& corners) {
         Tetrahedron t;
@@ -136,9 +134,7 @@ struct Complex
   {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
-    Eigen::AlignedBox3d box;
-    for(const Vector3d& p : rest)
-      box.extend(p);
+    const Eigen::AlignedBox3d box = bounding_box(rest);
     std::vector<Vector3d> all(rest.begin(), rest.begin() + (std::min)(n, rest.size()));
     for(std::size_t k = 0; k < n; ++k)
       all.push_back(box.center() +

@@ -309,9 +309,7 @@ void test_twist()
 {
   const double pi = std::acos(-1.0);
   const Block shape = block(20, 4, 4);
-  Eigen::AlignedBox3d box;
-  for(const auto& p : shape.points)
-    box.extend(p);
+  const Eigen::AlignedBox3d box = bounding_box(shape.points);
   Indices ends;
   for(std::size_t v = 0; v < shape.points.size(); ++v)
     if(shape.points[v].x() == box.min().x() || shape.points[v].x() == box.max().x())

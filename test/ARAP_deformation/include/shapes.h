@@ -21,7 +21,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
@@ -33,7 +33,9 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-// of the bounding box of points
+Eigen::AlignedBox3d bounding_box(const std::vector<Eigen::Vector3d>& points);
+
+// the diagonal of the bounding box
 double diameter_of(const std::vector<Eigen::Vector3d>& points);
 
 struct Shape
