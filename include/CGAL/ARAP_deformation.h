@@ -536,7 +536,8 @@ public:
   }
 
   /// lets all cells to which the map gives the same number from 0 on share one rotation, as rigid
-  /// parts do; those with a negative number, or none, have their own. What is not in the region of
+  /// parts do; those with a negative number, or none, have their own. Numbers have up to 64 bits with
+  /// a sign. What is not in the region of
   /// interest or next to it does not count. Preprocesses again.
   template <typename GroupMap>
   ARAP::Outcome set_groups(GroupMap groups)
@@ -561,7 +562,8 @@ public:
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
   /// last factorization if few vertices have changed. Does nothing if all is up to date.
-  /// `deform()` calls it where needed. `ARAP::Status` lists the failures. The message of a success
+  /// `deform()` calls it where needed; a time step of `advance()` has another matrix.
+  /// `ARAP::Status` lists the failures. The message of a success
   /// names the unconstrained components, if there are any.
   [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
@@ -670,20 +672,23 @@ public:
   /// @{
 
   /// returns the energy after the last `deform()` or `advance()`, without inertia; not a number
-  /// before the first one, and after `reset()` or a change of the region, the weight of a target,
-  /// the rest shape or the cells.
+  /// before the first one, after `reset()`, and after a change of what it depends on: the region of
+  /// interest, the control vertices and control points, the weight of a target, the rest shape, the
+  /// cells, their stiffness and groups, the bending and the smoothing length.
   double energy() const { return m_session.energy(); }
 
-  /// returns the rotation of the cell of `v` after the last `deform()`; the identity where `v` has
-  /// no cell in the region. \pre `options().cells.has_vertex_cells()`
+  /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`; the identity
+  /// where `v` has no cell in the region, and after a change of the region of interest or the cells
+  /// until the next call. \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {
     CGAL_precondition(options().cells.has_vertex_cells());
     return m_session.rotation_of_vertex(v);
   }
 
-  /// returns the rotation of the cell of `s` after the last `deform()`; the identity where `s` has
-  /// no cell in the region. \pre `!options().cells.has_vertex_cells()`
+  /// returns the rotation of the cell of `s` after the last `deform()` or `advance()`; the identity
+  /// where `s` has no cell in the region, and after a change of the region of interest or the cells
+  /// until the next call. \pre `!options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
     CGAL_precondition(!options().cells.has_vertex_cells());

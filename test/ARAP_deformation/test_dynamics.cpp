@@ -453,6 +453,8 @@ void undo_and_refuse()
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused([](Dynamics& d) { d.time_step = 0; }, "time_step");
   refused([&](Dynamics& d) { d.density = nan; }, "density");
+  for(const double time_step : {1e-160, 1e200}) // alone it is right
+    refused([=](Dynamics& d) { d.time_step = time_step; }, "inertia");
   refused([](Dynamics& d) { d.modulus = -1; }, "modulus");
   refused([](Dynamics& d) { d.damping = -1; }, "damping");
   refused([&](Dynamics& d) { d.acceleration[1] = nan; }, "acceleration");

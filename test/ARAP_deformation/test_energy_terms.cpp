@@ -1071,6 +1071,11 @@ void test_generic_maps()
   CHECK(run(faces, grouped_faces) == run(faces, [&](Deformation& d) {
     d.set_groups([&](Mesh::Face_index f) { return face_group(f); });
   }));
+  CHECK(run(vertices, grouped) == run(vertices, [&](Deformation& d) {
+    d.set_groups([&](Mesh::Vertex_index v) { // an int would not hold them
+      return vertex_group(v) * (std::int64_t(1) << 32);
+    });
+  }));
   CHECK(run(faces, stiff).empty());
   CHECK(run(faces, grouped).empty());
   CHECK(run(vertices, stiff_faces) == plain(vertices));

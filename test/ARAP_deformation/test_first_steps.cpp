@@ -366,6 +366,43 @@ void test_laplacian()
   });
 }
 
+// Where cells are larger, placing a part rigidly is compared with leaving it. Another part keeps
+// its guess, which takes energy.
+void test_laplacian_beside_others()
+{
+  test_case() = "Laplacian guess beside a part that is placed";
+  const Shape alone = sheet(10), both = two_components(alone);
+  const Scenario s = scenario(alone);
+  Options options = options_for(Cell_scheme::k_ring(1), Minimizer::automatic,
+                                Initial_guess::laplacian);
+  options.iterations = 0;
+  const auto points_after = [&](const Shape& shape) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Deformation d(mesh);
+    CHECK(d.set_options(options));
+    d.insert_roi_vertices(vertices(mesh));
+    for(std::size_t v = 0; v < alone.points.size(); ++v)
+      if(s.selection[v] != 1)
+        d.insert_control_vertex(Vertex(v), point(s.targets[v]));
+    if(mesh.number_of_vertices() > alone.points.size())
+      CHECK(d.insert_control_vertex(Vertex(alone.points.size())) &&
+            d.translate(Vertex(alone.points.size()), Kernel::Vector_3(0, 0, 1)));
+    CHECK(d.deform());
+    return points_of(mesh);
+  };
+  const std::vector<Point> expected = points_after(alone), points = points_after(both);
+  double moved = 0;
+  for(std::size_t v = 0; v < alone.points.size(); ++v)
+  {
+    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(points[v], expected[v])), 1e-9);
+    if(s.selection[v] == 1)
+      moved = larger(moved, (vector(points[v]) - alone.points[v]).norm());
+  }
+  CHECK(moved > 0.1);
+  CHECK_AT_MOST((vector(points.back()) - both.points.back() - Eigen::Vector3d(0, 0, 1)).norm(),
+                1e-9);
+}
+
 // Handles on a straight line, up to rounding, leave a rotation about it free: there is none.
 void test_line()
 {
@@ -644,11 +681,15 @@ void test_changes()
     CHECK(!d.deform(1, 0).stages.weights);
 
     const std::vector<Point> before = points_of(mesh);
+    const CGAL::ARAP::Matrix_3x3 rotation = d.rotation(Vertex(60));
+    CHECK(rotation[0] < 0.999);
     weight.set_weight(60, 61, std::nan(""));
-    CHECK(d.deform(5, 0).status == Status::non_finite_weight);
-    CHECK(points_of(mesh) == before);
+    for(int call = 0; call < 2; ++call)
+      CHECK(d.deform(5, 0).status == Status::non_finite_weight);
+    CHECK(points_of(mesh) == before && d.rotation(Vertex(60)) == rotation);
     weight.set_weight(60, 61, 2);
-    CHECK(d.deform(5, 0));
+    const Report mended = d.deform(5, 0);
+    CHECK(mended && mended.stages.weights && !mended.stages.region);
   }
 }
 
@@ -1110,6 +1151,7 @@ int main()
   rigid::test_deformed();
   rigid::test_twist();
   rigid::test_laplacian();
+  rigid::test_laplacian_beside_others();
   rigid::test_line();
   rigid::test_rows();
   undo::test_state();

@@ -338,6 +338,57 @@ struct Faulty_calculator
   }
 };
 
+// What was written before a point could not be is not taken for points that others have moved; and
+// those are seen again after all were written.
+void test_points_after_faults()
+{
+  test_case() = "points after a fault in writing";
+  Mesh mesh = make_mesh<Mesh>(grid("sheet", 6, 6, [](double u, double v) {
+    return Eigen::Vector3d(6 * u, 6 * v, 0);
+  }));
+  const auto points = get(CGAL::vertex_point, mesh);
+  CGAL::ARAP_deformation d(mesh, CGAL::parameters::vertex_point_map(Faulty_point_map{points}));
+  d.insert_roi_vertices(vertices(mesh));
+  const Mesh::Vertex_index fixed(0), moved(48), other(24);
+  d.insert_control_vertex(fixed);
+  d.insert_control_vertex(moved);
+  CHECK(d.translate(moved, Kernel::Vector_3(0, 0, 2)));
+  CHECK(d.deform(5, 0));
+  const auto state = d.state();
+  CHECK(d.translate(moved, Kernel::Vector_3(0, 3, 2)));
+  CHECK(d.deform(5, 0));
+
+  CGAL::ARAP::Options options = d.options();
+  options.initial_guess = CGAL::ARAP::Initial_guess::previous;
+  CHECK(d.set_options(options));
+  const std::vector<Point> before = points_of(mesh);
+  const auto check_fault = [&](const auto& call) {
+    bool has_thrown = false;
+    put_faults.arm(30, false);
+    try { call(); }
+    catch(const Fault&) { has_thrown = true; }
+    put_faults.disarm();
+    CHECK(has_thrown && points_of(mesh) != before);
+  };
+  const auto restore = [&] { CHECK(d.restore(state)); };
+  const auto reset = [&] { d.reset(); };
+  check_fault(restore);
+  CHECK(d.deform(0, 0) && points_of(mesh) == before);
+  check_fault(reset);
+  CHECK(d.deform(0, 0) && points_of(mesh) == before);
+
+  const auto check_seen = [&](const auto& call) {
+    check_fault([&] { static_cast<void>(d.deform(5, 0)); });
+    call();
+    CHECK(d.translate(moved, Kernel::Vector_3(0, 3, 2))); // not rigidly
+    const Point place(1, 2, 30);
+    put(points, other, place);
+    CHECK(d.deform(0, 0) && mesh.point(other) == place);
+  };
+  check_seen(restore);
+  check_seen(reset);
+}
+
 void test_drop_in_class()
 {
   using Deformation =
@@ -365,6 +416,7 @@ int main()
   test_visitors();
   test_domain();
   test_points();
+  test_points_after_faults();
   test_drop_in_class();
   return faults_result();
 }

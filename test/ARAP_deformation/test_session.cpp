@@ -1194,6 +1194,7 @@ void test_all()
     CHECK(d.set_target_position(w, Point(0, 0, 0)).status == CGAL::ARAP::Status::in_a_run);
     CHECK(d.set_target_weight(w, 1).status == CGAL::ARAP::Status::in_a_run);
     CHECK(d.set_options(CGAL::ARAP::Options()).status == CGAL::ARAP::Status::in_a_run);
+    CHECK(d.preprocess().status == CGAL::ARAP::Status::in_a_run);
     CHECK(d.deform().status == CGAL::ARAP::Status::in_a_run);
     return CGAL::ARAP::Visitor_action::proceed;
   }));

@@ -920,6 +920,14 @@ void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>
                     measure == Vertex_measure::angle_change ? 1e-4 : 1e-10);
   }
 
+  Points broken = now;
+  broken[0].y() = std::nan("");
+  const Quality of_broken = quality(domain, rest, broken);
+  CHECK(std::isnan(of_broken.edge_length_error) && std::isnan(of_broken.largest_angle_change) &&
+        std::isnan(of_broken.largest_spike));
+  for(const Vertex_measure measure : all_measures)
+    CHECK(std::isnan(quality_at_vertices(measure, domain, rest, broken)[0]));
+
   // maps of each kind; in the other direction
   std::map<std::size_t, Eigen::Vector3d> some; // the others are where they are now
   some[0] = rest[0];

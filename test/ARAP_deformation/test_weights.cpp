@@ -42,6 +42,37 @@
 #include <utility>
 #include <vector>
 
+// Numbers of corners and weights that an int does not hold are refused before they are allocated.
+namespace large_regions {
+
+using namespace CGAL::ARAP::internal;
+
+template <typename Function>
+void check_refused(const Function& f)
+{
+  bool is_refused = false;
+  try { f(); }
+  catch(const std::length_error&) { is_refused = true; }
+  CHECK(is_refused);
+}
+
+void test_all()
+{
+  test_case() = "regions that are too large";
+  CHECK(to_index(2147483647) == 2147483647);
+  check_refused([] { to_index(2147483648u); });
+  Region region; // of polygons with a thousand million weights each
+  region.first_corner = Array<int>();
+  for(int corner : {0, 45000, 90000, 135000})
+    region.first_corner.push_back(corner);
+  check_refused([&] {
+    weighted_simplices(Edge_weight_model_of<CGAL::ARAP::Clamped_cotangent_weight>(
+                         CGAL::ARAP::Clamped_cotangent_weight()), region);
+  });
+}
+
+} // namespace large_regions
+
 // Edge weights: the identity with the area, the models against each other and against angles.
 namespace simplices {
 
@@ -580,6 +611,7 @@ void test_all()
 
 int main()
 {
+  large_regions::test_all();
   simplices::test_all();
   polygons::test_all();
   edge_map::test_all();

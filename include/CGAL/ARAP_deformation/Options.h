@@ -68,8 +68,9 @@ struct Options
   /// else positive and finite. The energy gains \f$b^2 m_i \|f_i(p') - R_i f_i(p)\|^2\f$ at each
   /// vertex, as \cgalCite{Oehri2025HigherOrder} proposes, see \ref ARAPDeformation_BendingTheory;
   /// \ref ARAPDeformation_Bending says which to choose. Needs cells at
-  /// vertices. A new value requires a factorization. More than a million times the size of what can
-  /// move is refused.
+  /// vertices. A new value requires weights and a factorization, and 0 instead of another one, or the
+  /// other way round, an ordering too. More than a million times the size of what can move is
+  /// refused.
   double bending_length = 0;
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
@@ -77,7 +78,8 @@ struct Options
   /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighbouring cells, after \cgalCite{levismooth},
   /// see \ref ARAPDeformation_SmoothRotationsTheory. Rotations are then part of the state, and the
   /// energy is minimized over positions and rotations in turns: see
-  /// \ref ARAPDeformation_SmoothRotations.
+  /// \ref ARAPDeformation_SmoothRotations. A new value requires weights and a factorization; 0
+  /// instead of another one, or the other way round, preprocessing again.
   double smoothing_length = 0;
 
   /// the initial guess of each run.
@@ -97,8 +99,9 @@ struct Options
 
   /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
   /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
-  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 200. Local/global runs,
-  /// time steps and runs with `smoothing_length` do not look.
+  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 230, and a run may
+  /// look several times; in place of what the quasi-Newton steps need it takes some 400 bytes for
+  /// each vertex. Local/global runs, time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of

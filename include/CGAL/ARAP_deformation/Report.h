@@ -42,13 +42,14 @@ struct Phase_seconds
 /// \ref ARAPDeformation_Ends.
 enum class End
 {
-  unknown, ///< nothing: the run did not converge, or did not look
+  unknown, ///< nothing: the run did not converge, or did not look, or a solver failed as it looked
   minimum, ///< a local minimum: no direction of negative curvature was found, and the gap is within
            ///< the tolerance by the second derivative, too; or the energy is next to zero
   flat,    ///< there is a direction of negative curvature, but following the last ones gained less
            ///< than a hundredth of what the tolerance allows
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
-            ///< exclude a negative curvature
+            ///< exclude a negative curvature; or by the second derivative the gap is larger, but
+            ///< the energy falls no more
 };
 
 /// \ingroup PkgARAPDeformationRun

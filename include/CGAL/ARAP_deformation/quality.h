@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 
@@ -114,7 +115,7 @@ public:
         }
       if(measure == Vertex_measure::angle_change)
         for_each_angle(s, [&](std::size_t v, double change) {
-          result[v] = (std::max)(result[v], change);
+          result[v] = larger(result[v], change);
         });
       for_each_edge(s, [&](std::size_t v, std::size_t w) {
         const Coordinates e = difference(m_rest[w], m_rest[v]),
@@ -135,10 +136,10 @@ public:
     }
     for(std::size_t v = 0; v < n; ++v)
       if(measure == Vertex_measure::edge_length_error)
-        result[v] = weights[v] > 0 ? std::sqrt(result[v] / weights[v]) : 0;
+        result[v] = weights[v] != 0 ? std::sqrt(result[v] / weights[v]) : 0;
       else if(measure == Vertex_measure::size_change)
-        result[v] = weights[v] > 0 ? result[v] / weights[v] : 0;
-      else if(measure == Vertex_measure::spike && weights[v] > 0 && rest_weights[v] > 0)
+        result[v] = weights[v] != 0 ? result[v] / weights[v] : 0;
+      else if(measure == Vertex_measure::spike && weights[v] != 0 && rest_weights[v] != 0)
         result[v] = length(sums[v]) / weights[v] - length(rest_sums[v]) / rest_weights[v];
     return result;
   }
@@ -188,7 +189,7 @@ public:
     const auto largest = [this](Vertex_measure measure) {
       double value = 0;
       for(double at_vertex : at_vertices(measure))
-        value = (std::max)(value, at_vertex);
+        value = larger(value, at_vertex);
       return value;
     };
     result.largest_angle_change = largest(Vertex_measure::angle_change);

@@ -215,7 +215,7 @@ inline Cells ring_cells(const Index_lists& neighbours, int number_of_cells, unsi
             last_cell[j] = c;
             items.push_back(j);
           }
-    cells.sets.begin.push_back(static_cast<int>(items.size()));
+    cells.sets.begin.push_back(to_index(items.size()));
   }
   return cells;
 }

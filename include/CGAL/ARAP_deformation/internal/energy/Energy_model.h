@@ -17,6 +17,8 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 
+#include <cstdint>
+
 namespace CGAL {
 namespace ARAP {
 namespace internal {
@@ -27,7 +29,7 @@ struct Energy_model
 {
   Cell_scheme cells = Cell_scheme::spokes_and_rims();
   Array<double> stiffness;     // else 1
-  Array<int> group;            // the cells of a group share a rotation; -1 for those in none
+  Array<std::int64_t> group;   // the cells of a group share a rotation; -1 for those in none
   double bending_length = 0;
   double smoothing_length = 0;
   // If not empty, cells at vertices are fitted in this order, see Sequential_fit; the factor of one

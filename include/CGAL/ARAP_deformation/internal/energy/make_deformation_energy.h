@@ -35,6 +35,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -259,7 +260,7 @@ inline Deformation_energy make_deformation_energy(const Edge_weight_model& model
       make_sequential_fit(energy_model, region, energy.number_of_cells()));
   if(!energy_model.group.empty())
   {
-    std::vector<std::pair<int, int>> members; // each a group and a cell
+    std::vector<std::pair<std::int64_t, int>> members; // each a group and a cell
     for(int c = 0; c < energy.number_of_cells(); ++c)
       if(energy_model.group[c] >= 0)
         members.emplace_back(energy_model.group[c], c);

@@ -151,13 +151,14 @@ inline Simplices weighted_simplices(const Edge_weight_model& model, const Region
   Simplices simplices;
   simplices.corners = {region.first_corner, region.corners};
   simplices.first_weight.reserve(region.first_corner.size());
-  int number_of_weights = 0;
+  std::size_t number_of_weights = 0;
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    simplices.first_weight.push_back(number_of_weights);
-    number_of_weights += region.number_of_corners(s) * (region.number_of_corners(s) - 1) / 2;
+    simplices.first_weight.push_back(to_index(number_of_weights));
+    const auto k = static_cast<std::size_t>(region.number_of_corners(s));
+    number_of_weights += k * (k - 1) / 2;
   }
-  simplices.weights = Array<double>(number_of_weights);
+  simplices.weights = Array<double>(to_index(number_of_weights));
   for_each_block(simplices.first_weight.size(), [&](std::size_t begin, std::size_t end) {
     for(std::size_t s = begin; s < end; ++s)
       compute_simplex_weights(model, region, static_cast<int>(s),
@@ -229,7 +230,9 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
     }
   });
   std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
-                   stars.neighbours.begin.begin());
+                   stars.neighbours.begin.begin(), [](int a, int b) {
+                     return to_index(static_cast<std::size_t>(a) + static_cast<std::size_t>(b));
+                   });
   stars.neighbours.items = Array<int>(stars.neighbours.begin.back());
   stars.weights = Array<double>(stars.neighbours.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {

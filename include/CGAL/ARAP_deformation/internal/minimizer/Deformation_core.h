@@ -74,7 +74,8 @@ public:
                    Minimization_order order, unsigned int number_of_threads);
   ~Deformation_core();
 
-  // what is wrong with the region, if anything: then nothing else may be called
+  // What is wrong with the region or its weights, if anything: then only the weights may be
+  // computed again, and rotations are what they were.
   const Diagnosis& diagnosis() const { return m_diagnosis; }
 
   // whether the weights have changed since they were computed
@@ -137,6 +138,9 @@ private:
   template <typename Function>
   void set_rotations_of_cells(const Function& rotation_at,
                               std::vector<Matrix_3x3>& rotations) const;
+  bool are_all_placed(const Array<char>& is_placed) const; // all free vertices
+  bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
+                          Array<Coordinates>& x);
   bool can_have_coarse_start(const Options& options) const;
   Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
   std::vector<std::pair<int, Matrix_3x3>>

@@ -358,6 +358,41 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
+{
+  return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
+                    [](char placed, char fixed) { return placed || fixed; });
+}
+
+// Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
+// coordinates. Returns false if the solver fails.
+CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
+                                          Array<Coordinates>& x)
+{
+  if(are_all_placed(is_placed))
+    return true;
+  if(!m_state->stars)
+    m_state->stars = star_edge_sets(*m_models.weight,
+                                    weighted_simplices(*m_models.weight, m_region), m_region);
+  const Array<Coordinates> before = x;
+  Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
+  if(!guess(targets, x))
+    return false;
+  // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
+  Bounding_box box;
+  include_near(m_region.rest, box);
+  include_near(before, box);
+  box.include(targets.soft);
+  box.include(targets.hard);
+  const double size = box.squared_length();
+  include_near(x, box);
+  if(!guess.is_found() || !(box.squared_length() <= 4 * size))
+    x = before;
+  return true;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
                                          Targets& targets, Array<Coordinates>& x,
                                          std::vector<Matrix_3x3>& rotations, Report& report)
@@ -379,30 +414,14 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                           is_laplacian, x);
     }
   }
-  const auto are_all_placed = [&] {
-    return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
-                      [](char placed, char fixed) { return placed || fixed; });
-  };
-  if(is_laplacian && !are_all_placed())
+  const bool is_any_placed = std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
+  if(is_laplacian)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!m_state->stars)
-      m_state->stars = star_edge_sets(*m_models.weight,
-                                      weighted_simplices(*m_models.weight, m_region), m_region);
-    const Array<Coordinates> before = x;
-    Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
-    if(!guess(targets, x))
+    if(!guess_by_laplacian(is_placed, targets, x) ||
+       (!is_certain && is_any_placed &&
+        !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
       return {Status::solver_failed};
-    // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
-    Bounding_box box;
-    include_near(m_region.rest, box);
-    include_near(before, box);
-    box.include(targets.soft);
-    box.include(targets.hard);
-    const double size = box.squared_length();
-    include_near(x, box);
-    if(!guess.is_found() || !(box.squared_length() <= 4 * size))
-      x = before;
   }
   m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
   const bool is_quasi_newton =
@@ -426,7 +445,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, m_region.rest, targets, x, rotations,
                             m_state->coarse_metric, report);
-  if(!is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end())
+  if(!is_certain && is_any_placed)
   {
     x.swap(unplaced);
     if(!minimization.try_positions(std::move(unplaced)))
@@ -452,7 +471,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     }, is_placed, only_if_lower);
   };
   Start start = Start::taken;
-  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed())
+  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed(is_placed))
   {
     Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
@@ -465,7 +484,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   // where the guess is rejected, as where the last run ended with a spike, there is no reason to
   // begin again
   if((is_tried || m_is_coarse) && start == Start::taken && is_certain && is_quasi_newton &&
-     can_have_coarse_start(options) && !are_all_placed())
+     can_have_coarse_start(options) && !are_all_placed(is_placed))
   {
     Array<Matrix_3x3> rotations_of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);

@@ -81,15 +81,15 @@ public:
         return status;
     }
     const double gap = look.gap();
+    report.estimated_relative_gap =
+      (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
     if(gap <= tolerated)
     {
       report.end = is_saddle ? End::flat
                  : finding == Second_look::Finding::nothing_yet ? End::undecided : End::minimum;
-      report.estimated_relative_gap =
-        (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      if(m_number_of_moves == most_moves || m_small_gains >= most_small_gains ||
+      if(m_number_of_moves >= most_moves || m_small_gains >= most_small_gains ||
          (!is_saddle && does_model_hold(look, tolerated)))
         return Status::converged; // the gap is certain, or as certain as it becomes
     }
@@ -105,7 +105,11 @@ public:
                   descend_along(direction, -sign * first, 100 * first, relaxing_steps);
     }
     if(!is_lower) // rounding errors are all that is left
+    {
+      if(gap > tolerated)
+        report.end = End::undecided;
       return Status::converged;
+    }
     ++m_number_of_moves;
     ++(is_saddle ? report.saddles_left : report.plateaus_left);
     report.end = End::unknown;

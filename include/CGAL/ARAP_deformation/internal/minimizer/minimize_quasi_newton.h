@@ -83,9 +83,10 @@ inline Status minimize_quasi_newton(Minimization& run)
   {
     if(status == Status::converged)
     {
-      memory = Quasi_newton_memory(run.number_of_vertices); // the look needs as much
       schedule.restart();
-      d = next_d = before = {};
+      memory = Quasi_newton_memory(run.number_of_vertices); // the look needs memory of its own
+      for(Array<Coordinates>* const vector : {&d, &next_d, &before})
+        Array<Coordinates>().swap(*vector);
       status = examine_end();
       before.resize(run.number_of_vertices);
       t = 0;

@@ -348,7 +348,7 @@ private:
     return difference(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(w)]);
   }
 
-  Array<int> m_part;                   // for each movable vertex, -1 if it is fixed
+  Array<int> m_part;                   // for each movable vertex; negative if it is fixed
   Index_lists m_free, m_fixed, m_rows; // of each part, with the fixed vertices that share its cells
   Array<char> m_can_be_rigid;          // for each part
 };

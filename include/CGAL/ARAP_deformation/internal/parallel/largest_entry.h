@@ -25,10 +25,12 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// the larger of two numbers, or NaN if one of them is
+inline double larger(double a, double b) { return b <= a || std::isnan(a) ? a : b; }
+
 // the largest absolute value of a coordinate of n points, or NaN if there is one
 inline double largest_entry(const Coordinates* points, std::size_t n)
 {
-  const auto larger = [](double a, double b) { return b <= a || std::isnan(a) ? a : b; };
   std::vector<double> of_blocks(n / default_block_size + 1, 0);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     double largest = 0;

@@ -21,12 +21,22 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// A number of items as an index, which is an int to save memory.
+inline int to_index(std::size_t number)
+{
+  if(number > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
+    throw std::length_error("CGAL::ARAP: the region has more than 2147483647 corners, neighbours "
+                            "or weights");
+  return static_cast<int>(number);
+}
 
 // Lists of indices: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
 struct Index_lists
@@ -39,7 +49,8 @@ struct Index_lists
 
 // For each first number that pairs have, in ascending order, the list of their second numbers, in
 // ascending order too.
-inline Index_lists lists_by_first(std::vector<std::pair<int, int>> pairs)
+template <typename Number>
+Index_lists lists_by_first(std::vector<std::pair<Number, int>> pairs)
 {
   std::sort(pairs.begin(), pairs.end());
   Index_lists result;

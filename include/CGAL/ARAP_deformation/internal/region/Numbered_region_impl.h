@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/linkage.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region.h>
 
 #include <algorithm>
@@ -91,7 +92,7 @@ void Numbered_region::add_simplex(bool are_polygons_allowed)
     m_refusal = Status::too_many_corners;
   m_is_refused |= m_refusal == Status::too_many_corners ||
                   !is_simplex(begin, end, flat.dimension, are_polygons_allowed);
-  flat.first_corner.push_back(static_cast<int>(flat.corners.size()));
+  flat.first_corner.push_back(to_index(flat.corners.size()));
 }
 
 CGAL_ARAP_INLINE_FUNCTION

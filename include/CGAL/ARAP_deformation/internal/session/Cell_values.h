@@ -26,6 +26,7 @@
 #include <CGAL/ARAP_deformation/of_simplices.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <type_traits>
 #include <utility>
@@ -50,10 +51,10 @@ public:
   template <typename Map>
   void set_stiffness(Map map) { m_stiffness.set(std::move(map), 1.0); }
   template <typename Map>
-  void set_groups(Map map) { m_group.set(std::move(map), -1); }
+  void set_groups(Map map) { m_group.set(std::move(map), std::int64_t(-1)); }
 
   void clear_stiffness() { m_stiffness = Values<double>(); }
-  void clear_groups() { m_group = Values<int>(); }
+  void clear_groups() { m_group = Values<std::int64_t>(); }
   bool has_groups() const { return !m_group.is_empty(); }
 
   // order() returns the vertices in the order in which their cells are fitted; see Sequential_fit
@@ -183,7 +184,7 @@ private:
   }
 
   Values<double> m_stiffness;
-  Values<int> m_group;
+  Values<std::int64_t> m_group;
   std::function<std::vector<vertex_descriptor>()> m_fit_order;
   double m_neighbour_weight = 0;
 };

@@ -133,14 +133,15 @@ public:
     m_inertia = inertia;
   }
 
-  // Brings all stages up to date, and adds those that this took. Nothing is changed if it fails.
+  // Brings all stages up to date, and adds those that this took. If it fails, rotations and
+  // positions are as they were.
   Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
                   Stages& stages)
   {
     if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
     {
       stages.weights = true;
-      m_ready.constraints = none;
+      m_ready.values = m_ready.constraints = none;
       Energy_model model;
       m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
       if(!m_outcome)
@@ -149,7 +150,6 @@ public:
       if(core().diagnosis().status != Status::success)
       {
         m_outcome = m_prepared->explain(core().diagnosis());
-        m_ready.region = none;
         return m_outcome;
       }
       m_ready.values = m_present.values;

@@ -64,9 +64,12 @@ public:
 
   Outcome preprocess()
   {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
     Outcome prepared = m_options.check();
     if(!prepared)
       return prepared;
+    m_prepared.set_inertia(0); // of the last time step
     prepared = prepare();
     if(prepared)
       prepared.message +=
@@ -94,12 +97,12 @@ public:
   Step_report advance(const Dynamics& dynamics, const Force& force, const Visitor& visitor)
   {
     Step_report report;
-    static_cast<Outcome&>(report) = dynamics.check();
+    Time_step step = {dynamics};
+    static_cast<Outcome&>(report) = step.check();
     if(!report)
       return report;
     Options options = m_options;
     options.initial_guess = Initial_guess::previous;
-    Time_step step = {dynamics};
     {
       Scoped_seconds total(report.seconds.total);
       static_cast<Outcome&>(report) = advance(step, force, options, visitor, report);
@@ -137,7 +140,6 @@ public:
 
 protected:
   using Base::domain;
-  using Base::m_are_points_written;
   using Base::m_energy;
   using Base::m_is_in_a_run;
   using Base::m_is_region_written;
@@ -147,6 +149,7 @@ protected:
   using Base::m_vertices;
   using Base::refuse_in_a_run;
   using Base::region_changed;
+  using Base::set_points;
   using Base::takes_points;
 
   // whether a vertex has left the region of interest and is to return to the rest shape
@@ -300,10 +303,10 @@ private:
   void write_points(Array<Coordinates>& positions)
   {
     std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
-    m_are_points_written = false; // the map of a user may throw
-    for(const auto& [k, point] : points)
-      domain().set_point(m_vertices.entries()[k].vertex, point);
-    m_are_points_written = true;
+    set_points([&] {
+      for(const auto& [k, point] : points)
+        domain().set_point(m_vertices.entries()[k].vertex, point);
+    });
     for(auto& [k, point] : points)
       m_vertices.entries()[k].present = std::move(point);
     note_region_as_written();

@@ -199,7 +199,6 @@ public:
       constraints_changed();
   }
 
-  // replaces the target t of a control vertex or a control point by f(t)
   // The stiffness of cells, and which share a rotation. `change` is called with the values.
   template <typename Function>
   Outcome change_cell_values(const Function& change)
@@ -283,8 +282,17 @@ protected:
     return true;
   }
 
+  // Writes points by a function: the map of a user may throw.
+  template <typename Function>
+  void set_points(const Function& write)
+  {
+    m_are_points_written = false;
+    write();
+    m_are_points_written = true;
+  }
+
   // Whether points are looked at that others may have moved. CGAL's class does not look at them,
-  // and after a run that failed in writing, some may be the run's own.
+  // and after a call that failed in writing, some may be its own.
   bool takes_points() const
   {
     return m_rules.order == Minimization_order::local_first && domain().is_in_place() &&
@@ -297,7 +305,7 @@ protected:
   Options m_options;
   double m_energy = not_a_number;
   bool m_is_in_a_run = false;
-  bool m_are_points_written = true; // those of the last run, all of them
+  bool m_are_points_written = true; // by the last call that writes points, all of them
   bool m_is_region_written = true;  // whether note_region_as_written() was called since its change
   Cell_values<Domain> m_cell_values;
   Prepared_region<Domain> m_prepared;

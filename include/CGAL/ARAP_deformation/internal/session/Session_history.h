@@ -60,9 +60,11 @@ public:
     std::vector<Point> points = copies(&Entry::rest), targets = points, held_targets;
     for(const auto& held : m_vertices.points())
       held_targets.push_back(rest_point(held.first));
-    for(const auto& entry : m_vertices.entries())
-      if(entry.is_roi || !m_rules.are_erased_put_back)
-        domain().set_point(entry.vertex, entry.rest);
+    set_points([&] {
+      for(const auto& entry : m_vertices.entries())
+        if(entry.is_roi || !m_rules.are_erased_put_back)
+          domain().set_point(entry.vertex, entry.rest);
+    });
     move_to(&Entry::present, points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
@@ -137,11 +139,13 @@ public:
     // what may throw ends with the points; this object changes only after it
     const std::vector<Entry>& before = m_vertices.entries();
     const std::vector<Entry>& after = change.state.entries;
-    for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
-      if(k >= after.size() || before[k].vertex != after[k].vertex)
-        domain().set_point(before[k].vertex, m_vertices.first_point(k));
-    for(const Entry& entry : after)
-      domain().set_point(entry.vertex, entry.present);
+    set_points([&] {
+      for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
+        if(k >= after.size() || before[k].vertex != after[k].vertex)
+          domain().set_point(before[k].vertex, m_vertices.first_point(k));
+      for(const Entry& entry : after)
+        domain().set_point(entry.vertex, entry.present);
+    });
     const bool are_values_same = m_prepared.has_values_of(state.prepared);
     m_vertices.restore(std::move(change));
     m_prepared.restore(std::move(state.prepared));
@@ -163,6 +167,7 @@ protected:
   using Base::refuse_in_a_run;
   using Base::region_changed;
   using Base::replace_target;
+  using Base::set_points;
   using Base::takes_points;
 
 private:

@@ -343,8 +343,8 @@ public:
 
   Coordinates velocity(const Entry* entry) const
   {
-    const auto k = static_cast<std::size_t>(entry - m_entries.data());
-    return entry != nullptr && k < m_velocities.size() ? m_velocities[k] : Coordinates{0, 0, 0};
+    const std::size_t k = entry != nullptr ? entry - m_entries.data() : m_velocities.size();
+    return k < m_velocities.size() ? m_velocities[k] : Coordinates{0, 0, 0};
   }
 
   // false if v is not in the region of interest

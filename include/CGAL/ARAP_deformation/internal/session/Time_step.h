@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Dynamics.h>
+#include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
@@ -33,6 +34,9 @@ struct Time_step
   Array<Coordinates> start = {}, goals = {}; // x and y, of the vertices of the region
 
   double damping() const { return 1 + dynamics.damping * dynamics.time_step; }
+
+  // of the dynamics, one by one and together
+  Outcome check() const;
 
   // w_v for a unit of area or volume
   double inertia() const;

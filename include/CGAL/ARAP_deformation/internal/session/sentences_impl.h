@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
+#include <CGAL/ARAP_deformation/internal/solver/Hard_rows.h>
 
 namespace CGAL {
 namespace ARAP {
@@ -88,7 +89,6 @@ inline std::string about_isolated_controls(const std::vector<std::size_t>& verti
          ": a control vertex without an incident simplex moves nothing else";
 }
 
-// the sentence for a status, or what follows the name of the vertex or the simplex concerned
 CGAL_ARAP_INLINE_FUNCTION
 void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bool has_no_control,
                  const std::vector<std::size_t>& isolated_controls)
@@ -101,6 +101,7 @@ void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bo
                     about_unconstrained_components(report.unconstrained_components);
 }
 
+// the sentence for a status, or what follows the name of the vertex or the simplex concerned
 inline const char* sentence(Status status, const std::string& what)
 {
   switch(status)
@@ -138,6 +139,7 @@ inline const char* sentence(Status status, const std::string& what)
     return ": its position is determined by other hard targets; erase one of them, or give "
            "it a finite weight";
   case Status::too_many_control_points:
+    static_assert(Hard_rows::most_rows == 3000, "said here");
     return "there are more than 3000 hard control points; give them finite weights";
   case Status::not_a_simplex:
     return " is incident to a face that is not a polygon, or to a cell that is not a "
