@@ -106,11 +106,12 @@ inline boost::program_options::options_description described_options()
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
      "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
     ("soft", in_order()->value_name("WEIGHT"),
-     "its targets pull with this weight, instead of being met; edges have weights of "
-     "about 1 on a surface, and of their length in a volume")
+     "its targets pull with this weight, instead of being met; an edge weighs about 1 on a "
+     "surface, and about its length in a volume")
     ("onto", in_order()->value_name("PLANE"),
      "to this plane, plane:X,Y,Z,NX,NY,NZ, along which they glide; the plane moves as the handle")
-    ("turn", "its rotation is that of the cells around it: even one vertex turns its surroundings")
+    ("turn",
+     "its rotation is prescribed to the cells at it: even one vertex turns its surroundings")
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
     ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")
     ("rigid", in_order()->value_name("WHAT"),
@@ -154,7 +155,7 @@ inline boost::program_options::options_description described_options()
      "the length over which rotations are made smooth, as such a share")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
      "cotangent (with spokes the energy can be negative), clamped_cotangent, uniform, or "
-     "safe_cotangent: clamped for spokes only")
+     "safe_cotangent: clamped for stars (spokes, k_ring) only")
     ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
      "quasi_newton unless the tolerance is 0")
@@ -180,7 +181,7 @@ inline boost::program_options::options_description described_options()
      "iterations, more memory")
     ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
        ->value_name("N"),
-     "use at most N threads; 0: one per processor");
+     "use at most N threads; 0: as many as processors");
   dynamics.add_options()
     ("gravity", value<std::string>()->value_name("X,Y,Z"),
      "each of the --frames is a time step under this acceleration, in any consistent units")
@@ -202,7 +203,8 @@ inline void print_help(std::ostream& out)
          "    --rotate x 60 50%,50%,40%\n\n"
          "holds the lowest twentieth of the shape, turns the top by 60 degrees about a\n"
          "point at two fifths of the height, and lets the rest follow so that every small\n"
-         "part of it only rotates (Sorkine and Alexa 2007).\n\n"
+         "part of it turns and moves, but stretches as little as possible (Sorkine and\n"
+         "Alexa 2007).\n\n"
          "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
          "in a .mesh (Medit), .msh (Gmsh, text or binary), .vtk (text) or .vtu file. OUT is\n"
          "of the same kind; a pipe gets the format of MESH. A note says what OUT does not\n"
@@ -323,6 +325,8 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
   const std::string& axis = values[0];
   if(axis == "x" || axis == "y" || axis == "z")
     step.axis[axis[0] - 'x'] = 1;
+  else if(split(axis).size() != 3)
+    throw Usage_error("--rotate " + axis + ": the axis must be x, y, z or a vector X,Y,Z");
   else
   {
     const std::vector<double> v = numbers("--rotate", axis, "x,y,z");
@@ -470,11 +474,23 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
   if(values.count("view"))
   {
     const std::string text = values["view"].as<std::string>();
-    const bool is_direction = split(text).size() != 2;
+    const bool is_direction = split(text).size() == 3;
     line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
     if(is_direction && line.view == std::vector<double>(3, 0))
       throw Usage_error("--view 0,0,0 is no direction");
   }
+}
+
+// The names of options may be written with - for _.
+inline std::string known_spelling(std::string argument,
+                                  const boost::program_options::options_description& all)
+{
+  if(argument.rfind("--", 0) != 0)
+    return argument;
+  const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
+  std::string name = argument.substr(2, length);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return all.find_nothrow(name, false) ? argument.replace(2, length, name) : argument;
 }
 
 inline Command_line parse_command_line(int argc, char** argv)
@@ -483,9 +499,12 @@ inline Command_line parse_command_line(int argc, char** argv)
   po::options_description all = described_options();
   all.add_options()("mesh", po::value<std::string>()->required());
   po::variables_map values;
+  std::vector<std::string> arguments;
+  for(int k = 1; k < argc; ++k)
+    arguments.push_back(known_spelling(argv[k], all));
   try
   {
-    const auto parsed = po::command_line_parser(argc, argv)
+    const auto parsed = po::command_line_parser(arguments)
       .options(all)
       .positional(po::positional_options_description().add("mesh", 1))
       .extra_style_parser(parse_several)

@@ -67,12 +67,14 @@ using Call_turn = Requires_convertible<
 
 /// \ingroup PkgARAPDeformationRef
 /// \brief deforms a shape as rigidly as possible \cgalCite{Sorkine2007AsRigidAs}: some vertices
-/// move to target positions, and the others follow so that every small part only rotates.
+/// move to target positions, and the others follow so that every small part turns and moves, but
+/// stretches and shears as little as possible.
 ///
 /// The *rest shape* is the shape at construction. Only vertices in the *region of interest* move:
 /// its *control vertices* move to their targets, or are pulled towards them, see
-/// `set_target_weight()`; its other vertices are *free* and are solved for. All vertices outside
-/// the region are *fixed*, and so are free vertices without an incident simplex.
+/// `set_target_weight()`; its other vertices are *free* and are solved for. Vertices outside the
+/// region are *fixed*, and so are those in it, other than control vertices, that have no incident
+/// simplex.
 ///
 /// Time and memory are proportional to the size of the region of interest, not of the mesh, if the
 /// mesh has, or is given, an index map. The mesh must outlive the object. While the object exists,
@@ -295,9 +297,10 @@ public:
   /// or soft, has all the functions below that the target of a control vertex has. `ARAP::locate()`
   /// finds the simplex and the coordinates of a point.
   ///
-  /// Control points keep the region of interest, if it has their corners. Hard ones must not
-  /// determine each other: else a run fails with `ARAP::Status::dependent_target`, as one in a
-  /// triangle does that has a hard target at each corner. There may be up to 3000 of them.
+  /// Inserting a control point does not change the region of interest if its corners are in it.
+  /// Hard ones must not determine each other: otherwise a run fails with
+  /// `ARAP::Status::dependent_target`, as one in a triangle does that has a hard target at each
+  /// corner. There may be up to 3000 of them.
   /// @{
 
   /// \brief inserts a control point in the simplex `s`, and the corners of `s` with non-zero
@@ -419,9 +422,9 @@ public:
     });
   }
 
-  /// transforms targets, or puts them where the transformation takes the points of the rest shape,
-  /// which does not add up over the frames of a drag. `t(point)` is a `Point`, as for
-  /// `CGAL::Aff_transformation_3`.
+  /// transforms targets, or puts them where the transformation takes the points of the rest shape:
+  /// that always starts there, so that repeated calls do not add up. `t(point)` is a `Point`, as
+  /// for `CGAL::Aff_transformation_3`.
   template <typename Handles, typename Transformation>
   ARAP::Outcome transform(const Handles& handles, const Transformation& t,
                           ARAP::Transformed transformed = ARAP::Transformed::targets)
@@ -536,9 +539,9 @@ public:
   }
 
   /// lets all cells to which the map gives the same number from 0 on share one rotation, as rigid
-  /// parts do; those with a negative number, or none, have their own. Numbers have up to 64 bits with
-  /// a sign. What is not in the region of
-  /// interest or next to it does not count. Preprocesses again.
+  /// parts do; those with a negative number, or none, have their own. Numbers are at most
+  /// \f$2^{63}-1\f$. What is not in the region of interest or next to it does not count.
+  /// Preprocesses again.
   template <typename GroupMap>
   ARAP::Outcome set_groups(GroupMap groups)
   {
@@ -582,6 +585,8 @@ public:
   }
 
   /// deforms with a number of iterations and a tolerance for this call only, see `ARAP::Options`.
+  /// With `ARAP::Minimizer::automatic` a tolerance of 0 also selects local/global: for the frames
+  /// of a drag, after which `deform()` goes on to the minimum.
   [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance)
   {
     return deform(iterations, tolerance, ARAP::Default_visitor());
@@ -647,12 +652,12 @@ public:
   }
 
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
-  /// the weights of the targets, and no rotation that a control vertex prescribes. Targets that
-  /// are sets become points.
+  /// the weights of the targets, but erases the rotations that control vertices prescribe. Targets
+  /// that are sets become points.
   void reset() { m_session.reset(); }
 
-  /// makes the current shape the rest shape. Keeps the targets and their weights, and no rotation
-  /// that a control vertex prescribes.
+  /// makes the current shape the rest shape. Keeps the targets and their weights, but erases the
+  /// rotations that control vertices prescribe.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
 
   /// returns the region of interest, the control vertices and control points, their targets and
@@ -662,8 +667,8 @@ public:
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
-  /// from it. What is prepared for the same region serves as it is. Linear time. Vertices that have
-  /// entered the region of interest since return to where they were before. Returns
+  /// from it. If the region is the same, its preprocessing is used again. Linear time. Vertices
+  /// that have entered the region of interest since return to where they were before. Returns
   /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}
@@ -682,7 +687,8 @@ public:
   /// until the next call. \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {
-    CGAL_precondition(options().cells.has_vertex_cells());
+    CGAL_precondition_msg(options().cells.has_vertex_cells(),
+                          "cells are simplices: call simplex_rotation()");
     return m_session.rotation_of_vertex(v);
   }
 
@@ -691,7 +697,8 @@ public:
   /// until the next call. \pre `!options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
-    CGAL_precondition(!options().cells.has_vertex_cells());
+    CGAL_precondition_msg(!options().cells.has_vertex_cells(),
+                          "cells are at vertices: call rotation()");
     return m_session.rotation_of_simplex(s);
   }
   /// @}
@@ -704,7 +711,8 @@ private:
     using Known = std::conditional_t<std::is_same_v<Handle, ARAP::Control_point>,
                                      ARAP::Control_point, vertex_descriptor>;
     const Known known = static_cast<Known>(handle);
-    CGAL_precondition(m_session.vertices().find_target(known) != nullptr);
+    CGAL_precondition_msg(m_session.vertices().find_target(known) != nullptr,
+                          "what is no control vertex or control point has no target: insert it");
     return known;
   }
 

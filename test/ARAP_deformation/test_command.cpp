@@ -470,6 +470,7 @@ void test_refusals()
   check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
   check_refused("in.off --minimizer newton" + rest, 2, "automatic, local_global, quasi_newton");
   check_refused("in.off --initial_guess none" + rest, 2, "rotations, laplacian");
+  check_refused("in.off --initial-guess none" + rest, 2, "rotations, laplacian");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");
@@ -832,7 +833,8 @@ void test_picks()
   refuse("--handle box:1,2,3", 2, "expected the numbers x0,y0,z0,x1,y1,z1");
   refuse("--handle box:1,2,3,4,5,x", 2, "'x' is not a finite number");
   refuse("--handle near:nan,0,0", 2, "'nan' is not a finite number");
-  refuse("--handle z:0.. --rotate w 90", 2, "--rotate: 'w' is not a finite number");
+  refuse("--handle z:0.. --rotate w 90", 2,
+         "--rotate w: the axis must be x, y, z or a vector X,Y,Z");
   refuse("--handle z:0.. --rotate 0,0,0 90", 2, "has no direction");
   refuse("--handle z:0.. --rotate z up", 2, "--rotate: 'up' is not a finite number");
   refuse("--handle z:0.. --move 1,2", 2, "--move: expected the numbers dx,dy,dz");
@@ -844,7 +846,7 @@ void test_picks()
   refuse("--handle z:0.. --transform in.def", 2, "leave out --move and --rotate");
   refuse("--handle z:0.. --selection in.sel", 2, "leave out --handle");
   refuse("--fix z:0..", 2, "--move is for the --handle before it");
-  refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers x,y,z");
+  refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers azimuth,elevation");
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");

@@ -68,8 +68,8 @@ struct Options
   /// else positive and finite. The energy gains \f$b^2 m_i \|f_i(p') - R_i f_i(p)\|^2\f$ at each
   /// vertex, as \cgalCite{Oehri2025HigherOrder} proposes, see \ref ARAPDeformation_BendingTheory;
   /// \ref ARAPDeformation_Bending says which to choose. Needs cells at
-  /// vertices. A new value requires weights and a factorization, and 0 instead of another one, or the
-  /// other way round, an ordering too. More than a million times the size of what can move is
+  /// vertices. A new value requires weights and a factorization, and 0 instead of another one, or
+  /// the other way round, an ordering too. More than a million times the size of what can move is
   /// refused.
   double bending_length = 0;
 

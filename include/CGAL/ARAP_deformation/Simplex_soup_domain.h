@@ -47,7 +47,8 @@ namespace ARAP {
 ///
 /// \tparam Dimension 2 if the simplices are triangles or polygons, 3 if they are tetrahedra
 /// \tparam PointRange a model of `RandomAccessContainer` of points. The points have `operator[]`
-///         and a constructor from three coordinates, or from two for a surface in the plane.
+///         and are made of three coordinates, in parentheses or braces, or of two for a surface in
+///         the plane: points of \cgal, `std::array<double, 3>`, `Eigen::Vector3d`.
 /// \tparam SimplexRange a model of `RandomAccessContainer` of ranges of integers, such as
 ///         `std::vector<std::array<int, 3>>`. The corners of a polygon are listed in order around
 ///         it.

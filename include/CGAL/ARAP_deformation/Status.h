@@ -38,7 +38,8 @@ enum class Status
   undeclared_map,       ///< cells are simplices, and a generic function object for their stiffness
                         ///< or groups is not declared with `of_simplices()`
   invalid_rotation,     ///< the rotation of a control vertex is not a rotation
-  not_a_control_vertex, ///< a target or its weight was set for what has none
+  not_a_control_vertex, ///< a target or its weight was set for neither a control vertex nor
+                        ///< a control point
   invalid_weight,       ///< the weight of a target is negative or not a number, or infinite where
                         ///< the target is a set
   invalid_coordinates,  ///< barycentric coordinates are not finite, or do not add up to one, or are

@@ -120,10 +120,11 @@ private:
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the place in the simplices of a mesh or domain that is nearest to a point, for
-/// `CGAL::ARAP_deformation::insert_control_point()`; none if there is no simplex, or if `point` is
-/// not finite.
+/// `CGAL::ARAP_deformation::insert_control_point()`.
 ///
 /// Builds a search tree. For more than one point use `Locator`.
+/// \returns a `std::optional` of a `Location`; none if there is no simplex, or if `point` is not
+///          finite
 template <typename Shape, typename Point>
 auto locate(Shape& shape, const Point& point)
 {

@@ -276,6 +276,9 @@ private:
       : number_of_fixed > 0             ? Unconstrained_components::fixed
                                         : Unconstrained_components::fixed_beside_others,
       options.threads, stages);
+    const std::size_t number_of_points = vertices.points().size();
+    if(result.status == Status::no_fixed_vertex && number_of_controls + number_of_points == 0)
+      result.message = "there is no control vertex: " + result.message;
     if(!result)
       return result;
     if(next)
@@ -288,7 +291,7 @@ private:
     }
     m_rows = std::move(constraints.rows());
     m_roi_size = roi_size;
-    m_number_of_controls = number_of_controls + vertices.points().size();
+    m_number_of_controls = number_of_controls + number_of_points;
     m_ready = m_present;
     return result;
   }

@@ -254,7 +254,8 @@ protected:
   // Whether a visitor has called: it works on what the run is working on.
   bool refuse_in_a_run() const
   {
-    CGAL_precondition(!m_is_in_a_run);
+    CGAL_precondition_msg(!m_is_in_a_run,
+                          "a visitor must not change the object that it is visiting");
     return m_is_in_a_run;
   }
 

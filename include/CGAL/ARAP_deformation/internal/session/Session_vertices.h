@@ -449,7 +449,7 @@ private:
     if constexpr(is_valid<Call_is_vertex, Domain>)
     {
       const bool is_one = m_domain.is_vertex(v);
-      CGAL_precondition(is_one);
+      CGAL_precondition_msg(is_one, "the mesh has no such vertex");
       return is_one;
     }
     else

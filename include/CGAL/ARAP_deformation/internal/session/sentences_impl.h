@@ -65,7 +65,8 @@ inline std::string about_end(const Report& report)
   std::string text = number_of(report.saddles_left, "saddle point") +
                      number_of(report.plateaus_left, "plateau");
   if(report.end == End::flat)
-    text += "; it can still fall, but hardly did when the run followed such directions";
+    text += "; there is still a direction of negative curvature, but following it lowered the "
+            "energy by next to nothing";
   if(report.end == End::undecided)
     text += "; it was not decided whether this is a minimum or a saddle point";
   return text;
@@ -109,7 +110,7 @@ inline const char* sentence(Status status, const std::string& what)
   case Status::not_run: return "nothing was run yet";
   case Status::success: return "everything is ready to deform";
   case Status::converged:
-    return "the estimated gap of the energy to its minimum is within the tolerance";
+    return "converged: the estimated gap of the energy to its minimum is within the tolerance";
   case Status::iteration_limit: return "the maximum number of iterations was run";
   case Status::stopped: return "the visitor stopped the run; the last iterate was kept";
   case Status::cancelled: return "the visitor cancelled the run; nothing was changed";
@@ -158,7 +159,7 @@ inline const char* sentence(Status status, const std::string& what)
     return " has edges whose weights are not finite";
   case Status::no_fixed_vertex:
     return " is free, but no path of edges with non-zero weights connects it to a vertex "
-           "that is fixed or has a target; fix a vertex of its component";
+           "that is fixed or has a target of positive weight; fix a vertex of its component";
   case Status::singular_matrix:
     return what.empty()
       ? "the matrix of the system is not positive definite and cannot be factorized"
