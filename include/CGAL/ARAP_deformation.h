@@ -192,7 +192,9 @@ public:
 
   /// \name Region of Interest and Control Vertices
   /// Inserting or erasing a vertex takes constant time, amortized. After changes the next
-  /// `deform()` does only what they need, see \ref ARAPDeformation_Session.
+  /// `deform()` does only what they need, see \ref ARAPDeformation_Session. What is inserted must
+  /// be a vertex of the mesh. In Release another one is refused, by `false` or, where vertices are
+  /// positions in a range, by `std::out_of_range`.
   /// @{
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in the region.

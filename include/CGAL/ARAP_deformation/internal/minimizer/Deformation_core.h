@@ -138,7 +138,7 @@ private:
   template <typename Function>
   void set_rotations_of_cells(const Function& rotation_at,
                               std::vector<Matrix_3x3>& rotations) const;
-  bool are_all_placed(const Array<char>& is_placed) const; // all free vertices
+  bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
   bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                           Array<Coordinates>& x);
   bool can_have_coarse_start(const Options& options) const;

@@ -343,7 +343,9 @@ public:
 
   Coordinates velocity(const Entry* entry) const
   {
-    const std::size_t k = entry != nullptr ? entry - m_entries.data() : m_velocities.size();
+    if(entry == nullptr)
+      return {0, 0, 0};
+    const auto k = static_cast<std::size_t>(entry - m_entries.data());
     return k < m_velocities.size() ? m_velocities[k] : Coordinates{0, 0, 0};
   }
 
