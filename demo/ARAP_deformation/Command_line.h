@@ -481,16 +481,24 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
   }
 }
 
-// The names of options may be written with - for _.
-inline std::string known_spelling(std::string argument,
-                                  const boost::program_options::options_description& all)
+// The arguments of the command, where the names of options may be written with - for _.
+inline std::vector<std::string>
+arguments_of(int argc, char** argv, const boost::program_options::options_description& all)
 {
-  if(argument.rfind("--", 0) != 0)
-    return argument;
-  const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
-  std::string name = argument.substr(2, length);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return all.find_nothrow(name, false) ? argument.replace(2, length, name) : argument;
+  std::vector<std::string> arguments(argv + (std::min)(argc, 1), argv + argc);
+  for(std::string& argument : arguments)
+  {
+    if(argument == "--") // no options follow
+      break;
+    if(argument.rfind("--", 0) != 0 || argument[2] == '=')
+      continue;
+    const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
+    std::string name = argument.substr(2, length);
+    std::replace(name.begin(), name.end(), '-', '_');
+    if(all.find_nothrow(name, false))
+      argument.replace(2, length, name);
+  }
+  return arguments;
 }
 
 inline Command_line parse_command_line(int argc, char** argv)
@@ -499,12 +507,9 @@ inline Command_line parse_command_line(int argc, char** argv)
   po::options_description all = described_options();
   all.add_options()("mesh", po::value<std::string>()->required());
   po::variables_map values;
-  std::vector<std::string> arguments;
-  for(int k = 1; k < argc; ++k)
-    arguments.push_back(known_spelling(argv[k], all));
   try
   {
-    const auto parsed = po::command_line_parser(arguments)
+    const auto parsed = po::command_line_parser(arguments_of(argc, argv, all))
       .options(all)
       .positional(po::positional_options_description().add("mesh", 1))
       .extra_style_parser(parse_several)

@@ -193,8 +193,8 @@ public:
   /// \name Region of Interest and Control Vertices
   /// Inserting or erasing a vertex takes constant time, amortized. After changes the next
   /// `deform()` does only what they need, see \ref ARAPDeformation_Session. What is inserted must
-  /// be a vertex of the mesh. In Release another one is refused, by `false` or, where vertices are
-  /// positions in a range, by `std::out_of_range`.
+  /// be a vertex of the mesh. In Release a vertex that was removed from a `Surface_mesh` is
+  /// refused, by `false`, and a position beyond a range throws `std::out_of_range`.
   /// @{
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
@@ -567,7 +567,8 @@ public:
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
   /// last factorization if few vertices have changed. Does nothing if all is up to date.
-  /// `deform()` calls it where needed; a time step of `advance()` has another matrix.
+  /// `deform()` calls it where needed. Not to be called between time steps, whose matrix is
+  /// another one: `advance()` prepares it.
   /// `ARAP::Status` lists the failures. The message of a success
   /// names the unconstrained components, if there are any.
   [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }

@@ -471,6 +471,8 @@ void test_refusals()
   check_refused("in.off --minimizer newton" + rest, 2, "automatic, local_global, quasi_newton");
   check_refused("in.off --initial_guess none" + rest, 2, "rotations, laplacian");
   check_refused("in.off --initial-guess none" + rest, 2, "rotations, laplacian");
+  check_refused("-o new.off -- --initial-guess", 2, "nothing moves: give a --handle");
+  check_refused("in.off --=1" + rest, 2, "");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");

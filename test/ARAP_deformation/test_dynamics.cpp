@@ -485,6 +485,11 @@ void undo_and_refuse()
   CHECK(deformation.velocity(4) == (Coordinates{0, 0, 0}));
   deformation.clear_roi_vertices();
   CHECK(deformation.advance(dynamics));
+
+  // preprocess() is for deform(), which has no inertia that holds a body
+  deformation.insert_roi_vertices(numbers(n));
+  CHECK(deformation.advance(dynamics));
+  CHECK(deformation.preprocess().status == Status::no_fixed_vertex);
 }
 
 // a handle moves only what is near to it, and most of the rest is fixed

@@ -696,6 +696,14 @@ void test_changes()
     weight.set_weight(60, 61, 2);
     const Report mended = d.deform(5, 0);
     CHECK(mended && mended.stages.weights && !mended.stages.region);
+
+    // another region may have no edge whose weight is wrong
+    weight.set_weight(60, 61, std::nan(""));
+    CHECK(d.deform(5, 0).status == Status::non_finite_weight);
+    for(auto v : mesh.vertices())
+      if(v != Vertex(5))
+        d.insert_control_vertex(v);
+    CHECK(d.deform(5, 0));
   }
 }
 

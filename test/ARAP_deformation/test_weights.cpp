@@ -50,10 +50,10 @@ using namespace CGAL::ARAP::internal;
 template <typename Function>
 void check_refused(const Function& f)
 {
-  bool is_refused = false;
+  std::string message;
   try { f(); }
-  catch(const std::length_error&) { is_refused = true; }
-  CHECK(is_refused);
+  catch(const std::length_error& error) { message = error.what(); }
+  CHECK(message.rfind("CGAL::ARAP: ", 0) == 0);
 }
 
 void test_all()

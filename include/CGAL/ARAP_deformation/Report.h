@@ -49,7 +49,7 @@ enum class End
            ///< than a hundredth of what the tolerance allows
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
             ///< exclude a negative curvature; or by the second derivative the gap is larger, but
-            ///< the energy falls no more
+            ///< the energy does not fall, up to rounding
 };
 
 /// \ingroup PkgARAPDeformationRun

@@ -419,7 +419,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!guess_by_laplacian(is_placed, targets, x) ||
-       (!is_certain && is_any_placed &&
+       (!is_certain && is_any_placed && !are_all_placed(is_placed) &&
         !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
       return {Status::solver_failed};
   }

@@ -81,12 +81,12 @@ public:
         return status;
     }
     const double gap = look.gap();
-    report.estimated_relative_gap =
-      (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
     if(gap <= tolerated)
     {
       report.end = is_saddle ? End::flat
                  : finding == Second_look::Finding::nothing_yet ? End::undecided : End::minimum;
+      report.estimated_relative_gap =
+        (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
       if(m_number_of_moves >= most_moves || m_small_gains >= most_small_gains ||
@@ -107,7 +107,7 @@ public:
     if(!is_lower) // rounding errors are all that is left
     {
       if(gap > tolerated)
-        report.end = End::undecided;
+        report.end = is_saddle ? End::flat : End::undecided;
       return Status::converged;
     }
     ++m_number_of_moves;

@@ -147,12 +147,8 @@ public:
       if(!m_outcome)
         return m_outcome;
       core().update_weights(std::move(model), options.threads);
-      if(core().diagnosis().status != Status::success)
-      {
-        m_outcome = m_prepared->explain(core().diagnosis());
-        return m_outcome;
-      }
-      m_ready.values = m_present.values;
+      if(core().diagnosis().status == Status::success)
+        m_ready.values = m_present.values;
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
       m_outcome = update(vertices, values, options, stages);
@@ -269,6 +265,8 @@ private:
         next->take_rotations(*m_restored.region, m_restored.rotations, vertices.domain());
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
+    if(prepared.core->diagnosis().status != Status::success) // its weights
+      return prepared.explain(prepared.core->diagnosis());
     Region_constraints constraints(prepared);
     prepared.collect_constraints(vertices, m_rules, m_inertia, constraints);
     Outcome result = constraints.prepare(

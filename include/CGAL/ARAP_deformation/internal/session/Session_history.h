@@ -88,7 +88,7 @@ public:
       return;
     m_vertices.keep_first_points();
     std::vector<Point> points = copies(&Entry::present);
-    if(domain().is_in_place()) // the points may have been changed by others
+    if(domain().is_in_place() && m_are_points_written) // they may have been changed by others
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
     std::vector<Point> rest = points;
@@ -157,6 +157,7 @@ public:
 
 protected:
   using Base::domain;
+  using Base::m_are_points_written;
   using Base::m_energy;
   using Base::m_identity;
   using Base::m_options;
