@@ -57,7 +57,5 @@ bool is_fixed(vertex_descriptor) { return false; }
 bool is_cancelled() { return false; }
 std::map<vertex_descriptor, bool> is_bone;
 Mesh::Property_map<vertex_descriptor, Point> preview_map, deformed_points, rest_points;
-std::map<std::size_t, bool> constrained_map; // of points in a range
-std::map<std::size_t, Point> target_map;
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_CODE_BLOCKS_H
