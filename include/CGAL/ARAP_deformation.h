@@ -568,9 +568,8 @@ public:
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
   /// last factorization if few vertices have changed. Does nothing if all is up to date.
   /// `deform()` calls it where needed. Not to be called between time steps, whose matrix is
-  /// another one: `advance()` prepares it.
-  /// `ARAP::Status` lists the failures. The message of a success
-  /// names the unconstrained components, if there are any.
+  /// another one: `advance()` prepares it. `ARAP::Status` lists the failures. The message of a
+  /// success names the unconstrained components, if there are any.
   [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
   /// moves the control vertices to their targets, or towards soft ones, and the free vertices with

@@ -472,7 +472,7 @@ void test_refusals()
   check_refused("in.off --initial_guess none" + rest, 2, "rotations, laplacian");
   check_refused("in.off --initial-guess none" + rest, 2, "rotations, laplacian");
   check_refused("-o new.off -- --initial-guess", 2, "nothing moves: give a --handle");
-  check_refused("in.off --=1" + rest, 2, "");
+  check_refused("in.off --=1" + rest, 2, "more than one mesh is given");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");

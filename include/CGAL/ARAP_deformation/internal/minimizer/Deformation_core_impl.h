@@ -370,8 +370,6 @@ CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                                           Array<Coordinates>& x)
 {
-  if(are_all_placed(is_placed))
-    return true;
   if(!m_state->stars)
     m_state->stars = star_edge_sets(*m_models.weight,
                                     weighted_simplices(*m_models.weight, m_region), m_region);
@@ -415,11 +413,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     }
   }
   const bool is_any_placed = std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
-  if(is_laplacian)
+  if(is_laplacian && !are_all_placed(is_placed))
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!guess_by_laplacian(is_placed, targets, x) ||
-       (!is_certain && is_any_placed && !are_all_placed(is_placed) &&
+       (!is_certain && is_any_placed &&
         !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
       return {Status::solver_failed};
   }
