@@ -185,11 +185,11 @@ private:
   std::ostringstream m_head, m_data, m_curves;
 };
 
-// colours that the colour-blind can tell apart: blue for ours, red for CGAL, grey for libigl
-const std::string our_colour = "linecolor rgb '#0060b0' ";
-const std::string cgal_colour = "linecolor rgb '#d04020' ";
-const std::string libigl_colour = "linecolor rgb '#808080' ";
-const std::string other_colour = "linecolor rgb '#e0a000' ";
+// colors that the color-blind can tell apart: blue for ours, red for CGAL, gray for libigl
+const std::string our_color = "linecolor rgb '#0060b0' ";
+const std::string cgal_color = "linecolor rgb '#d04020' ";
+const std::string libigl_color = "linecolor rgb '#808080' ";
+const std::string other_color = "linecolor rgb '#e0a000' ";
 
 std::string threads_name(const Json& results, unsigned int threads)
 {
@@ -230,9 +230,9 @@ void plot_iteration_time(std::ostream& out, const Json& results, const std::stri
   plot.set("logscale xy").set("format x '%.0s%c'").set("format y '%g'");
   const Json& rows = results["iteration_time"]["rows"];
   const auto spokes = [](const Json& row) { return row["cells"] == "spokes"; };
-  plot.add("libigl", "linespoints pointtype 5 " + libigl_colour,
+  plot.add("libigl", "linespoints pointtype 5 " + libigl_color,
            points_of(rows, "vertices", "libigl_iteration_ms", spokes));
-  plot.add("CGAL", "linespoints pointtype 7 " + cgal_colour,
+  plot.add("CGAL", "linespoints pointtype 7 " + cgal_color,
            points_of(rows, "vertices", "cgal_iteration_ms", spokes));
   for(unsigned int threads : thread_counts_of(results))
   {
@@ -248,7 +248,7 @@ void plot_iteration_time(std::ostream& out, const Json& results, const std::stri
           points.push_back(p);
     plot.add("this package, " + threads_name(results, threads),
              (threads == 1 ? "linespoints pointtype 9 dashtype 2 " : "linespoints pointtype 9 ") +
-             our_colour, points);
+             our_color, points);
   }
   plot.print(out);
 }
@@ -260,10 +260,10 @@ void plot_energy(std::ostream& out, const Json& results, const std::string& fold
   const Json& section = results["time_to_minimum"];
   Plot plot(folder + "/arap_time_to_minimum.png", "seconds", "relative gap to the minimum");
   plot.set("logscale xy").set("format y '10^{%L}'").set("format x '%g'").set("yrange [1e-6:]");
-  plot.add("CGAL", "lines " + cgal_colour, section["cgal_curve"], 1, 2);
+  plot.add("CGAL", "lines " + cgal_color, section["cgal_curve"], 1, 2);
   for(unsigned int threads : thread_counts_of(results))
     plot.add("this package, " + threads_name(results, threads),
-             (threads == 1 ? "lines dashtype 2 " : "lines ") + our_colour,
+             (threads == 1 ? "lines dashtype 2 " : "lines ") + our_color,
              section["curve_of_" + std::to_string(threads)], 1, 2);
   plot.print(out);
 }
@@ -276,21 +276,21 @@ void plot_starts(std::ostream& out, const Json& results, const std::string& fold
   Plot plot(folder + "/arap_starts.png", "seconds", "relative gap to the lowest energy known");
   plot.set("logscale xy").set("format y '10^{%L}'").set("format x '%g'").set("yrange [1e-4:100]");
   plot.set("key maxcols 2");
-  const std::string colours[] = {our_colour, other_colour, cgal_colour, libigl_colour};
+  const std::string colors[] = {our_color, other_color, cgal_color, libigl_color};
   std::size_t number_of_sizes = 0;
   for(const auto& [name, curves] : results["starts"]["curves"].items())
     if(const std::string shape = "armadillo, spokes, ";
        name.rfind(shape, 0) == 0 && std::isdigit(name[shape.size()]))
     {
       const std::string size = format_number(std::stod(name.substr(shape.size())));
-      const std::string& colour = colours[number_of_sizes++ % std::size(colours)];
-      plot.add(size + ", defaults", "lines " + colour, curves["default"]);
-      plot.add(size + ", from the rest shape", "lines dashtype 2 " + colour, curves["rest shape"]);
+      const std::string& color = colors[number_of_sizes++ % std::size(colors)];
+      plot.add(size + ", defaults", "lines " + color, curves["default"]);
+      plot.add(size + ", from the rest shape", "lines dashtype 2 " + color, curves["rest shape"]);
       if(curves.contains("default, no coarse start"))
-        plot.add(size + ", no coarse start", "lines dashtype 4 " + colour,
+        plot.add(size + ", no coarse start", "lines dashtype 4 " + color,
                  curves["default, no coarse start"]);
       if(curves.contains("default, no coarse metric"))
-        plot.add(size + ", no coarse metric", "lines dashtype 3 " + colour,
+        plot.add(size + ", no coarse metric", "lines dashtype 3 " + color,
                  curves["default, no coarse metric"]);
     }
   plot.print(out);
@@ -310,7 +310,7 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
              "lines " + dashes + "linecolor rgb '#404040' ",
              section["streaming_of_" + std::to_string(threads)]);
     for(const auto& solver_and_style :
-        {std::pair<std::string, std::string>{"default", "pointtype 9 " + our_colour},
+        {std::pair<std::string, std::string>{"default", "pointtype 9 " + our_color},
          {"single precision", "pointtype 5 linecolor rgb '#60a8e0' "},
          {"default, METIS", "pointtype 13 linecolor rgb '#208040' "}})
     {
@@ -322,12 +322,12 @@ void plot_roofline(std::ostream& out, const Json& results, const std::string& fo
                }));
     }
   }
-  for(const auto& solver_and_colour :
-      {std::pair<std::string, std::string>{"Eigen LDLT", libigl_colour},
-       {"CHOLMOD simplicial", other_colour}, {"CHOLMOD supernodal", cgal_colour}})
-    plot.add(solver_and_colour.first, "linespoints pointtype 6 " + solver_and_colour.second,
+  for(const auto& solver_and_color :
+      {std::pair<std::string, std::string>{"Eigen LDLT", libigl_color},
+       {"CHOLMOD simplicial", other_color}, {"CHOLMOD supernodal", cgal_color}})
+    plot.add(solver_and_color.first, "linespoints pointtype 6 " + solver_and_color.second,
              points_of(section["rows"], "factor_mb", "gb_per_second",
-                       [&](const Json& row) { return row["solver"] == solver_and_colour.first; }));
+                       [&](const Json& row) { return row["solver"] == solver_and_color.first; }));
   plot.print(out);
 }
 

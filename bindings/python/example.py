@@ -1,4 +1,4 @@
-"""Bends and twists a bar, and draws it coloured by the error of its edges.
+"""Bends and twists a bar, and draws it colored by the error of its edges.
 
 usage: example.py [PICTURE.png]
 """
@@ -33,13 +33,13 @@ def bar(length=40, width=8):
     return np.array(list(numbers), dtype=float) - [0, width / 2, width / 2], np.array(faces)
 
 
-def turn(axis, degrees, centre):
+def turn(axis, degrees, center):
     """The matrix of a rotation about a coordinate axis through a point."""
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     i, j = (axis + 1) % 3, (axis + 2) % 3
     matrix = np.eye(4)
     matrix[[i, i, j, j], [i, j, i, j]] = c, -s, s, c
-    matrix[:3, 3] = centre - matrix[:3, :3] @ centre
+    matrix[:3, 3] = center - matrix[:3, :3] @ center
     return matrix
 
 

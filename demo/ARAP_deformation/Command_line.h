@@ -47,7 +47,7 @@ enum class Rotation_choice { newton, svd };
 struct Motion_step
 {
   bool is_rotation;
-  Measures place; // of a move, its vector; of a rotation, its centre, empty for that of the handle
+  Measures place; // of a move, its vector; of a rotation, its center, empty for that of the handle
   std::array<double, 3> axis = {};
   double angle = 0; // in degrees
 };
@@ -104,7 +104,7 @@ inline boost::program_options::options_description described_options()
      "these are a handle, for the next five options; each --handle is a new one")
     ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
-     "turn it about x, y, z or a vector, by degrees; about a point or else its own centre")
+     "turn it about x, y, z or a vector, by degrees; about a point or else its own center")
     ("soft", in_order()->value_name("WEIGHT"),
      "its targets pull with this weight, instead of being met; an edge weighs about 1 on a "
      "surface, and about its length in a volume")
@@ -137,9 +137,9 @@ inline boost::program_options::options_description described_options()
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")
     ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
-     "colour the picture, and add a property to a .ply file: edge_error, area or volume (two "
+     "color the picture, and add a property to a .ply file: edge_error, area or volume (two "
      "names for one measure, of faces or of tetrahedra), angle, spike (how far a vertex is from "
-     "its neighbours)")
+     "its neighbors)")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
      "draw the shape before and after, fixed red, handles yellow; needs povray")
     ("view", value<std::string>()->value_name("A,E"),
@@ -221,7 +221,7 @@ inline void print_help(std::ostream& out)
          "diagonal. Cells are those of vertices, or with --cells elements of simplices all\n"
          "of whose corners are picked.\n\n"
       << described_options()
-      << "\nBetween key frames the centre of a handle moves along a straight line, its\n"
+      << "\nBetween key frames the center of a handle moves along a straight line, its\n"
          "rotation turns at constant speed, and its stretch is interpolated linearly. This\n"
          "makes two key frames, a way through them, and a film of a body under gravity:\n\n"
          "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
@@ -307,8 +307,8 @@ parse_several(std::vector<std::string>& arguments)
   if(arguments.empty() || (arguments[0] != "--rotate" && arguments[0] != "--stiffness"))
     return {};
   const bool is_rotation = arguments[0] == "--rotate";
-  const bool has_centre = is_rotation && arguments.size() > 3 && split(arguments[3]).size() == 3;
-  const std::size_t n = (std::min)(arguments.size(), std::size_t(has_centre ? 4 : 3));
+  const bool has_center = is_rotation && arguments.size() > 3 && split(arguments[3]).size() == 3;
+  const std::size_t n = (std::min)(arguments.size(), std::size_t(has_center ? 4 : 3));
   if(n < 3)
     throw Usage_error(is_rotation ? "--rotate: expected AXIS ANGLE, such as z 90"
                                   : "--stiffness: expected WHAT K, such as z:..20% 10");

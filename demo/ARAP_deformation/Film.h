@@ -137,7 +137,7 @@ private:
                  EGifPutExtensionBlock(gif, 11, "NETSCAPE2.0") &&
                  EGifPutExtensionBlock(gif, 3, "\1\0\0") && EGifPutExtensionTrailer(gif);
     const std::size_t pixels = std::size_t(width) * height;
-    std::array<std::vector<GifByteType>, 3> colours;
+    std::array<std::vector<GifByteType>, 3> colors;
     std::vector<GifByteType> indices(pixels);
     for(std::size_t frame = 0; frame < m_frames.size() && is_written; ++frame)
     {
@@ -149,11 +149,11 @@ private:
         else
           ++header;
       in.get();
-      for(auto& colour : colours)
-        colour.resize(pixels);
+      for(auto& color : colors)
+        color.resize(pixels);
       for(std::size_t i = 0; i < pixels; ++i)
-        for(auto& colour : colours)
-          colour[i] = static_cast<GifByteType>(in.get());
+        for(auto& color : colors)
+          color[i] = static_cast<GifByteType>(in.get());
       int n = 256;
       ColorMapObject* const map = GifMakeMapObject(n, nullptr);
       GraphicsControlBlock block = {DISPOSE_DO_NOT, false, 100 / frames_per_second,
@@ -161,8 +161,8 @@ private:
       std::array<GifByteType, 4> extension;
       EGifGCBToExtension(&block, extension.data());
       is_written = in && map != nullptr &&
-        GifQuantizeBuffer(width, height, &n, colours[0].data(), colours[1].data(),
-                          colours[2].data(), indices.data(), map->Colors) != GIF_ERROR &&
+        GifQuantizeBuffer(width, height, &n, colors[0].data(), colors[1].data(),
+                          colors[2].data(), indices.data(), map->Colors) != GIF_ERROR &&
         EGifPutExtension(gif, GRAPHICS_EXT_FUNC_CODE, 4, extension.data()) &&
         EGifPutImageDesc(gif, 0, 0, width, height, false, map);
       for(int y = 0; y < height && is_written; ++y)

@@ -138,7 +138,7 @@ void write_list(std::ostream& out, const char* name, const Range& range, Write_i
 }
 
 // The triangles with smooth normals. Each corner has the texture of its vertex, and POV-Ray blends.
-// Fixed vertices and handles without a triangle of one colour are drawn as balls.
+// Fixed vertices and handles without a triangle of one color are drawn as balls.
 inline void write_surface(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
 {
   const std::vector<int>& selection = panel.selection;
@@ -332,7 +332,7 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
     has_captions = has_captions || !panels[k].caption.empty();
   }
 
-  // Each panel is centred in its slot from left to right, but all stand on the same ground.
+  // Each panel is centered in its slot from left to right, but all stand on the same ground.
   const double width = double(view.width) * panels.size();
   const double legible = 16; // pixels: thin letters vanish in less
   const double letters = has_captions ? (std::max)(0.04 * view.height, legible) : 0;

@@ -74,8 +74,8 @@ public:
     if(m_is_kept)
       return {};
     std::set<std::string> result = m_dropped;
-    if(format != ".off" && format != ".ply" && has_colours(m_mesh))
-      result.insert("colours");
+    if(format != ".off" && format != ".ply" && has_colors(m_mesh))
+      result.insert("colors");
     if(is_gltf_format(format) && !CGAL::is_triangle_mesh(m_mesh))
       result.insert("polygons (they are cut into triangles)");
     if((format == ".stl" || is_gltf_format(format)) && m_format != ".stl")

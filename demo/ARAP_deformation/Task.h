@@ -81,10 +81,10 @@ inline Eigen::Matrix3d rotation_of(const Transform& m)
   return affine(m).rotation();
 }
 
-// The map at the share s of the way from a to b, both included: the centre moves along a straight
+// The map at the share s of the way from a to b, both included: the center moves along a straight
 // line, the rotation of the polar decomposition turns at constant speed, and the stretch is
 // interpolated linearly.
-inline Transform interpolated(const Transform& a, const Transform& b, const Eigen::Vector3d& centre,
+inline Transform interpolated(const Transform& a, const Transform& b, const Eigen::Vector3d& center,
                               double s)
 {
   if(s == 0 || s == 1)
@@ -96,22 +96,22 @@ inline Transform interpolated(const Transform& a, const Transform& b, const Eige
   Affine result;
   result.setIdentity();
   result.linear() = from.slerp(s, to).toRotationMatrix() * ((1 - s) * stretch_a + s * stretch_b);
-  result.translation() = (1 - s) * (affine(a) * centre) + s * (affine(b) * centre) -
-                         result.linear() * centre;
+  result.translation() = (1 - s) * (affine(a) * center) + s * (affine(b) * center) -
+                         result.linear() * center;
   return transform(result);
 }
 
 // The map at a time between key frames; the first is the identity, at the time 0.
 inline Transform at_time(double time, const std::vector<Transform>& keys,
-                         const Eigen::Vector3d& centre)
+                         const Eigen::Vector3d& center)
 {
   const std::size_t last = (std::min)(keys.size() - 1, static_cast<std::size_t>(time));
-  return interpolated(last == 0 ? identity : keys[last - 1], keys[last], centre, time - last);
+  return interpolated(last == 0 ? identity : keys[last - 1], keys[last], center, time - last);
 }
 
 // The map of a share of all steps, one after the other.
 inline Transform of_steps(double share, const std::vector<Motion_step>& steps, const Bbox_3& box,
-                          const Eigen::Vector3d& centre)
+                          const Eigen::Vector3d& center)
 {
   Affine result = Affine::Identity();
   for(const Motion_step& step : steps)
@@ -123,14 +123,14 @@ inline Transform of_steps(double share, const std::vector<Motion_step>& steps, c
                                                   m[2].length(box)));
       continue;
     }
-    Eigen::Vector3d own_centre = result * centre;
+    Eigen::Vector3d own_center = result * center;
     for(int k = 0; k < 3 && !m.empty(); ++k)
-      own_centre[k] = m[k].coordinate(box, k);
+      own_center[k] = m[k].coordinate(box, k);
     const Eigen::Vector3d axis(step.axis[0], step.axis[1], step.axis[2]);
-    result.pretranslate(-own_centre);
+    result.pretranslate(-own_center);
     result.prerotate(Eigen::AngleAxisd(share * step.angle * std::acos(-1.0) / 180,
                                        axis.stableNormalized()));
-    result.pretranslate(own_centre);
+    result.pretranslate(own_center);
   }
   return transform(result);
 }
@@ -217,7 +217,7 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   {
     Handle& handle = task.handles[k];
     const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
-    const Eigen::Vector3d centre = handle.points.empty()
+    const Eigen::Vector3d center = handle.points.empty()
       ? internal::centroid(points, are_together ? all : handle.vertices)
       : internal::centroid(handle.points, {0});
     handle.weight = options.weight;
@@ -228,12 +228,12 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
     for(const auto& key : key_frames)
       keys.push_back(key[key.size() == 1 ? 0 : k]);
     if(keys.empty())
-      handle.transform = [steps = options.steps, box, centre](double time) {
-        return internal::of_steps(time, steps, box, centre);
+      handle.transform = [steps = options.steps, box, center](double time) {
+        return internal::of_steps(time, steps, box, center);
       };
     else
-      handle.transform = [keys, centre](double time) {
-        return internal::at_time(time, keys, centre);
+      handle.transform = [keys, center](double time) {
+        return internal::at_time(time, keys, center);
       };
   }
   task.key_frames = (std::max)(key_frames.size(), std::size_t(1));

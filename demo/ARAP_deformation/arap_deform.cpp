@@ -584,13 +584,13 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
   result.load_seconds = load_timer.time();
-  std::vector<double> color; // of each vertex
+  std::vector<double> measures; // of each vertex
   deform(line, solver, domain, task, held, rest_points, progress, [&](const auto& report) {
     result.frames.push_back(report);
     if(!line.color.empty())
     {
-      color = CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), domain, rest_points);
-      shape.set_property(line.color, color);
+      measures = CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), domain, rest_points);
+      shape.set_property(line.color, measures);
     }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
       shape.write(*file, format);
@@ -605,8 +605,8 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
   if(outputs.image)
   {
     Panel after = panel_of(points_of(shape.mesh()), "after");
-    if(!color.empty())
-      colour(after, line.color, boundary, color);
+    if(!measures.empty())
+      color(after, line.color, boundary, measures);
     outputs.image->write([&](std::ostream& out) {
       render({panel_of(rest_points, "before"), after}, view, out);
     });

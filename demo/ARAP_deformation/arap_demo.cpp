@@ -32,7 +32,6 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Embedding.h>
-#include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
@@ -516,10 +515,8 @@ Panel result_panel(const Command_line& line, const Mesh& rest, const std::string
   Mesh mesh = read_mesh(file);
   Panel result = panel(mesh, make_task(line, points_of(rest)).selection, caption);
   if(!line.color.empty())
-    colour(result, line.color, skin(mesh),
-           CGAL::ARAP::quality_at_vertices(vertex_measure(line.color),
-                                           CGAL::ARAP::Face_graph_domain<Mesh>(mesh),
-                                           rest.points()));
+    color(result, line.color, skin(mesh),
+          CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), mesh, rest.points()));
   return result;
 }
 

@@ -156,7 +156,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
       for(; !word.empty(); word = words.next(), ++size)
       {
         if(size >= 3)
-          continue; // a weight, or a colour
+          continue; // a weight, or a color
         char* end = nullptr;
         if(!std::isfinite(std::strtod(word.data(), &end)) || end != word.data() + word.size())
           throw bad_line(file, number, in_quotes(word) + " is not a finite number");
@@ -165,7 +165,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
       if(size < 3)
         throw bad_line(file, number, "a vertex has three coordinates");
       if(size > 4)
-        dropped.insert("colours");
+        dropped.insert("colors");
       out << '\n';
       ++vertices;
     }

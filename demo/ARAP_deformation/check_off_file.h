@@ -34,7 +34,7 @@ namespace CGAL::ARAP::demo {
 namespace internal {
 
 // Checks the rows of an .off file, as CGAL's reader parses them: it trusts the number of corners in
-// a row, and that rows are long enough for the colours that the header announces.
+// a row, and that rows are long enough for the colors that the header announces.
 class Off_rows
 {
 public:
@@ -50,7 +50,7 @@ public:
     const std::size_t plain = 3 + h + (m_header.has_normals() ? 3 + h : 0);
     const std::size_t texture = m_header.has_textures() ? 2 + h : 0;
     const bool is_plain = h == 0 && !m_header.has_colors(); // CGAL reads only coordinates
-    bool has_colours = false;
+    bool has_colors = false;
     for(std::size_t v = 0; v < m_header.size_of_vertices(); ++v)
     {
       find_row("vertex", v);
@@ -61,13 +61,13 @@ public:
       }
       if(is_plain)
         check_coordinates(v);
-      if(is_plain && v > 0) // the first row tells whether there are colours
+      if(is_plain && v > 0) // the first row tells whether there are colors
         continue;
       read_numbers();
       if(is_plain)
       {
         if(m_row.size() > plain + texture)
-          m_dropped.insert("colours");
+          m_dropped.insert("colors");
         continue;
       }
       if(m_row.size() < plain + texture)
@@ -75,13 +75,13 @@ public:
       if(h == 1 && m_row[3] == 0)
         refuse("vertex", v, "is at infinity");
       if(m_header.has_colors())
-        check_colour("vertex", v, plain, m_row.size() - texture, has_colours);
+        check_color("vertex", v, plain, m_row.size() - texture, has_colors);
     }
   }
 
   void check_faces()
   {
-    bool has_colours = false;
+    bool has_colors = false;
     for(std::size_t f = 0; f < m_header.size_of_facets(); ++f)
     {
       find_row("face", f);
@@ -94,9 +94,9 @@ public:
         if(!(m_row[i] >= 0 && m_row[i] < static_cast<double>(m_header.size_of_vertices())))
           refuse("face", f, "has a vertex that does not exist");
       if(m_header.has_colors())
-        check_colour("face", f, end, m_row.size(), has_colours);
+        check_color("face", f, end, m_row.size(), has_colors);
       else if(m_row.size() > end)
-        m_dropped.insert("colours");
+        m_dropped.insert("colors");
     }
   }
 
@@ -137,29 +137,29 @@ private:
       m_row.push_back(entry);
   }
 
-  // The numbers from begin to end are a colour: an index, or red, green and blue, integers or
+  // The numbers from begin to end are a color: an index, or red, green and blue, integers or
   // fractions. Once there is one, all others of its kind must have one.
-  void check_colour(const char* what, std::size_t number, std::size_t begin, std::size_t end,
-                    bool& has_colours) const
+  void check_color(const char* what, std::size_t number, std::size_t begin, std::size_t end,
+                    bool& has_colors) const
   {
     const std::size_t n = end - begin;
-    if(n == 0 && !has_colours)
+    if(n == 0 && !has_colors)
       return;
-    has_colours = true;
+    has_colors = true;
     if(n != 1 && n < 3)
-      refuse(what, number, "has a colour that is neither one number nor three, or no colour though "
+      refuse(what, number, "has a color that is neither one number nor three, or no color though "
                            "others have one");
     bool is_integer = true;
     double largest = 0;
     for(std::size_t i = begin; i < begin + (std::min)(n, std::size_t(3)); ++i)
     {
       if(!(m_row[i] >= 0 && m_row[i] <= 255))
-        refuse(what, number, "has a colour that is not from 0 to 255");
+        refuse(what, number, "has a color that is not from 0 to 255");
       is_integer = is_integer && std::floor(m_row[i]) == m_row[i];
       largest = (std::max)(largest, m_row[i]);
     }
     if(n != 1 && !is_integer && largest > 1)
-      refuse(what, number, "has a colour that is neither of integers nor of numbers from 0 to 1");
+      refuse(what, number, "has a color that is neither of integers nor of numbers from 0 to 1");
   }
 
   std::istream& m_in;

@@ -80,14 +80,14 @@ public:
     {
       const bool has_bytes = std::any_of(element.properties.begin(), element.properties.end(),
                                          [](const Property& p) {
-        return is_colour(p.name) && p.is("uchar");
+        return is_color(p.name) && p.is("uchar");
       });
       for(const Property& p : element.properties)
       {
         if(is_vertex(element) && is_position(p))
           require(p.is("float") || p.is("double"), p, "float or double");
-        if((is_vertex(element) || is_face(element)) && is_colour(p.name) && has_bytes)
-          require(p.is("uchar"), p, "uchar, unlike other colours");
+        if((is_vertex(element) || is_face(element)) && is_color(p.name) && has_bytes)
+          require(p.is("uchar"), p, "uchar, unlike other colors");
         if(element.name == "halfedge" && (p.name == "source" || p.name == "target"))
           require(p.is("uint"), p, "uint");
         if(is_face(element) && is_corners(p))
@@ -108,7 +108,7 @@ public:
       if(is_vertex(element) || is_face(element))
         for(const Property& p : element.properties)
           if(!is_position(p) && !is_corners(p))
-            result.insert(is_colour(p.name) || p.name == "alpha" ? "colours"
+            result.insert(is_color(p.name) || p.name == "alpha" ? "colors"
                           : p.name == "nx" || p.name == "ny" || p.name == "nz"
                             ? "normals" : "the property " + in_quotes(p.name));
     }
@@ -229,7 +229,7 @@ private:
     return p.name == "vertex_indices" || p.name == "vertex_index";
   }
 
-  static bool is_colour(const std::string& name)
+  static bool is_color(const std::string& name)
   {
     return name == "red" || name == "green" || name == "blue" || name == "r" || name == "g" ||
            name == "b";

@@ -50,9 +50,9 @@ struct Demo_model
 using Demo_shape = Demo_model<Mesh>;
 using Demo_volume = Demo_model<Tetrahedral_mesh>;
 
-// A rotation, in degrees, about an axis (0 for x, 1 for y, 2 for z) through `centre`, followed by a
+// A rotation, in degrees, about an axis (0 for x, 1 for y, 2 for z) through `center`, followed by a
 // translation.
-inline Transform motion(int axis, double degrees, const Point& centre, const Vector& translation)
+inline Transform motion(int axis, double degrees, const Point& center, const Vector& translation)
 {
   Transform m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const double angle = degrees * CGAL_PI / 180;
@@ -61,8 +61,8 @@ inline Transform motion(int axis, double degrees, const Point& centre, const Vec
   m[4 * j + i] = std::sin(angle);
   m[4 * i + j] = -m[4 * j + i];
   for(int k = 0; k < 3; ++k)
-    m[4 * k + 3] = centre[k] + translation[k] - Vector(m[4 * k], m[4 * k + 1], m[4 * k + 2]) *
-                                                  (centre - CGAL::ORIGIN);
+    m[4 * k + 3] = center[k] + translation[k] - Vector(m[4 * k], m[4 * k + 1], m[4 * k + 2]) *
+                                                  (center - CGAL::ORIGIN);
   return m;
 }
 

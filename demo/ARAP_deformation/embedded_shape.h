@@ -78,7 +78,7 @@ inline Soup<3> make_palm()
   return palm;
 }
 
-// The tetrahedra of a body-centred cubic lattice whose centroids are close to a point of the
+// The tetrahedra of a body-centered cubic lattice whose centroids are close to a point of the
 // surface. The cubes of the lattice have edge length 2 * size.
 inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double distance)
 {
@@ -93,11 +93,11 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
     return position->second;
   };
   const auto add_if_close = [&](const std::array<Node, 4>& corners) {
-    Vector centre(0, 0, 0);
+    Vector center(0, 0, 0);
     for(const Node& n : corners)
-      centre += (place(n) - CGAL::ORIGIN) / 4;
+      center += (place(n) - CGAL::ORIGIN) / 4;
     const auto is_close = [&](const Point& p) {
-      return CGAL::squared_distance(p, CGAL::ORIGIN + centre) < distance * distance;
+      return CGAL::squared_distance(p, CGAL::ORIGIN + center) < distance * distance;
     };
     if(std::any_of(surface.points.begin(), surface.points.end(), is_close))
       volume.simplices.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2]),
@@ -116,7 +116,7 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
     for(int y = first[1]; y <= last[1]; y += 2)
       for(int z = first[2]; z <= last[2]; z += 2)
         for(int i = 0; i < 3; ++i) {
-          // an edge of a cube, and the centres of the four cubes around it
+          // an edge of a cube, and the centers of the four cubes around it
           Node a{x, y, z}, b = a, m = a;
           b[i] += 2, m[i] += 1;
           std::array<Node, 5> around;

@@ -119,9 +119,9 @@ Panel panel(const Shape& shape, const std::vector<int>& selection, const std::st
   return panel(skin(shape), points_of(shape), selection, caption);
 }
 
-// The measures as colours: from 0 to 1 for the largest, which the caption tells.
-inline void colour(Panel& panel, const std::string& name, const Skin& boundary,
-                   const std::vector<double>& values)
+// The measures as colors: from 0 to 1 for the largest, which the caption tells.
+inline void color(Panel& panel, const std::string& name, const Skin& boundary,
+                  const std::vector<double>& values)
 {
   for(std::size_t v : boundary.vertices)
     panel.values.push_back(std::abs(values[v]));

@@ -97,7 +97,7 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
   {
     check_off_file(in, file, dropped);
     rewind();
-    if(CGAL::IO::read_OFF(in, mesh)) // with its colours
+    if(CGAL::IO::read_OFF(in, mesh)) // with its colors
     {
       remove_normals(mesh);
       return true;

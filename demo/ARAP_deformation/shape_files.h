@@ -342,7 +342,7 @@ inline void check_format(const std::string& file, const std::string& format, con
                                "files can hold polygons");
 }
 
-inline bool has_colours(const Mesh& mesh)
+inline bool has_colors(const Mesh& mesh)
 {
   const auto vertex_properties = mesh.properties<Mesh::Vertex_index>();
   const auto face_properties = mesh.properties<Mesh::Face_index>();

@@ -91,7 +91,7 @@ bool bend(const char* name, const Solver& solver = Solver())
     std::cout << name << ": " << violation << std::endl;
 
   Mesh mesh;
-  CGAL::make_grid(30, 10, mesh, [](std::size_t i, std::size_t j) {
+  CGAL::make_grid(20, 6, mesh, [](std::size_t i, std::size_t j) {
     return Point(0.1 * i, 0.1 * j, 0.05 * std::sin(0.7 * i) * std::cos(0.9 * j));
   }, true);
   const Mesh rest = mesh;
@@ -101,9 +101,9 @@ bool bend(const char* name, const Solver& solver = Solver())
   for(Mesh::Vertex_index v : mesh.vertices())
   {
     if(rest.point(v).x() > 0.15) deformation.insert_roi_vertex(v);
-    if(rest.point(v).x() < 2.85) continue;
+    if(rest.point(v).x() < 1.85) continue;
     deformation.insert_control_vertex(v);
-    deformation.translate(v, Kernel::Vector_3(-1, 0, 1.5));
+    deformation.translate(v, Kernel::Vector_3(-0.6, 0, 1));
   }
   const CGAL::ARAP::Report report = deformation.deform();
   std::cout << name << ": " << report.iterations << " iterations, energy " << report.final_energy()

@@ -47,7 +47,7 @@ bool bend(const std::string& name, double degrees, Initial_guess guess, unsigned
     std::cerr << (outcome ? report.message : outcome.message) << std::endl;
     return false;
   }
-  const CGAL::ARAP::Quality quality = CGAL::ARAP::quality(deformation.domain(), rest);
+  const CGAL::ARAP::Quality quality = CGAL::ARAP::quality(mesh, rest);
   std::cout << name << ": energy " << report.final_energy() << ", edge error "
             << quality.edge_length_error << ", change of area " << quality.area_change
             << ", of an angle up to " << quality.largest_angle_change << " degrees, spike "

@@ -59,7 +59,7 @@ std::vector<Sample> scan(std::size_t n)
 }
 
 // Fits a sphere to the scan. In each round the points of the scan pull the points of the mesh that
-// are nearest to them then: towards the point of the scan, or only towards its plane.
+// are nearest to them then: toward the point of the scan, or only toward its plane.
 bool fit(const std::vector<Sample>& samples, bool is_to_planes)
 {
   std::cout << (is_to_planes ? "point to plane" : "point to point") << '\n';

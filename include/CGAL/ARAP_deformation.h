@@ -71,7 +71,7 @@ using Call_turn = Requires_convertible<
 /// stretches and shears as little as possible.
 ///
 /// The *rest shape* is the shape at construction. Only vertices in the *region of interest* move:
-/// its *control vertices* move to their targets, or are pulled towards them, see
+/// its *control vertices* move to their targets, or are pulled toward them, see
 /// `set_target_weight()`; its other vertices are *free* and are solved for. Vertices outside the
 /// region are *fixed*, and so are those in it, other than control vertices, that have no incident
 /// simplex.
@@ -373,7 +373,7 @@ public:
   }
 
   /// \brief makes the target of a control vertex or a control point a set, such as a plane or a
-  /// surface: it is pulled towards the nearest point of the set, along which it can glide.
+  /// surface: it is pulled toward the nearest point of the set, along which it can glide.
   ///
   /// `projection(p)` returns the point of the set that is nearest to `p`, such as
   /// `ARAP::projection_onto(plane)`. Each evaluation of the energy calls it for the present
@@ -572,7 +572,7 @@ public:
   /// success names the unconstrained components, if there are any.
   [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
-  /// moves the control vertices to their targets, or towards soft ones, and the free vertices with
+  /// moves the control vertices to their targets, or toward soft ones, and the free vertices with
   /// them, using the iterations and the tolerance of the options.
   [[nodiscard]] ARAP::Report deform() { return deform(ARAP::Default_visitor()); }
 

@@ -186,10 +186,23 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const CGAL_NP_CLASS& np = parameters::default_values())
 {
+  return arap_deform(shape, targets, ARAP::internal::options_from_parameters(np), np);
+}
+
+/// \ingroup PkgARAPDeformationRef
+/// \brief deforms a shape as rigidly as possible, in one call, with options.
+///
+/// The other parameters are those of the overload without `options`. Named parameters take
+/// precedence over the options.
+template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
+[[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
+                                       const ARAP::Options& options,
+                                       const CGAL_NP_CLASS& np = parameters::default_values())
+{
   static_assert(ARAP::internal::is_valid<ARAP::internal::Pair_of, TargetRange>,
                 "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
                 "as a std::map");
-  const ARAP::Options options = ARAP::internal::options_from_parameters(np);
+  const ARAP::Options all_options = ARAP::internal::options_from_parameters(np, options);
   const auto insert = [&](auto& deformation, const auto& insert_target) {
     ARAP::Outcome outcome(ARAP::Status::success, "");
     for(const auto& [v, target] : targets)
@@ -201,7 +214,7 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
     }
     return outcome;
   };
-  return ARAP::internal::deform_in_one_call(shape, options, np, insert);
+  return ARAP::internal::deform_in_one_call(shape, all_options, np, insert);
 }
 
 /// \ingroup PkgARAPDeformationRef

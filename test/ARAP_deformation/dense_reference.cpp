@@ -153,7 +153,7 @@ void Dense_reference::laplacian_guess(std::vector<Eigen::Vector3d>& x) const
   const auto rows = Eigen::Index(m_rest.size()), n = Eigen::Index(m_free.size());
   Eigen::MatrixXd l = Eigen::MatrixXd::Zero(rows, rows);
   for(std::size_t i = 0; i < m_rest.size(); ++i)
-    for(std::size_t j : neighbours(i))
+    for(std::size_t j : neighbors(i))
     {
       l(i, i) += star_weight(i, j);
       l(i, j) -= star_weight(i, j);
@@ -252,7 +252,7 @@ double Dense_reference::star_weight(std::size_t i, std::size_t j) const
   return edge_weight(true, sum);
 }
 
-std::set<std::size_t> Dense_reference::neighbours(std::size_t i) const
+std::set<std::size_t> Dense_reference::neighbors(std::size_t i) const
 {
   std::set<std::size_t> found;
   for(const Simplex& s : m_simplices)
@@ -369,10 +369,10 @@ void Dense_reference::make_cells(Cells scheme)
         std::set<std::size_t> stars = {i};
         for(unsigned int ring = 0; ring < m_terms.rings; ++ring)
           for(std::size_t star : std::set<std::size_t>(stars))
-            for(std::size_t j : neighbours(star))
+            for(std::size_t j : neighbors(star))
               stars.insert(j);
         for(std::size_t star : stars)
-          for(std::size_t j : neighbours(star))
+          for(std::size_t j : neighbors(star))
             cell.push_back({star, j, star_weight(star, j)});
       }
       else

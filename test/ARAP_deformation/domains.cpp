@@ -84,7 +84,7 @@ Block block(int nx, int ny, int nz)
     for(int y = 0; y < ny; ++y)
       for(int z = 0; z < nz; ++z)
       {
-        // odd cubes are mirrored, so that the diagonals of neighbours meet
+        // odd cubes are mirrored, so that the diagonals of neighbors meet
         const int a = (x + y + z) % 2, b = 1 - a;
         const auto corner = [&](int i, int j, int k) {
           return vertex(x + (i ? b : a), y + j, z + k);

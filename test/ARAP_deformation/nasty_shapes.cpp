@@ -195,7 +195,7 @@ std::vector<Nasty_surface> nasty_surfaces()
   }
   shelf.push_back(moebius);
 
-  Nasty_surface fan = {"a vertex with 400 neighbours", {{0, 0, 0.1}}, {}};
+  Nasty_surface fan = {"a vertex with 400 neighbors", {{0, 0, 0.1}}, {}};
   for(std::size_t k = 0; k < 400; ++k)
   {
     const double a = 2 * pi * double(k) / 400;

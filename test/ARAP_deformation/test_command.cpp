@@ -259,17 +259,17 @@ void test_success()
   CHECK(!fs::exists(folder / "other.off") && !fs::exists(folder / "other.png"));
   command = shell_command;
 
-  test_case() = "view and colours of a picture";
+  test_case() = "view and colors of a picture";
   const std::string from_x = scene(call + "-o new.off --view 0,0");
   CHECK(from_x == scene(call + "-o new.off --view 2,0,0"));
   CHECK(from_x != scene(call + "-o new.off"));
   CHECK(from_x.find("\"after\"") != std::string::npos);
-  const std::string coloured = scene(call + "-o new.off --view 0,0 --color edge_error");
-  CHECK(coloured.find("\"edge_error up to ") != std::string::npos);
+  const std::string colored = scene(call + "-o new.off --view 0,0 --color edge_error");
+  CHECK(colored.find("\"edge_error up to ") != std::string::npos);
   const auto faces_of = [](const std::string& text) {
     return text.substr(0, text.find("Caption"));
   };
-  CHECK(faces_of(coloured) == faces_of(from_x)); // before the run all is as without colours
+  CHECK(faces_of(colored) == faces_of(from_x)); // before the run all is as without colors
 #endif
 
   test_case() = "choices";
@@ -577,25 +577,25 @@ void test_frames()
   CHECK(run("in.off --selection in.sel --transform first.def --transform second.def --frames 6 "
             "-o six.off --report r.json").exit_code == 0);
   CHECK(!fs::exists(folder / "six.off") && !fs::exists(folder / "six-0007.off"));
-  Eigen::Vector3d centre(0, 0, 0);
+  Eigen::Vector3d center(0, 0, 0);
   std::vector<std::size_t> handle;
   for(std::size_t v = 0; v < shape.points.size(); ++v)
     if(status(shape.points[v]) == 2)
     {
       handle.push_back(v);
-      centre += shape.points[v];
+      center += shape.points[v];
     }
-  centre /= static_cast<double>(handle.size());
+  center /= static_cast<double>(handle.size());
   for(int frame = 1; frame <= 6; ++frame)
   {
     const auto points = read_points("six-000" + std::to_string(frame) + ".off");
     Affine_map map = first;
-    if(frame <= 3) // turns at constant speed, and the centre moves along a straight line
+    if(frame <= 3) // turns at constant speed, and the center moves along a straight line
     {
       const double share = frame / 3.;
       const Eigen::AngleAxisd turn(first.linear);
       map = rigid_motion(share * turn.angle(), turn.axis(), {0, 0, 0});
-      map.translation = (1 - share) * centre + share * (first * centre) - map * centre;
+      map.translation = (1 - share) * center + share * (first * center) - map * center;
     }
     else // only the stretch changes
     {
@@ -746,22 +746,22 @@ void test_picks()
       CHECK(points[v] == p);
   }
 
-  test_case() = "a full turn about the handle's own centre, in frames";
+  test_case() = "a full turn about the handle's own center, in frames";
   CHECK(run("in.off --fix z:..0.5 --handle z:4.5.. --rotate 0,0,2 360 --frames 4 -o t.off")
           .exit_code == 0);
   points = read_points("t-0001.off");
-  P centre(0, 0, 0); // the seam of the tube is there
+  P center(0, 0, 0); // the seam of the tube is there
   int n = 0;
   for(const P& p : shape.points)
     if(p.z() >= 4.5)
     {
-      centre += p;
+      center += p;
       ++n;
     }
-  centre /= n;
+  center /= n;
   for(std::size_t v = 0; v < points.size(); ++v)
-    if(const P p = shape.points[v] - centre; shape.points[v].z() >= 4.5)
-      CHECK_AT_MOST((points[v] - centre - P(-p.y(), p.x(), p.z())).norm(), 1e-14);
+    if(const P p = shape.points[v] - center; shape.points[v].z() >= 4.5)
+      CHECK_AT_MOST((points[v] - center - P(-p.y(), p.x(), p.z())).norm(), 1e-14);
 
   test_case() = "region, soft";
   CHECK(run("in.off --region z:2..4 --handle z:2.9..3.1 --move 0.2,0,0 --soft 3 -o region.off "
@@ -1593,7 +1593,7 @@ void test_terms()
   }
 }
 
-// Free fall in frames, with a film and all measures; and colours in a picture.
+// Free fall in frames, with a film and all measures; and colors in a picture.
 void test_frames()
 {
   test_case() = "frames of tetrahedra";

@@ -94,20 +94,20 @@ void test_off()
   CHECK(content(folder / "new.off").substr(0, 3) == "OFF");
   fs::remove(folder / "new.off");
 
-  // colours, which CGAL reads without a look at how many numbers there are
-  const auto coloured = [](const std::string& vertex, const std::string& face) {
+  // colors, which CGAL reads without a look at how many numbers there are
+  const auto colored = [](const std::string& vertex, const std::string& face) {
     return "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 " + vertex +
            "\n3 0 1 2 3\n3 0 2 3 " + face + '\n';
   };
-  accept("coloured.off", coloured("0.5 0.25 1 0.5", "255 0 17"));
+  accept("colored.off", colored("0.5 0.25 1 0.5", "255 0 17"));
   for(const std::string none : {"", "1 2"})
   {
-    refuse("off", coloured(none, "3"), "vertex 3 has a colour that is neither one number nor");
-    refuse("off", coloured("1 2 3", none), "face 1 has a colour that is neither one number nor");
+    refuse("off", colored(none, "3"), "vertex 3 has a color that is neither one number nor");
+    refuse("off", colored("1 2 3", none), "face 1 has a color that is neither one number nor");
   }
-  for(const std::string colour : {"-1", "1e300", "-1 2 3", "1 2 256"})
-    refuse("off", coloured("1 2 3", colour), "face 1 has a colour that is not from 0 to 255");
-  refuse("off", coloured("1 2 2.5", "3"), "vertex 3 has a colour that is neither of integers");
+  for(const std::string color : {"-1", "1e300", "-1 2 3", "1 2 256"})
+    refuse("off", colored("1 2 3", color), "face 1 has a color that is not from 0 to 255");
+  refuse("off", colored("1 2 2.5", "3"), "vertex 3 has a color that is neither of integers");
 }
 
 void test_obj()
@@ -204,9 +204,9 @@ void test_ply()
   refuse_ply(ply("ascii", "float", "4", "uchar short") + square + faces,
              "the property vertex_indices is not a list of int or uint");
   refuse_ply(ply("ascii", "float", "4", "float int") + square + faces, "has a list with a");
-  const std::string coloured = "0 0 0 1 1\n1 0 0 1 1\n1 1 0 1 1\n0 1 0 1 1\n";
+  const std::string colored = "0 0 0 1 1\n1 0 0 1 1\n1 1 0 1 1\n0 1 0 1 1\n";
   refuse_ply(ply("ascii", "float", "4", "uchar int", "property uchar red\nproperty float blue\n") +
-               coloured + faces, "the property blue is not uchar");
+               colored + faces, "the property blue is not uchar");
   const std::string halfedges = "element halfedge 1\nproperty int source\nproperty int target\n";
   refuse_ply(ply("ascii", "float", "4", "uchar int", halfedges) + square + "0 1\n" + faces,
              "the property source is not uint");
@@ -286,22 +286,22 @@ void test_notes()
     CHECK(run(call + " --quiet").err.empty());
     fs::remove(folder / output);
   };
-  const auto faces = [](const std::string& colour) {
-    return "3 0 1 2" + colour + "\n3 0 2 3" + colour + '\n';
+  const auto faces = [](const std::string& color) {
+    return "3 0 1 2" + color + "\n3 0 2 3" + color + '\n';
   };
   check_note("good.off", "new.obj", "");
   check_note("good.off", "new.stl", "double precision");
-  write("colours.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n" +
+  write("colors.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n" +
                          faces(" 1 2 3"));
-  check_note("colours.off", "new.off", "");
-  check_note("colours.off", "new.ply", "");
-  check_note("colours.off", "new.obj", "colours");
+  check_note("colors.off", "new.off", "");
+  check_note("colors.off", "new.ply", "");
+  check_note("colors.off", "new.obj", "colors");
   write("faces.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces(" 1 2 3"));
   check_note("faces.off", "new.off", "");
-  check_note("faces.off", "new.ply", "colours");
+  check_note("faces.off", "new.ply", "colors");
   write("vertices.off", "OFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n" +
                           faces(""));
-  check_note("vertices.off", "new.obj", "colours");
+  check_note("vertices.off", "new.obj", "colors");
   write("normals.off", "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n" +
                          faces(""));
   check_note("normals.off", "new.off", "normals");
@@ -309,16 +309,16 @@ void test_notes()
   check_note("isolated.off", "new.stl", "double precision, vertices without a face");
   check_note("statements.obj", "new.off", "curves and free-form surfaces, groups, lines, "
                                           "materials, normals, points, texture coordinates");
-  write("colours.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"
+  write("colors.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"
                        "f 1 3 4\n");
-  check_note("colours.obj", "new.obj", "");
-  check_note("colours.obj", "new.off", "colours");
+  check_note("colors.obj", "new.obj", "");
+  check_note("colors.obj", "new.off", "colors");
   write("more.ply", ply("ascii", "float", "4", "uchar int",
                         "property float nx\nproperty uchar red\nproperty int quality\n"
                         "element edge 1\nproperty int a\n") +
                       "0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n7\n" + faces(""));
   check_note("more.ply", "new.ply", "");
-  check_note("more.ply", "new.off", "colours, normals, the element 'edge', the property 'quality'");
+  check_note("more.ply", "new.off", "colors, normals, the element 'edge', the property 'quality'");
 }
 
 // the bytes of a number
@@ -347,13 +347,13 @@ void test_kept()
     return content(folder / output);
   };
   CHECK(deformed("kept.off",
-                 "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # colour\n+1 0 0\t4 5 6\n"
+                 "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # color\n+1 0 0\t4 5 6\n"
                  "0 1 0 7 8 9\n# another\n -1.00 0.5  0 1 1 1\n3 0 1 2 7\n3 0 2 3 8 # end") ==
-        "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # colour\n+1 0 0\t4 5 6\n"
+        "COFF # a comment\n4 2 5\n\n0.0 -1 0e3 1 2 3 # color\n+1 0 0\t4 5 6\n"
         "0 1 0 7 8 9\n# another\n 0 0.5  1 1 1 1\n3 0 1 2 7\n3 0 2 3 8 # end");
 
   const std::string start = "# a comment\r\nmtllib my.mtl\r\no a\nv 0.0 -1 0e3\n\tv 1 \\\n 0 0 0.5 "
-                            "0.5 0.5 # colour\nv 0 1 0 1.0\nvt 0 0\nvt 1 0.50\nvn 0 0 1.0\n";
+                            "0.5 0.5 # color\nv 0 1 0 1.0\nvt 0 0\nvt 1 0.50\nvn 0 0 1.0\n";
   const std::string end = "g b c\nusemtl red\ns 1\nf 1/1/1 2/1/1 3/2/1\nusemtl blue\n"
                           "f 3/1/2 -1/2/-1 1/2/2\nl 1 2";
   std::string obj = deformed("kept.obj", start + "v -1.00 0.5 0\nvn 0 0 2\nvn 0 1 0\n" + end);
@@ -1043,7 +1043,7 @@ Files make_files()
     "3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n3 5 2 1\n3 5 3 2\n3 5 4 3\n3 5 1 4\n";
   Files files = {
     {"in.off", off},
-    {"coloured.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 9 8 7\n"
+    {"colored.off", "COFF\n4 2 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 9 8 7\n"
                      "3 0 1 2 3\n3 0 2 3 4\n"},
     {"in.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
                 "0 0 1 0\n1 1 1 0\n2 1 1 0\nTetrahedra 3\n1 2 3 4 0\n2 3 4 5 1\n2 4 5 6 2\nEnd\n"},
@@ -1152,7 +1152,7 @@ void test_all(int runs, unsigned int seed)
 {
   limit_command();
   const Files good = make_files();
-  const std::vector<std::string> meshes = {"in.off", "coloured.off", "in.obj", "in.ply",
+  const std::vector<std::string> meshes = {"in.off", "colored.off", "in.obj", "in.ply",
                                            "text.ply", "in.stl", "text.stl", "in.mesh",
                                            "in.gltf", "in.glb", "in.msh", "in.vtk",
                                            "binary.msh", "in.vtu", "base64.vtu"};

@@ -752,7 +752,7 @@ void test_fixed_corners()
     CHECK_AT_MOST(s.miss(), 1e-12);
     const double gap = (vector(d.control_point_position(p)) - vector(d.target_position(p))).norm();
     CHECK(weight == infinite ? gap < 1e-12 : gap > 1e-6 && gap < 0.2);
-    // all but its neighbourhood is fixed: another region
+    // all but its neighborhood is fixed: another region
     for(std::size_t w = 0; w < s.points.size(); ++w)
       if(w != shape.simplices[place][0])
         d.insert_control_vertex(w, s.points[w]);

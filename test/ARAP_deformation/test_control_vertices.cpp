@@ -1128,7 +1128,7 @@ void test_all()
   for(int step = 0; step < 40; ++step)
   {
     test_case() = "rows, step " + std::to_string(step);
-    // a point in a triangle, a difference of two vertices that are no neighbours, positions
+    // a point in a triangle, a difference of two vertices that are no neighbors, positions
     Constraints constraints;
     constraints.is_fixed.assign(n, false);
     constraints.is_fixed[0] = true;

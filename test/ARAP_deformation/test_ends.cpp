@@ -221,7 +221,7 @@ using CGAL::ARAP::Visitor_action;
 
 using Deformation = CGAL::ARAP_deformation<Mesh>;
 
-// one end of it is fixed, the other one is pushed towards it
+// one end of it is fixed, the other one is pushed toward it
 Scenario push(const Shape& shape, double share)
 {
   Scenario s{std::vector<int>(shape.points.size(), 1), shape.points};

@@ -431,7 +431,7 @@ void test_rows()
   using namespace CGAL::ARAP::internal;
   test_case() = "rows of several vertices";
   Region region;
-  region.number_of_movable_vertices = region.number_of_centres = 4;
+  region.number_of_movable_vertices = region.number_of_centers = 4;
   region.number_of_movable_simplices = 2;
   region.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}};
   region.first_corner = {0, 3, 6};
@@ -922,6 +922,10 @@ void test_one_call()
     return report;
   });
   CHECK(few != expected);
+  CHECK(run("options first", [&](Mesh& mesh) {
+    return CGAL::arap_deform(mesh, targets, options,
+                             parameters::vertex_is_constrained_map(is_fixed));
+  }) == few);
   CHECK(run("options last", [&](Mesh& mesh) {
     const auto np = parameters::vertex_is_constrained_map(is_fixed).number_of_iterations(2);
     return CGAL::arap_deform(mesh, targets, parameters::deformation_options(options, np));
@@ -944,7 +948,8 @@ void test_one_call()
   const Shape shape = sheet(8);
   std::vector<Point> points = points_of(shape.points);
   const std::map<std::size_t, Point> at = {{0, points[0]}, {8, points[8]}, {80, Point(1, 1, 0.5)}};
-  CHECK(CGAL::arap_deform(CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles), at));
+  CHECK(CGAL::arap_deform(CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles), at,
+                          Options()));
   CHECK(points[80] == Point(1, 1, 0.5) && points[8] == rest.point(Vertex(8)));
 
   test_case() = "soft targets";
@@ -1025,7 +1030,7 @@ void test_class()
 // The guess of naive Laplacian editing.
 namespace guess {
 
-// || L x - L p || with star weights of one, over the free vertices and their neighbours
+// || L x - L p || with star weights of one, over the free vertices and their neighbors
 double residual(const Mesh& mesh, const Mesh& rest)
 {
   double sum = 0;
@@ -1040,7 +1045,7 @@ double residual(const Mesh& mesh, const Mesh& rest)
   return std::sqrt(sum);
 }
 
-// It does not depend on what was before, and is a minimum. A hub with thousands of neighbours costs
+// It does not depend on what was before, and is a minimum. A hub with thousands of neighbors costs
 // no more than others.
 void test_guess()
 {

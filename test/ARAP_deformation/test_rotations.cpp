@@ -146,7 +146,7 @@ void test_all()
 } // namespace svd
 
 // Closest rotations by Newton's method, many at a time: against the singular value decomposition
-// for all kinds of matrices and starts, and to the last bit independent of the neighbours.
+// for all kinds of matrices and starts, and to the last bit independent of the neighbors.
 namespace newton {
 
 using CGAL::ARAP::Matrix_3x3;

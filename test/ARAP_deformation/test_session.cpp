@@ -312,7 +312,7 @@ void test_options_by_name()
   options.tolerance = 0.1 + 0.2; // has seventeen digits
   CHECK(set_option(options, "tolerance", option_value(options, "tolerance")));
   CHECK(options.tolerance == 0.1 + 0.2);
-  CHECK(option_value(options, "colour").empty());
+  CHECK(option_value(options, "color").empty());
 
   const CGAL::ARAP::Options before = options;
   const std::vector<std::array<std::string, 3>> invalid = {
@@ -1206,7 +1206,7 @@ void test_all()
 } // namespace misuse
 
 // The cost follows the region of interest: a deformation of a few vertices touches the points of
-// these and their neighbours, whatever the size of the mesh.
+// these and their neighbors, whatever the size of the mesh.
 namespace region_cost {
 
 struct Touched

@@ -382,7 +382,7 @@ struct Sets_any_border : Multifrontal_cholesky_solver
 
 struct Throws : Whole_solver
 {
-  bool factorize(const Sparse_matrix&) { throw std::runtime_error("no licence"); }
+  bool factorize(const Sparse_matrix&) { throw std::runtime_error("no license"); }
 };
 
 void test_all()
@@ -429,7 +429,7 @@ void test_all()
   CHECK_CAUGHT(check_sparse_solver(Forgets_upper_triangle()), "relative residual");
   CHECK_CAUGHT(check_sparse_solver(Hides_failures()), "nothing is refused");
   CHECK_CAUGHT(check_sparse_solver(Loses_entries()), "relative residual");
-  CHECK_CAUGHT(check_sparse_solver(Throws()), "no licence");
+  CHECK_CAUGHT(check_sparse_solver(Throws()), "no license");
   CHECK_CAUGHT(check_sparse_solver(Border_of_wrong_sign()), "for a matrix with a border");
   CHECK_CAUGHT(check_sparse_solver(Keeps_border()), "without the border");
   CHECK_CAUGHT(check_sparse_solver(Sets_any_border()), "not positive definite");

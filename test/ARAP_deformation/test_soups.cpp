@@ -732,6 +732,8 @@ void test_all(int number_of_shapes, int first_seed)
 namespace quality_of_results {
 
 using CGAL::ARAP::Quality;
+using CGAL::ARAP::quality;
+using CGAL::ARAP::quality_at_vertices;
 using CGAL::ARAP::Vertex_measure;
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -819,7 +821,7 @@ Quality slow_quality(const std::vector<std::array<std::size_t, N>>& simplices, c
   bool is_closed = true;
   for(const auto& s : simplices)
   {
-    const auto has_neighbour = [&](std::size_t left_out) { // with these corners but one
+    const auto has_neighbor = [&](std::size_t left_out) { // with these corners but one
       return std::count_if(simplices.begin(), simplices.end(), [&](const auto& other) {
         return std::all_of(s.begin(), s.end(), [&](std::size_t v) {
           return v == left_out || std::count(other.begin(), other.end(), v) > 0;
@@ -828,7 +830,7 @@ Quality slow_quality(const std::vector<std::array<std::size_t, N>>& simplices, c
     };
     for(std::size_t left_out : s)
     {
-      if(has_neighbour(left_out))
+      if(has_neighbor(left_out))
         continue;
       is_closed = false;
       if constexpr(N == 4)
@@ -960,6 +962,35 @@ void test_polygons()
   CHECK(std::isnan(quality(CGAL::ARAP::make_polygon_soup_domain(now, open), rest).volume_change));
 }
 
+// A mesh has the measures of its domain, also a const one, which is only read.
+void test_meshes()
+{
+  test_case() = "quality of a mesh";
+  const Shape shape = shapes()[2];
+  Mesh mesh = make_mesh<Mesh>(shape);
+  const Mesh rest = mesh;
+  for(const auto v : mesh.vertices())
+  {
+    const Point p = mesh.point(v);
+    mesh.point(v) = Point(2 * p.x(), p.y() + p.x() * p.z(), p.z());
+  }
+  const Mesh& now = mesh;
+  const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
+  compare(quality(now, rest.points()), quality(domain, rest.points()));
+  compare(quality(rest, rest.points(), now.points()), quality(domain, rest.points()));
+  CHECK(quality(now, rest.points()).edge_length_error > 0.1);
+  for(const Vertex_measure measure : all_measures)
+  {
+    const std::vector<double> values = quality_at_vertices(measure, domain, rest.points());
+    CHECK(quality_at_vertices(measure, now, rest.points()) == values);
+    CHECK(quality_at_vertices(measure, rest, rest.points(), now.points()) == values);
+  }
+  CHECK(CGAL::ARAP::number_of_self_intersections(now) == 0);
+  mesh.point(Mesh::Vertex_index(0)) = Point(100, 100, 100);
+  CHECK(CGAL::ARAP::number_of_self_intersections(now) ==
+        CGAL::ARAP::number_of_self_intersections(domain));
+}
+
 void test_self_intersections()
 {
   test_case() = "self-intersections";
@@ -993,6 +1024,7 @@ void test_all()
   const Block cubes = unit_cubes(2, 2, 2);
   test_shape<3>(cubes.points, cubes.tetrahedra);
   test_polygons();
+  test_meshes();
   test_self_intersections();
 }
 

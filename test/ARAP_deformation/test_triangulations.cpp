@@ -17,8 +17,11 @@
 #include "include/triangulation.h"
 
 #include <CGAL/ARAP_deformation/Triangulation_domain.h>
+#include <CGAL/ARAP_deformation/locate.h>
+#include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -67,6 +70,20 @@ void test_some_cells()
   compare_with_reference(domain);
 }
 
+// What only reads takes a triangulation or its domain, also a const one.
+void test_measures()
+{
+  test_case() = "quality and places of a triangulation";
+  using Triangulation = CGAL::Delaunay_triangulation_3<Epick>;
+  const auto t = triangulation<Triangulation>();
+  const auto rest = [](Triangulation::Vertex_handle v) {
+    return Epick::Point_3(v->point().x(), 2 * v->point().y(), v->point().z());
+  };
+  CHECK_AT_MOST(std::abs(CGAL::ARAP::quality(t, rest).volume_change + 0.5), 1e-12);
+  const auto found = CGAL::ARAP::locate(t, t.finite_vertices_begin()->point());
+  CHECK(found && found->distance <= 1e-12);
+}
+
 void test_shelf()
 {
   const std::vector<Nasty_volume> shelf = nasty_points_of_a_volume();
@@ -83,6 +100,7 @@ int main()
 {
   test_some_cells();
   test_terms_of_cells();
+  test_measures();
   test_shelf();
   return checks_result();
 }

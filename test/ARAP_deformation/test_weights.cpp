@@ -61,6 +61,13 @@ void test_all()
   test_case() = "regions that are too large";
   CHECK(to_index(2147483647) == 2147483647);
   check_refused([] { to_index(2147483648u); });
+  Array<int> sizes(3, 0);
+  sizes[1] = 3;
+  sizes[2] = 2147483644;
+  add_up(sizes);
+  CHECK(sizes[1] == 3 && sizes[2] == 2147483647);
+  sizes[1] = 1;
+  check_refused([&] { add_up(sizes); });
   Region region; // of polygons with a thousand million weights each
   region.first_corner = Array<int>();
   for(int corner : {0, 45000, 90000, 135000})

@@ -117,7 +117,7 @@ private:
   {
     std::size_t j;
     double weight;
-    Eigen::Vector3d rest; // from j to the centre
+    Eigen::Vector3d rest; // from j to the center
   };
 
   static Eigen::Vector3d point(const Mesh& mesh, std::size_t i)

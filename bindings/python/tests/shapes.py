@@ -15,9 +15,9 @@ def quads(cubes):
     solid, numbers, faces = set(cubes), {}, []
     for cube in cubes:
         for axis, side in itertools.product(range(3), (0, 1)):
-            neighbour = list(cube)
-            neighbour[axis] += 2 * side - 1
-            if tuple(neighbour) in solid:
+            neighbor = list(cube)
+            neighbor[axis] += 2 * side - 1
+            if tuple(neighbor) in solid:
                 continue
             u, v = (axis + 1) % 3, (axis + 2) % 3
             face = []
@@ -50,14 +50,14 @@ def tetrahedra(cubes):
     return np.array(list(numbers), dtype=float), np.array(result)
 
 
-def motion(axis, degrees, centre=(0, 0, 0), shift=(0, 0, 0)):
-    """The matrix of a rotation about an axis through a centre, and a translation."""
+def motion(axis, degrees, center=(0, 0, 0), shift=(0, 0, 0)):
+    """The matrix of a rotation about an axis through a center, and a translation."""
     k = np.array(axis) / np.linalg.norm(axis)
     cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
     angle = np.radians(degrees)
     matrix = np.eye(4)
     matrix[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    matrix[:3, 3] = np.array(shift) + centre - matrix[:3, :3] @ centre
+    matrix[:3, 3] = np.array(shift) + center - matrix[:3, :3] @ center
     return matrix
 
 

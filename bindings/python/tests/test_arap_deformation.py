@@ -436,7 +436,7 @@ CALLS = [
     (lambda d: d.advance(forces=V * np.nan), arap.DeformationError, "force"),
     (lambda d: d.quality_at_vertices("beauty"), ValueError, "use one of edge_length_error"),
     (lambda d: setattr(d, "cells", "squares"), arap.DeformationError, "use one of spokes"),
-    (lambda d: arap.Deformation(V, F, colour=1), arap.DeformationError, "option 'colour'"),
+    (lambda d: arap.Deformation(V, F, color=1), arap.DeformationError, "option 'color'"),
     (lambda d: arap.Deformation(V, F, weights="equal"), ValueError, "weights 'equal' is not known"),
     (lambda d: arap.Deformation(V, F, tetrahedra=True), ValueError, r"shape \(any, 4\)"),
     (lambda d: arap.deform(V, F, [], {}), arap.DeformationError, "fix a vertex"),

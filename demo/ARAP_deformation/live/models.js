@@ -62,11 +62,11 @@ function voxelSurface(size, isInside) {
 function smoothed(points, faces, rounds) {
   let p = Float64Array.from(points);
   const n = p.length / 3,
-    neighbours = Array.from({ length: n }, () => new Set());
+    neighbors = Array.from({ length: n }, () => new Set());
   for (let f = 0; f < faces.length; f += 3)
     for (let k = 0; k < 3; ++k) {
-      neighbours[faces[f + k]].add(faces[f + ((k + 1) % 3)]);
-      neighbours[faces[f + ((k + 1) % 3)]].add(faces[f + k]);
+      neighbors[faces[f + k]].add(faces[f + ((k + 1) % 3)]);
+      neighbors[faces[f + ((k + 1) % 3)]].add(faces[f + k]);
     }
   for (let round = 0; round < rounds; ++round) {
     const factor = round % 2 ? -0.53 : 0.5,
@@ -74,10 +74,10 @@ function smoothed(points, faces, rounds) {
     for (let v = 0; v < n; ++v)
       for (let c = 0; c < 3; ++c) {
         let sum = 0;
-        neighbours[v].forEach((w) => {
+        neighbors[v].forEach((w) => {
           sum += p[3 * w + c];
         });
-        q[3 * v + c] += factor * (sum / neighbours[v].size - p[3 * v + c]);
+        q[3 * v + c] += factor * (sum / neighbors[v].size - p[3 * v + c]);
       }
     p = q;
   }

@@ -19,7 +19,7 @@ export function matrixOf(pivot, q, place) {
   return m.transpose().toArray(); // row by row
 }
 
-export function centre(points, list) {
+export function center(points, list) {
   const c = [0, 0, 0];
   for (const v of list) for (let i = 0; i < 3; ++i) c[i] += points[3 * v + i] / list.length;
   return c;
@@ -28,8 +28,8 @@ export function centre(points, list) {
 // The rigid motion that takes vertices from their rest shape to where they are, by Horn's
 // quaternion: what is painted in a deformed shape stays where it is.
 export function fittedMotion(list, p, q) {
-  const a = centre(p, list),
-    b = centre(q, list),
+  const a = center(p, list),
+    b = center(q, list),
     s = Array(9).fill(0);
   let size = 0;
   for (const v of list)

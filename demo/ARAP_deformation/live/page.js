@@ -1,6 +1,6 @@
 // The page: what is open, painted and held, and what happened to it.
 import { Engine } from './engine.js';
-import { FIXED, FREE, HANDLE, colourOf, css, grey, ramp, rampColour, red } from './colours.js';
+import { FIXED, FREE, HANDLE, colorOf, css, gray, ramp, rampColor, red } from './colors.js';
 import {
   boundary,
   facesOfInverted,
@@ -10,7 +10,7 @@ import {
   writeTransforms,
 } from './files.js';
 import { models } from './models.js';
-import { centre, fittedMotion, identity, matrixOf, rigidParts } from './motion.js';
+import { center, fittedMotion, identity, matrixOf, rigidParts } from './motion.js';
 import { drawPlot } from './plot.js';
 import { brushed, flood, isInside, nearestSeen, ofSimplices } from './regions.js';
 import { THREE, View } from './view.js';
@@ -92,7 +92,7 @@ async function busy(what, f) {
 
 // ---- handles
 
-// A handle is what is painted with one colour, or one point in a face: it moves with its matrix,
+// A handle is what is painted with one color, or one point in a face: it moves with its matrix,
 // from the rest shape.
 function membersOf(k) {
   const list = [];
@@ -141,7 +141,7 @@ function recountHandles(fits) {
         isNew = !handle.size;
       if (isNew && fits) handle.matrix = fittedMotion(list, shape.points, view.positions);
       if (isNew) handle.turns = size === 1;
-      handle.pivot = centre(shape.points, list);
+      handle.pivot = center(shape.points, list);
     }
     if (!size) handle.matrix = identity();
     handle.size = size;
@@ -501,7 +501,7 @@ function paint(vertices) {
     for (const v of vertices) values[v] = k;
   } else for (const v of vertices) shape.status[v] = paints;
   stroke.hasPainted ||= vertices.length > 0;
-  if (vertices.length) drawColours();
+  if (vertices.length) drawColors();
 }
 
 function brushAt(x, y) {
@@ -605,7 +605,7 @@ function drawStroke(x, y) {
   drawing.clearRect(0, 0, w, h);
   drawing.lineWidth = 1.5;
   drawing.strokeStyle = '#222';
-  drawing.fillStyle = `${css(tool === 'stiffness' ? 0x444444 : colourOf(paints))}40`;
+  drawing.fillStyle = `${css(tool === 'stiffness' ? 0x444444 : colorOf(paints))}40`;
   drawing.beginPath();
   if (tool === 'brush' || tool === 'stiffness') {
     if (x === undefined) return;
@@ -718,7 +718,7 @@ function cancelStroke() {
   shape.stiffness = stroke.stiffness;
   stroke = null;
   drawStroke();
-  drawColours();
+  drawColors();
 }
 
 function movedTo(event) {
@@ -763,13 +763,13 @@ $('view').addEventListener('contextmenu', (event) => event.preventDefault());
 
 let values = null,
   range = [0, 1];
-function drawColours() {
+function drawColors() {
   if ($('measure').value === 'stiffness' || (stroke && tool === 'stiffness')) {
     const s = shape.stiffness;
-    view.setColours((v) => (s && s[v] !== 1 ? rampColour((Math.log10(s[v]) + 2) / 5) : grey));
+    view.setColors((v) => (s && s[v] !== 1 ? rampColor((Math.log10(s[v]) + 2) / 5) : gray));
   } else if (values)
-    view.setColours((v) => rampColour((values[v] - range[0]) / (range[1] - range[0])));
-  else view.setColours((v) => colourOf(shape.status[v]));
+    view.setColors((v) => rampColor((values[v] - range[0]) / (range[1] - range[0])));
+  else view.setColors((v) => colorOf(shape.status[v]));
 }
 
 // the measure at the vertices, where the shape has come to rest or now and then
@@ -781,13 +781,13 @@ async function showMeasure() {
   if (!measure || measure === 'stiffness') {
     values = null;
     $('legend').hidden = true;
-    if (shape) drawColours();
+    if (shape) drawColors();
     if (!measure) return void ($('quality').textContent = '');
   }
   if (isMeasuring || !shape || measure === 'stiffness') return;
   isMeasuring = true;
   try {
-    const answer = await engine.call('colours', { measure });
+    const answer = await engine.call('colors', { measure });
     if (of !== shape || $('measure').value !== measure) return;
     values = answer.values;
     const sizes = Float64Array.from(values, Math.abs).sort(),
@@ -805,7 +805,7 @@ async function showMeasure() {
       `Edges ${percent(edgeLengthError)}, area ${percent(areaChange)}` +
       (Number.isFinite(volumeChange) ? `, volume ${percent(volumeChange)}` : '') +
       (shape.volume ? `, ${invertedSimplices} inverted` : '');
-    drawColours();
+    drawColors();
   } catch (error) {
     complain(error);
   } finally {
@@ -822,23 +822,23 @@ function drawInverted() {
 // points for what is too small to be seen as a region
 function drawMarks() {
   const points = [],
-    colours = [];
+    colors = [];
   shape.handles.forEach((handle, k) => {
     if (!handle.point && (handle.size === 0 || handle.size > 6)) return;
     points.push(...rigidParts(handle).place.toArray());
-    colours.push(colourOf(k + HANDLE));
+    colors.push(colorOf(k + HANDLE));
   });
   if (shape.fixed && shape.fixed <= 12)
     for (let v = 0; v < shape.status.length; ++v)
       if (shape.status[v] === FIXED) {
         points.push(...view.positions.subarray(3 * v, 3 * v + 3));
-        colours.push(red);
+        colors.push(red);
       }
-  view.setMarks(points, colours);
+  view.setMarks(points, colors);
 }
 
 function draw() {
-  drawColours();
+  drawColors();
   drawMarks();
   drawInverted();
   drawPlot($('plot'), history, measured);
@@ -1033,7 +1033,7 @@ function showPanel() {
         choose(status - HANDLE);
       showPanel();
     });
-    b.innerHTML = `<i style="background:${css(colourOf(status))}"></i>${text}`;
+    b.innerHTML = `<i style="background:${css(colorOf(status))}"></i>${text}`;
     b.classList.toggle('on', paints === status && !['grab', 'point', 'stiffness'].includes(tool));
     return b;
   };
@@ -1150,7 +1150,7 @@ async function restFromNow() {
     shape.points = rest;
     shape.handles.forEach((handle, k) => {
       if (handle.point) handle.pivot = rigidParts(handle).place.toArray();
-      else if (handle.size) handle.pivot = centre(rest, membersOf(k));
+      else if (handle.size) handle.pivot = center(rest, membersOf(k));
       handle.matrix = identity();
     });
     keys = [];
@@ -1267,7 +1267,7 @@ $('weights').onchange = weightsChanged;
 $('measure').onchange = () => {
   values = null;
   showMeasure();
-  drawColours();
+  drawColors();
 };
 $('soft').onchange = () =>
   changeHandle((h) => {

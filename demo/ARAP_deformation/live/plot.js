@@ -4,12 +4,12 @@ export function drawPlot(canvas, history, measured) {
     { width: w, height: h } = canvas;
   c.clearRect(0, 0, w, h);
   c.font = '22px system-ui, sans-serif';
-  const line = (list, colour, low, high) => {
+  const line = (list, color, low, high) => {
     c.beginPath();
     list.forEach((x, i) =>
       c.lineTo(8 + (i * (w - 16)) / 109, h - 8 - ((h - 48) * (x - low)) / (high - low || 1)),
     );
-    c.strokeStyle = colour;
+    c.strokeStyle = color;
     c.lineWidth = 3;
     c.stroke();
   };

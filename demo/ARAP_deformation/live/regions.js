@@ -1,8 +1,8 @@
 // Which vertices are meant: by what is connected, and by where they are on the screen.
 
-// the neighbours of each vertex in compressed rows
-function neighbourLists(shape) {
-  if (shape.neighbours) return shape.neighbours;
+// the neighbors of each vertex in compressed rows
+function neighborLists(shape) {
+  if (shape.neighbors) return shape.neighbors;
   const n = shape.status.length,
     s = shape.simplices,
     c = shape.corners,
@@ -14,12 +14,12 @@ function neighbourLists(shape) {
   for (let i = 0; i < s.length; i += c)
     for (let a = 0; a < c; ++a)
       for (let b = 0; b < c; ++b) if (a !== b) list[next[s[i + a]]++] = s[i + b];
-  return (shape.neighbours = { starts, list });
+  return (shape.neighbors = { starts, list });
 }
 
 // what is connected to a vertex by vertices of its status
 export function flood(shape, seed) {
-  const { starts, list } = neighbourLists(shape),
+  const { starts, list } = neighborLists(shape),
     wanted = shape.status[seed],
     reached = new Uint8Array(shape.status.length),
     queue = [seed];

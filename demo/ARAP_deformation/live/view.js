@@ -1,4 +1,4 @@
-// What is drawn: the shape in the colours of its regions, marks, the gizmo; and what is where on
+// What is drawn: the shape in the colors of its regions, marks, the gizmo; and what is where on
 // the screen.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
@@ -224,12 +224,12 @@ export class View {
     return sharp > 0.02 * f.length;
   }
 
-  // colourOf(vertex) returns a colour as 0xrrggbb
-  setColours(colourOf) {
+  // colorOf(vertex) returns a color as 0xrrggbb
+  setColors(colorOf) {
     const attribute = this.mesh.geometry.attributes.color,
       c = attribute.array;
     for (let v = 0, i = 0; i < c.length; ++v) {
-      const rgb = colourOf(v);
+      const rgb = colorOf(v);
       c[i++] = linear[rgb >> 16];
       c[i++] = linear[(rgb >> 8) & 255];
       c[i++] = linear[rgb & 255];
@@ -238,14 +238,14 @@ export class View {
     this.isDirty = true;
   }
 
-  setMarks(points, colours) {
+  setMarks(points, colors) {
     this.marks.geometry.dispose();
     this.marks.geometry = new THREE.BufferGeometry();
     this.marks.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
     this.marks.geometry.setAttribute(
       'color',
       new THREE.Float32BufferAttribute(
-        colours.flatMap((rgb) => new THREE.Color(rgb).toArray()),
+        colors.flatMap((rgb) => new THREE.Color(rgb).toArray()),
         3,
       ),
     );
@@ -325,7 +325,7 @@ export class View {
       pixels = new Uint8Array(4 * w * h);
     distanceMaterial.uniforms.far.value = far;
     this.mesh.material = distanceMaterial;
-    const colour = this.renderer.getClearColor(new THREE.Color()).clone(),
+    const color = this.renderer.getClearColor(new THREE.Color()).clone(),
       alpha = this.renderer.getClearAlpha();
     this.renderer.setRenderTarget(target);
     this.renderer.setClearColor(0xffffff, 1);
@@ -334,7 +334,7 @@ export class View {
     this.renderer.render(this.mesh, this.camera);
     this.renderer.readRenderTargetPixels(target, 0, 0, w, h, pixels);
     this.renderer.setRenderTarget(null);
-    this.renderer.setClearColor(colour, alpha);
+    this.renderer.setClearColor(color, alpha);
     this.mesh.material = this.material;
     target.dispose();
     const distance = (x, y) => {
@@ -369,7 +369,7 @@ export class View {
   }
 }
 
-// the colours of the page in the space in which three.js computes
+// the colors of the page in the space in which three.js computes
 const linear = Uint8Array.from({ length: 256 }, (_, i) =>
   Math.round(255 * new THREE.Color(`rgb(${i},${i},${i})`).r),
 );

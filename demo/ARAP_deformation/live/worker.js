@@ -145,7 +145,7 @@ const operations = {
   points() {
     return { points: session.points(), rest: session.restPoints() };
   },
-  colours({ measure }) {
+  colors({ measure }) {
     return { values: session.qualityAtVertices(measure), quality: session.quality() };
   },
   locate({ point }) {

@@ -69,7 +69,7 @@ public:
   /// returns the weight of an edge in an edge set of the given kind.
   ///
   /// \param edge_set the kind of the edge set
-  /// \param i the domain's index of one vertex of the edge; in a star, of its centre
+  /// \param i the domain's index of one vertex of the edge; in a star, of its center
   /// \param j the index of the other vertex
   /// \param sum the sum of the weights of the edge, as returned by `simplex_weights()`, over the
   ///        simplices of the edge set

@@ -46,13 +46,13 @@ def edges_of(triangle):
     return (a, b), (b, c), (a, c)
 
 
-def line(p, q, colour, width):
+def line(p, q, color, width):
     return (f'<line x1="{p[0]:.1f}" y1="{p[1]:.1f}" x2="{q[0]:.1f}" y2="{q[1]:.1f}" '
-            f'stroke="{colour}" stroke-width="{width}" stroke-linecap="round"/>')
+            f'stroke="{color}" stroke-width="{width}" stroke-linecap="round"/>')
 
 
-def dot(p, colour, radius=6):
-    return (f'<circle cx="{p[0]:.1f}" cy="{p[1]:.1f}" r="{radius}" fill="{colour}" '
+def dot(p, color, radius=6):
+    return (f'<circle cx="{p[0]:.1f}" cy="{p[1]:.1f}" r="{radius}" fill="{color}" '
             'stroke="#303030" stroke-width="1.2"/>')
 
 
@@ -83,22 +83,22 @@ def write(name, width, height, parts):
 
 def draw_cells():
     parts = []
-    centre = (0, 0)
+    center = (0, 0)
     for k, name in enumerate(['spokes', 'spokes and rims', 'elements', '1-ring']):
         nodes = [(i, j) for i in range(-3, 3) for j in range(-3, 3)]
-        mesh = Lattice(nodes, lambda n: distance(n, centre) <= 2, (105 + 210 * k, 92))
+        mesh = Lattice(nodes, lambda n: distance(n, center) <= 2, (105 + 210 * k, 92))
         if name == 'elements':
             chosen = [((0, 0), (1, 0), (0, 1))]
         else:
-            chosen = [t for t in mesh.triangles if centre in t]
+            chosen = [t for t in mesh.triangles if center in t]
         bold = {tuple(sorted(e)) for t in chosen for e in edges_of(t)}
         if name == 'spokes':
-            bold = {e for e in bold if centre in e}
+            bold = {e for e in bold if center in e}
         if name == '1-ring':
-            bold = {e for e in mesh.edges if min(distance(n, centre) for n in e) <= 1}
+            bold = {e for e in mesh.edges if min(distance(n, center) for n in e) <= 1}
         parts += mesh.draw(shaded=chosen if name in ('spokes and rims', 'elements') else (), bold=bold)
         if name != 'elements':
-            parts.append(dot(mesh.place(centre), WHITE, 7))
+            parts.append(dot(mesh.place(center), WHITE, 7))
         parts.append(text((105 + 210 * k, 190), name))
     write('arap_cells.svg', 840, 205, parts)
 

@@ -22,7 +22,7 @@ namespace ARAP {
 /// the kinds of edge sets over which the energy is summed.
 enum class Edge_set
 {
-  star,   ///< the edges \f$(i, j)\f$ from a vertex \f$i\f$ to its neighbours
+  star,   ///< the edges \f$(i, j)\f$ from a vertex \f$i\f$ to its neighbors
   simplex ///< the edges of one simplex: the three of a triangle, the six of a tetrahedron, the
           ///< sides and diagonals of a polygon
 };
@@ -39,7 +39,7 @@ class Cell_scheme
 {
 public:
   /// the cells of Sorkine and Alexa \cgalCite{Sorkine2007AsRigidAs}, Equation (3): one for each
-  /// vertex, with the edges to its neighbours.
+  /// vertex, with the edges to its neighbors.
   static constexpr Cell_scheme spokes() { return Cell_scheme(Edge_set::star, false); }
 
   /// one cell for each vertex, with the stars of all vertices within `k` rings around it: the

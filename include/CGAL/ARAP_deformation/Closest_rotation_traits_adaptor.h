@@ -82,7 +82,7 @@ private:
     return result;
   }
 
-  // One step r (I - e / 2) towards the orthonormal matrix closest to r, with e = r^T r - I, which
+  // One step r (I - e / 2) toward the orthonormal matrix closest to r, with e = r^T r - I, which
   // converges quadratically. Returns false if e is too large to remove, or only rounding.
   static bool remove_small_shear(Matrix_3x3& r)
   {

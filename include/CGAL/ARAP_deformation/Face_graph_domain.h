@@ -68,7 +68,7 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// The faces are the simplices. A polygon with up to 64 corners has the average weights of all its
 /// triangulations, in \f$O(k^3)\f$ time for \f$k\f$ corners. One with more has the average of
 /// the \f$k\f$ triangulations that are fans, in \f$O(k^2)\f$ time. All its corners are
-/// neighbours, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
+/// neighbors, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
 /// polygons with more than 2048 corners with `Status::too_many_corners`.
 /// The mesh must outlive the domain, and its connectivity must not change in the meantime.
 ///

@@ -26,7 +26,7 @@ namespace ARAP {
 /// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  automatic, ///< `previous`; but where a handle has been torn away from its neighbours by more than
+  automatic, ///< `previous`; but where a handle has been torn away from its neighbors by more than
              ///< a tenth of the bounding box, `rotations` if its energy is lower. Quasi-Newton
              ///< runs on surfaces with 20,000 free vertices or more then deform a coarser surface
              ///< (\ref ARAPDeformation_CoarseStart).
@@ -75,7 +75,7 @@ struct Options
 
   /// \f$\ell\f$, the length over which rotations are made smooth, in the unit of the points; 0 for
   /// none, else positive and finite, with the same largest value. The energy gains
-  /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighbouring cells, after \cgalCite{levismooth},
+  /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighboring cells, after \cgalCite{levismooth},
   /// see \ref ARAPDeformation_SmoothRotationsTheory. Rotations are then part of the state, and the
   /// energy is minimized over positions and rotations in turns: see
   /// \ref ARAPDeformation_SmoothRotations. A new value requires weights and a factorization; 0

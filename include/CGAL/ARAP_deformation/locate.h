@@ -126,13 +126,11 @@ private:
 /// \returns a `std::optional` of a `Location`; none if there is no simplex, or if `point` is not
 ///          finite
 template <typename Shape, typename Point>
-auto locate(Shape& shape, const Point& point)
+auto locate(const Shape& shape, const Point& point)
 {
-  using Domain = typename internal::Default_domain<std::remove_const_t<Shape>>::type;
-  if constexpr(internal::Is_domain<Shape>::value)
-    return Locator<Domain>(shape).locate(point);
-  else
-    return Locator<Domain>(internal::make_domain<Domain>(shape)).locate(point);
+  return internal::with_domain(shape, [&](const auto& domain) {
+    return Locator<std::decay_t<decltype(domain)>>(domain).locate(point);
+  });
 }
 
 } // namespace ARAP

@@ -54,7 +54,7 @@ namespace parameters {
 /// Named parameters of `CGAL::arap_deform()` and of the constructors of `CGAL::ARAP_deformation`,
 /// in addition to those of \cgal. They begin a sequence,
 /// `parameters::deformation_options(o).visitor(v)`, or have the rest of it as their second
-/// argument: `parameters::region_of_interest(r, parameters::deformation_options(o))`.
+/// argument: `parameters::region_of_interest(r, parameters::target_weight(w))`.
 /// @{
 
 /// the options, default `ARAP::Options()`.

@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -96,6 +97,12 @@ public:
   Quality_measures(const Domain& domain, const RestPointMap& rest_points, const PointMap& points)
     : m_list(domain), m_rest(coordinates_of(domain, rest_points)),
       m_points(coordinates_of(domain, points))
+  {}
+
+  template <typename RestPointMap>
+  Quality_measures(const Domain& domain, const RestPointMap& rest_points)
+    : Quality_measures(domain, rest_points,
+                       [&](typename Domain::vertex_descriptor v) { return domain.point(v); })
   {}
 
   std::vector<double> at_vertices(Vertex_measure measure) const
@@ -312,44 +319,51 @@ private:
 /// \brief measures what a deformation has done to a shape, in \f$O(n \log n)\f$ time for \f$n\f$
 /// simplices.
 ///
-/// \param domain a model of `ARAPDomain`
+/// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
+///        `ARAPDomain`
 /// \param rest_points the points of the vertices in the rest shape: a function object, a property
-///        map, an associative container, where vertices without a value are where the domain has
+///        map, an associative container, where vertices without a value are where the shape has
 ///        them, or a vector by the indices of the vertices
 /// \param points the same for the deformed shape
-template <typename Domain, typename RestPointMap, typename PointMap>
-Quality quality(const Domain& domain, const RestPointMap& rest_points, const PointMap& points)
+template <typename Shape, typename RestPointMap, typename PointMap>
+Quality quality(const Shape& shape, const RestPointMap& rest_points, const PointMap& points)
 {
-  return internal::Quality_measures<Domain>(domain, rest_points, points).of_all();
+  return internal::with_domain(shape, [&](const auto& domain) {
+    return internal::Quality_measures(domain, rest_points, points).of_all();
+  });
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief measures what a deformation has done to a shape whose points are now those of the domain.
-template <typename Domain, typename RestPointMap>
-Quality quality(const Domain& domain, const RestPointMap& rest_points)
+/// \brief measures what a deformation has done to a shape that has its points now.
+template <typename Shape, typename RestPointMap>
+Quality quality(const Shape& shape, const RestPointMap& rest_points)
 {
-  return quality(domain, rest_points,
-                 [&](typename Domain::vertex_descriptor v) { return domain.point(v); });
+  return internal::with_domain(shape, [&](const auto& domain) {
+    return internal::Quality_measures(domain, rest_points).of_all();
+  });
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief returns what a deformation has done at each vertex, in linear time: the value of `v` has
-/// the position `domain.index(v)`. It is 0 where no simplex is.
-template <typename Domain, typename RestPointMap, typename PointMap>
-std::vector<double> quality_at_vertices(Vertex_measure measure, const Domain& domain,
+/// \brief returns what a deformation has done at each vertex, in linear time: the value of a vertex
+/// is at its index in the domain. It is 0 where no simplex is.
+template <typename Shape, typename RestPointMap, typename PointMap>
+std::vector<double> quality_at_vertices(Vertex_measure measure, const Shape& shape,
                                         const RestPointMap& rest_points, const PointMap& points)
 {
-  return internal::Quality_measures<Domain>(domain, rest_points, points).at_vertices(measure);
+  return internal::with_domain(shape, [&](const auto& domain) {
+    return internal::Quality_measures(domain, rest_points, points).at_vertices(measure);
+  });
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief returns the same for a shape whose points are now those of the domain.
-template <typename Domain, typename RestPointMap>
-std::vector<double> quality_at_vertices(Vertex_measure measure, const Domain& domain,
+/// \brief returns the same for a shape that has its points now.
+template <typename Shape, typename RestPointMap>
+std::vector<double> quality_at_vertices(Vertex_measure measure, const Shape& shape,
                                         const RestPointMap& rest_points)
 {
-  return quality_at_vertices(measure, domain, rest_points,
-                             [&](typename Domain::vertex_descriptor v) { return domain.point(v); });
+  return internal::with_domain(shape, [&](const auto& domain) {
+    return internal::Quality_measures(domain, rest_points).at_vertices(measure);
+  });
 }
 
 } // namespace ARAP

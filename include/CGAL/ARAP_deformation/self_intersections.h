@@ -16,6 +16,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -26,6 +27,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,25 +42,29 @@ namespace ARAP {
 /// Polygons are cut from one of their corners. Triangles without area do not count. No other
 /// header needs CGAL's package Polygon Mesh Processing.
 ///
-/// \param domain a model of `ARAPDomain`, with the points of the deformed shape
-template <typename Domain>
-std::size_t number_of_self_intersections(const Domain& domain)
+/// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,
+///        or a model of `ARAPDomain`
+template <typename Shape>
+std::size_t number_of_self_intersections(const Shape& shape)
 {
   namespace PMP = CGAL::Polygon_mesh_processing;
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
   std::vector<Point> points;
-  for(const auto& v : domain.vertices())
-  {
-    const Coordinates p = Domain::coordinates(domain.point(v));
-    if(points.size() <= domain.index(v))
-      points.resize(domain.index(v) + 1, Point(0, 0, 0));
-    points[domain.index(v)] = Point(p[0], p[1], p[2]);
-  }
   std::vector<std::vector<std::size_t>> triangles;
-  for(const auto& face : internal::Simplex_list<Domain>(domain).faces())
-    for(std::size_t k = 1; k + 1 < face.size(); ++k)
-      if(!CGAL::collinear(points[face[0]], points[face[k]], points[face[k + 1]]))
-        triangles.push_back({face[0], face[k], face[k + 1]});
+  internal::with_domain(shape, [&](const auto& domain) {
+    using Domain = std::decay_t<decltype(domain)>;
+    for(const auto& v : domain.vertices())
+    {
+      const Coordinates p = Domain::coordinates(domain.point(v));
+      if(points.size() <= domain.index(v))
+        points.resize(domain.index(v) + 1, Point(0, 0, 0));
+      points[domain.index(v)] = Point(p[0], p[1], p[2]);
+    }
+    for(const auto& face : internal::Simplex_list<Domain>(domain).faces())
+      for(std::size_t k = 1; k + 1 < face.size(); ++k)
+        if(!CGAL::collinear(points[face[0]], points[face[k]], points[face[k + 1]]))
+          triangles.push_back({face[0], face[k], face[k + 1]});
+  });
   PMP::orient_polygon_soup(points, triangles); // so that there is a mesh of them
   CGAL::Surface_mesh<Point> mesh;
   PMP::polygon_soup_to_polygon_mesh(points, triangles, mesh);

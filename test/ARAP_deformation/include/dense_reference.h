@@ -107,7 +107,7 @@ private:
 
   double star_weight(std::size_t i, std::size_t j) const;
 
-  std::set<std::size_t> neighbours(std::size_t i) const;
+  std::set<std::size_t> neighbors(std::size_t i) const;
 
   std::vector<Edge> simplex_edges(const Simplex& s) const;
 
@@ -142,10 +142,10 @@ private:
   // group in which something moves, all that have one with a vertex of the region of interest.
   void make_cells(Cells scheme);
 
-  // the weight between two vertices or simplices that are neighbours
+  // the weight between two vertices or simplices that are neighbors
   double coupling(Cells scheme, std::size_t i, std::size_t j) const;
 
-  // the weights between neighbouring cells; that of groups is the sum over what is in them
+  // the weights between neighboring cells; that of groups is the sum over what is in them
   void couple(Cells scheme);
 
   // fits the rotations to x, all at once

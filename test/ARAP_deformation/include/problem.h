@@ -64,7 +64,7 @@ Region region_of(const std::vector<Eigen::Vector3d>& points, const Simplices& si
       region.corners.push_back(static_cast<int>(v));
     region.first_corner.push_back(static_cast<int>(region.corners.size()));
   }
-  region.number_of_movable_vertices = region.number_of_centres = region.number_of_vertex_cells =
+  region.number_of_movable_vertices = region.number_of_centers = region.number_of_vertex_cells =
     static_cast<int>(points.size());
   region.number_of_movable_simplices = static_cast<int>(simplices.size());
   return region;

@@ -44,9 +44,9 @@ inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 // empty if METIS fails
 inline Array<int> metis_order(const Sparse_matrix& a)
 {
-  // the neighbours of each row, from the lower triangle
+  // the neighbors of each row, from the lower triangle
   idx_t n = static_cast<idx_t>(a.cols());
-  Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbours;
+  Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbors;
   const auto for_each_edge = [&](const auto& f) {
     for(int j = 0; j < a.cols(); ++j)
       for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
@@ -59,15 +59,15 @@ inline Array<int> metis_order(const Sparse_matrix& a)
   });
   for(std::size_t v = 1; v < begin.size(); ++v)
     begin[v] += begin[v - 1];
-  neighbours.resize(static_cast<std::size_t>(begin.back()));
+  neighbors.resize(static_cast<std::size_t>(begin.back()));
   for_each_edge([&](int i, int j) {
-    neighbours[begin[i + 1]++] = j;
-    neighbours[begin[j + 1]++] = i;
+    neighbors[begin[i + 1]++] = j;
+    neighbors[begin[j + 1]++] = i;
   });
-  if(neighbours.empty()) // METIS does not take a graph without edges
+  if(neighbors.empty()) // METIS does not take a graph without edges
     return {};
   Array<idx_t> order(static_cast<std::size_t>(n)), position(order.size());
-  if(METIS_NodeND(&n, begin.data(), neighbours.data(), nullptr, nullptr, order.data(),
+  if(METIS_NodeND(&n, begin.data(), neighbors.data(), nullptr, nullptr, order.data(),
                   position.data()) != METIS_OK)
     return {};
   return Array<int>(order.begin(), order.end());

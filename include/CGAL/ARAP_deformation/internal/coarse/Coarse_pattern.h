@@ -172,7 +172,7 @@ private:
         });
       if(found != coefficients.vertices.end())
         node_of.items.push_back(space.nodes(*found)[0]);
-      node_of.begin.push_back(static_cast<int>(node_of.items.size()));
+      node_of.end_list();
     }
     return lists_with(node_of, space.number_of_nodes());
   }
@@ -203,7 +203,7 @@ private:
   static void append(const Array<int>& list, Index_lists& lists)
   {
     lists.items.insert(lists.items.end(), list.begin(), list.end());
-    lists.begin.push_back(static_cast<int>(lists.items.size()));
+    lists.end_list();
   }
 };
 

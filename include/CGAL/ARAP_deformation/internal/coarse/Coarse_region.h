@@ -41,7 +41,7 @@ public:
       m_space(graph_of(fine), fine.rest, complement(m_is_free), vertices_of_a_ball)
   {
     const int m = m_space.number_of_nodes();
-    m_region.number_of_movable_vertices = m_region.number_of_centres =
+    m_region.number_of_movable_vertices = m_region.number_of_centers =
       m_region.number_of_vertex_cells = m;
     m_region.rest.reserve(static_cast<std::size_t>(m));
     for(int node = 0; node < m; ++node)
@@ -97,7 +97,7 @@ private:
     return chosen;
   }
 
-  // the neighbours of each vertex, twice where they are so in two polygons
+  // the neighbors of each vertex, twice where they are so in two polygons
   Index_lists graph_of(const Region& fine) const
   {
     return lists_of_pairs(fine.number_of_vertices(), [&](const auto& f) {

@@ -45,7 +45,7 @@ public:
     weigh(nearest_nodes(graph));
   }
 
-  // From the neighbours of each vertex, with balls of so many vertices; first from some vertices,
+  // From the neighbors of each vertex, with balls of so many vertices; first from some vertices,
   // with smaller balls.
   Coarse_space(const Index_lists& graph, const Array<Coordinates>& points,
                const Array<char>& comes_first, std::size_t vertices_of_a_ball)
@@ -85,7 +85,7 @@ private:
     });
   }
 
-  // Those with neighbours, in an order that does not depend on their numbers, unless two are at the
+  // Those with neighbors, in an order that does not depend on their numbers, unless two are at the
   // same point.
   static Array<int> vertices_along_an_axis(const Index_lists& graph,
                                            const Array<Coordinates>& points)
@@ -101,8 +101,8 @@ private:
   }
 
   // A vertex is a node if it is not in the ball around any node before it. A ball grows by rings,
-  // which do not depend on the order of neighbours: by those of the node, and then by all vertices
-  // with two neighbours in it, which makes it round.
+  // which do not depend on the order of neighbors: by those of the node, and then by all vertices
+  // with two neighbors in it, which makes it round.
   void choose_nodes(const Index_lists& graph, const Array<int>& vertices,
                     std::size_t vertices_of_a_ball)
   {

@@ -119,7 +119,7 @@ public:
     {
       if(m_space.has_nodes(v))
         next.items.push_back(m_space.nodes(v)[0]);
-      next.begin.push_back(static_cast<int>(next.items.size()));
+      next.end_list();
     }
     m_vertices_of = lists_with(next, m);
   }

@@ -35,7 +35,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Weighted_rows::append(int vertex, double weight)
 {
   m_vertices.items.push_back(vertex);
-  m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+  m_vertices.end_list();
   m_coefficients.push_back(1);
   m_weights.push_back(weight);
 }
@@ -45,7 +45,7 @@ void Weighted_rows::append(const Array<int>& vertices, const Array<double>& coef
                            double weight)
 {
   m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
-  m_vertices.begin.push_back(static_cast<int>(m_vertices.items.size()));
+  m_vertices.end_list();
   m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
   m_weights.push_back(weight);
   m_is_diagonal &= vertices.size() == 1;

@@ -154,6 +154,16 @@ Domain make_domain(Mesh& mesh)
     return Domain(mesh);
 }
 
+// Calls `f`, which only reads, with a domain, or with the default domain of a mesh.
+template <typename Shape, typename Function>
+decltype(auto) with_domain(const Shape& shape, const Function& f)
+{
+  if constexpr(Is_domain<Shape>::value)
+    return f(shape);
+  else // domains refer to meshes that can be written
+    return f(make_domain<typename Default_domain<Shape>::type>(const_cast<Shape&>(shape)));
+}
+
 } // namespace internal
 
 } // namespace ARAP

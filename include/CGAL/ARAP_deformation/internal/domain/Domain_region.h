@@ -65,13 +65,13 @@ public:
     }
     flat.number_of_movable_simplices = flat.number_of_simplices();
     // a cell that has a movable vertex is within cell_rings + 1 rings, and so many more its stars
-    flat.number_of_centres = flat.number_of_movable_vertices;
+    flat.number_of_centers = flat.number_of_movable_vertices;
     for(int ring = 1; ring <= 2 * cell_rings + 1; ++ring)
     {
-      const int begin = std::exchange(flat.number_of_centres, static_cast<int>(vertices.size()));
+      const int begin = std::exchange(flat.number_of_centers, static_cast<int>(vertices.size()));
       if(ring == cell_rings + 1)
-        flat.number_of_vertex_cells = flat.number_of_centres;
-      if(!collect_simplices(domain, begin, flat.number_of_centres))
+        flat.number_of_vertex_cells = flat.number_of_centers;
+      if(!collect_simplices(domain, begin, flat.number_of_centers))
         return false;
     }
     first_simplex.push_back(flat.number_of_simplices());

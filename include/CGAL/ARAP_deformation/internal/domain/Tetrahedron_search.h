@@ -17,9 +17,8 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
+#include <CGAL/ARAP_deformation/internal/domain/barycentric_coordinates.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -34,25 +33,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-using Barycentric_coordinates = std::array<double, 4>;
-
-// The barycentric coordinates of a point, or none if the tetrahedron has no volume up to rounding.
-// Their sum is 1. The solution is backward stable: the coordinates reproduce the point even if the
-// tetrahedron is thin.
-inline std::optional<Barycentric_coordinates>
-barycentric_coordinates(const Simplex_search<4>::Corners& corners, const Coordinates& point)
-{
-  const Eigen::Map<const Eigen::Matrix<double, 3, 4>> c(corners.data()->data());
-  const Eigen::Matrix3d edges = c.rightCols<3>().colwise() - c.col(0);
-  const Eigen::Vector3d from_first = Eigen::Map<const Eigen::Vector3d>(point.data()) - c.col(0);
-  Eigen::FullPivLU<Eigen::Matrix3d> decomposition;
-  decomposition.setThreshold(1e-12);
-  if(!decomposition.compute(edges).isInvertible())
-    return std::nullopt;
-  const Eigen::Vector3d solution = decomposition.solve(from_first);
-  return Barycentric_coordinates{1 - solution.sum(), solution[0], solution[1], solution[2]};
-}
 
 // Finds the tetrahedron that contains a point, or else the nearest one.
 //

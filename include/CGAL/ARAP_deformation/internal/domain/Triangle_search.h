@@ -17,8 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
-
-#include <Eigen/QR>
+#include <CGAL/ARAP_deformation/internal/domain/barycentric_coordinates.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -42,7 +41,7 @@ public:
       const Corners& c = triangles[t];
       const Triangle_tree::Triangle triangle = {
         {m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t};
-      if(decomposition(triangle).rank() == 2)
+      if(barycentric_coordinates(triangle.corners, triangle.corners[0]))
         m_triangles.push_back(triangle);
     }
     for(const auto& triangle : m_triangles)
@@ -62,31 +61,14 @@ public:
     if(!nearest)
       return std::nullopt;
     const Triangle_tree::Triangle& triangle = *nearest->triangle;
-    const Eigen::Vector2d solution = decomposition(triangle).solve(
-      vector(nearest->point) - vector(triangle.corners[0]));
+    const auto found = *barycentric_coordinates(triangle.corners, nearest->point);
     // rounding errors at an edge make no coordinate negative
-    const double b = (std::min)((std::max)(solution[0], 0.0), 1.0);
-    const double c = (std::min)((std::max)(solution[1], 0.0), 1 - b);
+    const double b = (std::min)((std::max)(found[1], 0.0), 1.0);
+    const double c = (std::min)((std::max)(found[2], 0.0), 1 - b);
     return Location{triangle.simplex, {1 - b - c, b, c}, nearest->distance * m_tree.extent()};
   }
 
 private:
-  static Eigen::Vector3d vector(const Coordinates& c) { return {c[0], c[1], c[2]}; }
-
-  // of its edges from the first corner; backward stable for thin triangles
-  static Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 2>>
-  decomposition(const Triangle_tree::Triangle& triangle)
-  {
-    Eigen::Matrix<double, 3, 2> edges;
-    for(int k = 0; k < 2; ++k)
-      edges.col(k) =
-        vector(triangle.corners[static_cast<std::size_t>(k + 1)]) - vector(triangle.corners[0]);
-    Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 2>> result;
-    result.setThreshold(1e-12);
-    result.compute(edges);
-    return result;
-  }
-
   Triangle_tree m_tree;
   std::vector<Triangle_tree::Triangle> m_triangles;
 };

@@ -38,8 +38,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Nearest triangles by CGAL's AABB tree. The tree stores a complex centred at the origin and scaled
-// to longest side 1, so that squares neither overflow nor underflow.
+// Nearest triangles by CGAL's AABB tree. The tree stores a complex centered at the origin and
+// scaled to longest side 1, so that squares neither overflow nor underflow.
 class Triangle_tree
 {
 public:
@@ -74,7 +74,7 @@ public:
         }
     for(std::size_t k = 0; k < 3; ++k)
     {
-      m_centre[k] = 0.5 * lowest[k] + 0.5 * highest[k];
+      m_center[k] = 0.5 * lowest[k] + 0.5 * highest[k];
       m_extent = (std::max)(m_extent, highest[k] - lowest[k]);
     }
   }
@@ -84,8 +84,8 @@ public:
 
   Coordinates scaled(const Coordinates& c) const
   {
-    return {(c[0] - m_centre[0]) / m_extent, (c[1] - m_centre[1]) / m_extent,
-            (c[2] - m_centre[2]) / m_extent};
+    return {(c[0] - m_center[0]) / m_extent, (c[1] - m_center[1]) / m_extent,
+            (c[2] - m_center[2]) / m_extent};
   }
 
   // The tree refers to the triangle. build() must be called after the last one.
@@ -149,7 +149,7 @@ private:
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 #endif
 
-  Coordinates m_centre = {0, 0, 0};
+  Coordinates m_center = {0, 0, 0};
   double m_extent = 0;
   Tree m_tree;
 };

@@ -99,7 +99,7 @@ public:
     return {0, 0, 0};
   }
 
-  // of a simplex `sum`; of a star the weight of the halfedge from j to its centre i
+  // of a simplex `sum`; of a star the weight of the halfedge from j to its center i
   double edge_weight(Edge_set edge_set, std::size_t i, std::size_t j, double sum) const
   {
     if(edge_set == Edge_set::simplex)

@@ -39,7 +39,7 @@ namespace internal {
 struct Form_view
 {
   const int* begin;
-  const int* neighbours;
+  const int* neighbors;
   const double* weights;
   const double* inverse_masses;
   const double* factors; // b^2 k_i
@@ -54,7 +54,7 @@ struct Form_values_kernel
     {
       Double4 sum = Double4::zero();
       for(int e = forms.begin[i]; e < forms.begin[i + 1]; ++e)
-        sum = multiply_add(Double4::all(forms.weights[e]), x[i] - x[forms.neighbours[e]], sum);
+        sum = multiply_add(Double4::all(forms.weights[e]), x[i] - x[forms.neighbors[e]], sum);
       values[i] = Double4::all(forms.inverse_masses[i]) * sum;
     }
   }
@@ -94,7 +94,7 @@ struct Form_forces_kernel
       Double4 sum = Double4::zero();
       for(int e = forms.begin[v]; e < forms.begin[v + 1]; ++e)
         sum = multiply_add(Double4::all(forms.weights[e]),
-                           residuals[forms.neighbours[e]] - residuals[v], sum);
+                           residuals[forms.neighbors[e]] - residuals[v], sum);
       force[v] = {force[v][0] + sum[0], force[v][1] + sum[1], force[v][2] + sum[2]};
     }
   }
@@ -139,13 +139,13 @@ public:
       if(!(m_inverse_masses[i] > 0)) // one of stiffness 0 counts: the pattern is that of the region
         continue;
       const double factor = m_factors[i] * m_inverse_masses[i];
-      const int begin = m_stars.neighbours.begin[i], end = m_stars.neighbours.begin[i + 1];
+      const int begin = m_stars.neighbors.begin[i], end = m_stars.neighbors.begin[i + 1];
       const double own = sum_of_weights(i);
       for(int a = begin; a < end; ++a)
       {
-        f(i, m_stars.neighbours.items[a], factor * own * m_stars.weights[a]);
+        f(i, m_stars.neighbors.items[a], factor * own * m_stars.weights[a]);
         for(int b = a + 1; b < end; ++b)
-          f(m_stars.neighbours.items[a], m_stars.neighbours.items[b],
+          f(m_stars.neighbors.items[a], m_stars.neighbors.items[b],
             -factor * m_stars.weights[a] * m_stars.weights[b]);
       }
     }
@@ -159,7 +159,7 @@ public:
       for(int i = begin; i < end; ++i)
       {
         double weights = 0;
-        for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+        for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
           weights += 2 * std::abs(m_stars.weights[e]);
         const double factor = m_chosen_factors[i];
         const Double4 square = m_rest_values[i] * m_rest_values[i];
@@ -177,7 +177,7 @@ public:
   void choose_cells(const Array<char>& is_chosen)
   {
     m_chosen_factors = m_factors;
-    const auto is_counted = [&](int i) { // larger cells have centres around them without a cell
+    const auto is_counted = [&](int i) { // larger cells have centers around them without a cell
       return i < static_cast<int>(is_chosen.size()) && is_chosen[i];
     };
     for(int i = 0; i < size(); ++i)
@@ -217,8 +217,8 @@ public:
   {
     if(is_none() || !(m_chosen_factors[c] > 0))
       return;
-    for(int e = m_stars.neighbours.begin[c]; e < m_stars.neighbours.begin[c + 1]; ++e)
-      sum.add_edge(c, m_stars.neighbours.items[e],
+    for(int e = m_stars.neighbors.begin[c]; e < m_stars.neighbors.begin[c + 1]; ++e)
+      sum.add_edge(c, m_stars.neighbors.items[e],
                    Double4::all(m_chosen_factors[c] * m_stars.weights[e]) * m_rest_values[c]);
   }
 
@@ -248,14 +248,14 @@ private:
   double sum_of_weights(int i) const
   {
     double sum = 0;
-    for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+    for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
       sum += m_stars.weights[e];
     return sum;
   }
 
   Form_view view(const Array<double>& factors) const
   {
-    return {m_stars.neighbours.begin.data(), m_stars.neighbours.items.data(),
+    return {m_stars.neighbors.begin.data(), m_stars.neighbors.items.data(),
             m_stars.weights.data(), m_inverse_masses.data(), factors.data()};
   }
 

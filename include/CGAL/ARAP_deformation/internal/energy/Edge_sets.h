@@ -31,23 +31,23 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The edge sets that are stars: the neighbours of each centre, in the order of their numbers, and
+// The edge sets that are stars: the neighbors of each center, in the order of their numbers, and
 // the weights of the edges to them.
 struct Stars
 {
-  Index_lists neighbours;
-  Array<double> weights; // for each item of `neighbours`
+  Index_lists neighbors;
+  Array<double> weights; // for each item of `neighbors`
 
-  int size() const { return neighbours.size(); }
+  int size() const { return neighbors.size(); }
 
-  // the place of the neighbour j of i
+  // the place of the neighbor j of i
   int find(int i, int j) const
   {
-    const auto begin = neighbours.items.begin() + neighbours.begin[i];
-    const auto end = neighbours.items.begin() + neighbours.begin[i + 1];
+    const auto begin = neighbors.items.begin() + neighbors.begin[i];
+    const auto end = neighbors.items.begin() + neighbors.begin[i + 1];
     const auto found = std::lower_bound(begin, end, j);
     CGAL_assertion(found != end && *found == j);
-    return static_cast<int>(found - neighbours.items.begin());
+    return static_cast<int>(found - neighbors.items.begin());
   }
 
   // whether no star has a negative energy
@@ -61,8 +61,8 @@ struct Stars
   void for_each_edge(const Function& f) const
   {
     for(int i = 0; i < size(); ++i)
-      for(int e = neighbours.begin[i]; e < neighbours.begin[i + 1]; ++e)
-        f(i, neighbours.items[e], weights[e]);
+      for(int e = neighbors.begin[i]; e < neighbors.begin[i + 1]; ++e)
+        f(i, neighbors.items[e], weights[e]);
   }
 };
 
@@ -189,18 +189,18 @@ inline Cells separate_cells(int number_of_sets)
   return cells;
 }
 
-// the simplices with these corners are a cell at each of the first `number_of_centres` vertices
-inline Cells vertex_cells(const Index_lists& corners, int number_of_centres)
+// the simplices with these corners are a cell at each of the first `number_of_centers` vertices
+inline Cells vertex_cells(const Index_lists& corners, int number_of_centers)
 {
-  return {lists_with(corners, number_of_centres), Array<double>(number_of_centres, 1)};
+  return {lists_with(corners, number_of_centers), Array<double>(number_of_centers, 1)};
 }
 
 // the stars within k rings around each of the first `number_of_cells` vertices
-inline Cells ring_cells(const Index_lists& neighbours, int number_of_cells, unsigned int k)
+inline Cells ring_cells(const Index_lists& neighbors, int number_of_cells, unsigned int k)
 {
   Cells cells;
   cells.stiffness = Array<double>(number_of_cells, 1);
-  Array<int> last_cell(neighbours.size(), -1);
+  Array<int> last_cell(neighbors.size(), -1);
   for(int c = 0; c < number_of_cells; ++c)
   {
     Array<int>& items = cells.sets.items;
@@ -209,13 +209,13 @@ inline Cells ring_cells(const Index_lists& neighbours, int number_of_cells, unsi
     last_cell[c] = c;
     for(unsigned int ring = 0; ring < k; ++ring)
       for(const std::size_t end = items.size(); begin < end; ++begin)
-        for(int e = neighbours.begin[items[begin]]; e < neighbours.begin[items[begin] + 1]; ++e)
-          if(const int j = neighbours.items[e]; last_cell[j] != c)
+        for(int e = neighbors.begin[items[begin]]; e < neighbors.begin[items[begin] + 1]; ++e)
+          if(const int j = neighbors.items[e]; last_cell[j] != c)
           {
             last_cell[j] = c;
             items.push_back(j);
           }
-    cells.sets.begin.push_back(to_index(items.size()));
+    cells.sets.end_list();
   }
   return cells;
 }

@@ -33,9 +33,9 @@ struct Energy_model
   double bending_length = 0;
   double smoothing_length = 0;
   // If not empty, cells at vertices are fitted in this order, see Sequential_fit; the factor of one
-  // with n neighbours is this weight / n.
+  // with n neighbors is this weight / n.
   Array<int> fit_order;
-  double neighbour_weight = 0;
+  double neighbor_weight = 0;
 };
 
 } // namespace internal

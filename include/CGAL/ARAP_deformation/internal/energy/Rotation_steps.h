@@ -34,7 +34,7 @@ namespace ARAP {
 namespace internal {
 
 // Steps of all rotations together, where they are to be smooth: fitted one by one to what their
-// neighbours were, they tell each other the slower what they see the larger the smoothing length
+// neighbors were, they tell each other the slower what they see the larger the smoothing length
 // is. Of the rotations exp(w_c) R_c the energy is, to second order,
 //   -2 sum_c f_c w_c + sum_c w_c H_c w_c + 2 sum over pairs of s_cd || w_c - w_d ||^2.
 // A step is its minimum, but with the trace h_c of the covariance in the rest shape, which bounds
@@ -153,7 +153,7 @@ private:
   static Coordinates force(const Smooth_rotations& smooth, int c, Matrix_3x3 s,
                            const std::vector<Matrix_3x3>& rotations)
   {
-    smooth.add_neighbours(c, rotations, s);
+    smooth.add_neighbors(c, rotations, s);
     const Matrix_3x3& r = rotations[static_cast<std::size_t>(c)];
     const auto m = [&](std::size_t i, std::size_t j) { // S R^T
       return s[3 * i] * r[3 * j] + s[3 * i + 1] * r[3 * j + 1] + s[3 * i + 2] * r[3 * j + 2];

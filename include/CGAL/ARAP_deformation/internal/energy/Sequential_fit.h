@@ -28,16 +28,16 @@ namespace ARAP {
 namespace internal {
 
 // The local step of CGAL's SRE_ARAP: cells are fitted one after the other, and the covariance of a
-// cell gains a multiple of the sum of the rotations of its neighbours, those of this step where
+// cell gains a multiple of the sum of the rotations of its neighbors, those of this step where
 // they come first. The energy has no term for it.
 class Sequential_fit
 {
 public:
   Sequential_fit() = default; // none
 
-  // the cells in the order in which they are fitted; for each cell its neighbours and the factor
-  Sequential_fit(Array<int> order, Index_lists neighbours, Array<double> factors)
-    : m_order(std::move(order)), m_neighbours(std::move(neighbours)), m_factors(std::move(factors))
+  // the cells in the order in which they are fitted; for each cell its neighbors and the factor
+  Sequential_fit(Array<int> order, Index_lists neighbors, Array<double> factors)
+    : m_order(std::move(order)), m_neighbors(std::move(neighbors)), m_factors(std::move(factors))
   {}
 
   bool is_none() const { return m_order.empty(); }
@@ -46,13 +46,13 @@ public:
   void add_covariance(int c, const std::vector<Matrix_3x3>& rotations,
                       Matrix_3x3& covariance) const
   {
-    for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-      add(covariance, m_factors[c], rotations[static_cast<std::size_t>(m_neighbours.items[k])]);
+    for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
+      add(covariance, m_factors[c], rotations[static_cast<std::size_t>(m_neighbors.items[k])]);
   }
 
 private:
   Array<int> m_order;
-  Index_lists m_neighbours;
+  Index_lists m_neighbors;
   Array<double> m_factors;
 };
 

@@ -205,7 +205,7 @@ public:
     });
   }
 
-  // for each vertex whether it is the centre of a cell that counts, or a corner of one that is a
+  // for each vertex whether it is the center of a cell that counts, or a corner of one that is a
   // simplex
   Array<char> vertices_of(const Array<char>& is_chosen) const
   {

@@ -31,7 +31,7 @@ namespace ARAP {
 namespace internal {
 
 // Smooth rotations (Levi and Gotsman 2015), the fourth sum of the energy, over pairs of
-// neighbouring cells c and d:
+// neighboring cells c and d:
 //   s_cd || R_c - R_d ||^2.
 // Here rotations are state: all are fitted at once to what those before give, which are Q. A cell
 // gets the covariance  sum over d of s_cd (Q_d + Q_c)  besides its own. By that the sum falls,
@@ -43,8 +43,8 @@ public:
   Smooth_rotations() = default; // none
 
   // the weights s_cd for each item of the lists, which are symmetric
-  Smooth_rotations(Index_lists neighbours, Array<double> weights)
-    : m_neighbours(std::move(neighbours)), m_weights(std::move(weights)),
+  Smooth_rotations(Index_lists neighbors, Array<double> weights)
+    : m_neighbors(std::move(neighbors)), m_weights(std::move(weights)),
       m_sum_of_weights(std::accumulate(m_weights.begin(), m_weights.end(), 0.0))
   {}
 
@@ -70,10 +70,10 @@ public:
     if(is_none())
       return;
     for(int c = begin; c < end; ++c)
-      for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
+      for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
       {
         const auto own = static_cast<std::size_t>(c);
-        const auto other = static_cast<std::size_t>(m_neighbours.items[k]);
+        const auto other = static_cast<std::size_t>(m_neighbors.items[k]);
         for(std::size_t entry = 0; entry < 9; ++entry)
           covariances[c - begin][entry] +=
             m_weights[k] * (m_before[own][entry] + m_before[other][entry]);
@@ -81,32 +81,32 @@ public:
   }
 
   // adds to a matrix the sum over d of s_cd R_d
-  void add_neighbours(int c, const std::vector<Matrix_3x3>& rotations, Matrix_3x3& sum) const
+  void add_neighbors(int c, const std::vector<Matrix_3x3>& rotations, Matrix_3x3& sum) const
   {
-    for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-      add(sum, m_weights[k], rotations[static_cast<std::size_t>(m_neighbours.items[k])]);
+    for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
+      add(sum, m_weights[k], rotations[static_cast<std::size_t>(m_neighbors.items[k])]);
   }
 
-  // calls f(c, d, s_cd) for each pair of neighbours c < d
+  // calls f(c, d, s_cd) for each pair of neighbors c < d
   template <typename Function>
   void for_each_pair(const Function& f) const
   {
-    for(int c = 0; c < m_neighbours.size(); ++c)
-      for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-        if(m_neighbours.items[k] > c)
-          f(c, m_neighbours.items[k], m_weights[k]);
+    for(int c = 0; c < m_neighbors.size(); ++c)
+      for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
+        if(m_neighbors.items[k] > c)
+          f(c, m_neighbors.items[k], m_weights[k]);
   }
 
   double evaluate(const std::vector<Matrix_3x3>& rotations) const
   {
     if(is_none())
       return 0;
-    const auto number_of_cells = static_cast<std::size_t>(m_neighbours.size());
+    const auto number_of_cells = static_cast<std::size_t>(m_neighbors.size());
     return sum_over_blocks(number_of_cells, [&](std::size_t begin, std::size_t end) {
       double sum = 0;
       for(std::size_t c = begin; c < end; ++c)
-        for(int k = m_neighbours.begin[c]; k < m_neighbours.begin[c + 1]; ++k)
-          if(const auto d = static_cast<std::size_t>(m_neighbours.items[k]); c < d)
+        for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
+          if(const auto d = static_cast<std::size_t>(m_neighbors.items[k]); c < d)
           {
             double square = 0;
             for(std::size_t entry = 0; entry < 9; ++entry)
@@ -121,7 +121,7 @@ public:
   }
 
 private:
-  Index_lists m_neighbours;
+  Index_lists m_neighbors;
   Array<double> m_weights;
   double m_sum_of_weights = 0;
   std::vector<Matrix_3x3> m_before;

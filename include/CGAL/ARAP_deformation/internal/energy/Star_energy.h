@@ -39,7 +39,7 @@ namespace internal {
 struct Star_view
 {
   const int* begin;
-  const int* neighbours;
+  const int* neighbors;
   const double* weights;
   const double* opposite_weights;
   Points rest;
@@ -57,7 +57,7 @@ struct Star_covariances_kernel
       Matrix_rows sum = Matrix_rows::zero();
       for(int e = stars.begin[i]; e < stars.begin[i + 1]; ++e)
       {
-        const int j = stars.neighbours[e];
+        const int j = stars.neighbors[e];
         sum.add_outer_product(Double4::all(stars.weights[e]) * (x - stars.x[j]),
                               p - stars.rest[j]);
       }
@@ -66,8 +66,8 @@ struct Star_covariances_kernel
   }
 };
 
-// The energies of stars, and if asked for the force on their centres: minus the sum of w r over all
-// edges there, with r the residuals, in the star of the centre and in those of its neighbours.
+// The energies of stars, and if asked for the force on their centers: minus the sum of w r over all
+// edges there, with r the residuals, in the star of the center and in those of its neighbors.
 template <bool HasForce>
 struct Star_residuals_kernel
 {
@@ -83,15 +83,15 @@ struct Star_residuals_kernel
       Double4 sum = Double4::zero(), row_0 = sum, row_1 = sum, row_2 = sum, star_energy = sum;
       for(int e = stars.begin[i]; e < stars.begin[i + 1]; ++e)
       {
-        const int j = stars.neighbours[e];
+        const int j = stars.neighbors[e];
         const Double4 d = x - stars.x[j], rest = p - stars.rest[j];
         const Double4 residual = subtract_product(d, rotation, rest);
         const Double4 weighted = Double4::all(stars.weights[e]) * residual;
         star_energy = multiply_add(weighted, residual, star_energy);
         if constexpr(HasForce)
         {
-          // The neighbour's rotation times the edge, row by row: what each lane has is added up
-          // after the last neighbour only. The last row is loaded with the number before it.
+          // The neighbor's rotation times the edge, row by row: what each lane has is added up
+          // after the last neighbor only. The last row is loaded with the number before it.
           const Double4 opposite = Double4::all(stars.opposite_weights[e]);
           const Double4 edge = opposite * rest;
           const double* m = rotations[j].data();
@@ -120,7 +120,7 @@ class Star_energy
 public:
   Star_energy() = default;
 
-  // Cell i is the star of vertex i. All neighbours of the first `number_of_movable_vertices`
+  // Cell i is the star of vertex i. All neighbors of the first `number_of_movable_vertices`
   // vertices have stars.
   Star_energy(Stars stars, int number_of_movable_vertices)
     : m_stars(std::move(stars)), m_number_of_movable_vertices(number_of_movable_vertices)
@@ -157,9 +157,9 @@ public:
   bool is_moving(int c, const Predicate& is_free) const
   {
     const auto is_star_moving = [&](int i) {
-      const auto begin = m_stars.neighbours.items.begin();
-      return is_free(i) || std::any_of(begin + m_stars.neighbours.begin[i],
-                                       begin + m_stars.neighbours.begin[i + 1], is_free);
+      const auto begin = m_stars.neighbors.items.begin();
+      return is_free(i) || std::any_of(begin + m_stars.neighbors.begin[i],
+                                       begin + m_stars.neighbors.begin[i + 1], is_free);
     };
     if(has_stars_as_cells())
       return is_star_moving(c);
@@ -174,13 +174,13 @@ public:
     return m_chosen.sum([&](int begin, int end) {
       Edge_sums sums;
       for(int i = begin; i < end; ++i)
-        for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-          sums.add(weights_of_cells()[e], rest[i] - rest[m_stars.neighbours.items[e]]);
+        for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
+          sums.add(weights_of_cells()[e], rest[i] - rest[m_stars.neighbors.items[e]]);
       return sums;
     });
   }
 
-  // for each vertex whether it is the centre of a cell that counts
+  // for each vertex whether it is the center of a cell that counts
   Array<char> vertices_of(const Array<char>& is_chosen) const { return is_chosen; }
 
   const Array<double>& weights() const { return m_stars.weights; }
@@ -200,7 +200,7 @@ public:
     const Array<double> stiffness = total_stiffness(m_stiffness);
     m_weights_of_cells = m_stars.weights;
     for(int i = 0; i < m_stars.size(); ++i)
-      for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+      for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
         m_weights_of_cells[e] *= stiffness[i];
     m_opposite_weights = opposite_weights(m_weights_of_cells);
     m_chosen.choose(m_stars.size(), [&](int i) {
@@ -239,7 +239,7 @@ public:
   }
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
-  // movable vertex that has neighbours in chosen cells only.
+  // movable vertex that has neighbors in chosen cells only.
   double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
@@ -279,9 +279,9 @@ private:
 
   void add_star(int i, double stiffness, const Points& rest, Covariance_coefficients& sum) const
   {
-    for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
+    for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
     {
-      const int j = m_stars.neighbours.items[e];
+      const int j = m_stars.neighbors.items[e];
       sum.add_edge(i, j, Double4::all(stiffness * m_stars.weights[e]) * (rest[i] - rest[j]));
     }
   }
@@ -312,8 +312,8 @@ private:
                              [&](std::size_t begin, std::size_t end) {
         int result = 0;
         for(int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
-          for(int e = m_stars.neighbours.begin[i]; e < m_stars.neighbours.begin[i + 1]; ++e)
-            result += f(e, weights[m_stars.find(m_stars.neighbours.items[e], i)]);
+          for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
+            result += f(e, weights[m_stars.find(m_stars.neighbors.items[e], i)]);
         return result;
       });
     };
@@ -321,7 +321,7 @@ private:
     if(sum([&](int e, double w) { return w != weights[e]; }) > 0)
     {
       opposite.resize(static_cast<std::size_t>(
-        m_stars.neighbours.begin[m_number_of_movable_vertices]));
+        m_stars.neighbors.begin[m_number_of_movable_vertices]));
       sum([&](int e, double w) {
         opposite[e] = w;
         return 0;
@@ -334,7 +334,7 @@ private:
   {
     const Array<double>& opposite =
       m_opposite_weights.empty() ? m_stars.weights : m_opposite_weights;
-    return {m_stars.neighbours.begin.data(), m_stars.neighbours.items.data(),
+    return {m_stars.neighbors.begin.data(), m_stars.neighbors.items.data(),
             m_stars.weights.data(), opposite.data(), rest, x};
   }
 

@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace CGAL {
@@ -47,7 +46,7 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
     else if(w != 0 && (i < n || j < n))
       laplacian.is_tied[(std::min)(i, j)] = true;
   });
-  std::partial_sum(first.begin(), first.end(), first.begin());
+  add_up(first);
   Array<Entry> entries(first.back());
   Array<int> next(first.begin(), first.end() - 1);
   energy.for_each_edge([&](int i, int j, double w) {
@@ -64,7 +63,7 @@ inline Laplacian laplacian_of(const Deformation_energy& energy)
   matrix.resize(n, n);
   int* outer = matrix.outerIndexPtr();
   for(int j = 0; j < n; ++j)
-    outer[j + 1] = outer[j] + sizes[j] + 1;
+    outer[j + 1] = checked_sum(outer[j], sizes[j] + 1);
   matrix.resizeNonZeros(outer[n]);
   for_each_block(first.size() - 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t j = begin; j < end; ++j)

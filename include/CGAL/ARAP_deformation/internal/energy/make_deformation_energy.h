@@ -63,7 +63,7 @@ void for_each_facet(const Region& region, int s, const Function& f)
   }
 }
 
-// for each centre whether it is on the border: a facet there has one simplex only
+// for each center whether it is on the border: a facet there has one simplex only
 inline Array<char> find_border(const Region& region)
 {
   std::vector<std::array<int, 3>> facets;
@@ -71,13 +71,13 @@ inline Array<char> find_border(const Region& region)
   for(int s = 0; s < region.number_of_simplices(); ++s)
     for_each_facet(region, s, [&](const std::array<int, 3>& facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
-  Array<char> is_on_border(region.number_of_centres, false);
+  Array<char> is_on_border(region.number_of_centers, false);
   for(auto begin = facets.begin(); begin != facets.end();)
   {
     const auto end = std::upper_bound(begin, facets.end(), *begin);
     if(end - begin == 1)
       for(int v : *begin)
-        if(0 <= v && v < region.number_of_centres)
+        if(0 <= v && v < region.number_of_centers)
           is_on_border[v] = true;
     begin = end;
   }
@@ -96,15 +96,15 @@ inline Bending make_bending(const Energy_model& energy_model, const Region& regi
   constexpr double negligible = 1e-10;
   const Edge_weight_model_of<Cotangent_weight> cotangent{Cotangent_weight()};
   Stars stars = star_edge_sets(cotangent, weighted_simplices(cotangent, region), region);
-  Array<double> masses = contents_at_centres(region);
+  Array<double> masses = contents_at_centers(region);
   const Array<char> is_on_border = find_border(region);
-  Array<double> factors(region.number_of_centres, 0);
-  for(int i = 0; i < region.number_of_centres; ++i)
+  Array<double> factors(region.number_of_centers, 0);
+  for(int i = 0; i < region.number_of_centers; ++i)
   {
     double square = 0;
-    for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e)
+    for(int e = stars.neighbors.begin[i]; e < stars.neighbors.begin[i + 1]; ++e)
     {
-      const Coordinates edge = difference(region.rest[i], region.rest[stars.neighbours.items[e]]);
+      const Coordinates edge = difference(region.rest[i], region.rest[stars.neighbors.items[e]]);
       square = (std::max)(square, dot(edge, edge));
     }
     if(is_on_border[i] || i >= region.number_of_vertex_cells ||
@@ -129,7 +129,7 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
   const auto share_rotation = [&groups = energy_model.group](int c, int d) {
     return !groups.empty() && groups[c] >= 0 && groups[c] == groups[d];
   };
-  Index_lists neighbours;
+  Index_lists neighbors;
   Array<double> weights;
   if(energy_model.cells.has_vertex_cells())
   {
@@ -138,15 +138,15 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
       star_edge_sets(cotangent, weighted_simplices(cotangent, region), region);
     for(int c = 0; c < number_of_cells; ++c)
     {
-      for(int e = stars.neighbours.begin[c]; e < stars.neighbours.begin[c + 1]; ++e)
-        if(const int d = stars.neighbours.items[e]; d < number_of_cells && !share_rotation(c, d))
+      for(int e = stars.neighbors.begin[c]; e < stars.neighbors.begin[c + 1]; ++e)
+        if(const int d = stars.neighbors.items[e]; d < number_of_cells && !share_rotation(c, d))
         {
-          neighbours.items.push_back(d);
+          neighbors.items.push_back(d);
           weights.push_back(factor * stars.weights[e]);
         }
-      neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+      neighbors.end_list();
     }
-    return Smooth_rotations(std::move(neighbours), std::move(weights));
+    return Smooth_rotations(std::move(neighbors), std::move(weights));
   }
 
   Array<Coordinates> centroids(number_of_cells, Coordinates{0, 0, 0});
@@ -179,12 +179,12 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
   {
     for(const auto& [other, weight] : list)
     {
-      neighbours.items.push_back(other);
+      neighbors.items.push_back(other);
       weights.push_back(weight);
     }
-    neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
+    neighbors.end_list();
   }
-  return Smooth_rotations(std::move(neighbours), std::move(weights));
+  return Smooth_rotations(std::move(neighbors), std::move(weights));
 }
 
 inline Deformation_energy make_rigidity(const Edge_weight_model& model, Simplices simplices,
@@ -197,20 +197,20 @@ inline Deformation_energy make_rigidity(const Edge_weight_model& model, Simplice
     Stars stars = star_edge_sets(model, simplices, region);
     if(scheme.rings() > 0)
     {
-      Cells cells = ring_cells(stars.neighbours, region.number_of_vertex_cells, scheme.rings());
+      Cells cells = ring_cells(stars.neighbors, region.number_of_vertex_cells, scheme.rings());
       for(int c = 0; c < cells.size(); ++c)
         cells.stiffness[c] = stiffness_of(energy_model, c);
       return Deformation_energy(Star_energy(std::move(stars), std::move(cells), region.rest, n),
                                 region.rest, n);
     }
     for(int i = 0; i < stars.size() && !energy_model.stiffness.empty(); ++i)
-      for(int e = stars.neighbours.begin[i]; e < stars.neighbours.begin[i + 1]; ++e)
+      for(int e = stars.neighbors.begin[i]; e < stars.neighbors.begin[i + 1]; ++e)
         stars.weights[e] *= energy_model.stiffness[i];
     return Deformation_energy(Star_energy(std::move(stars), n), region.rest, n);
   }
   simplices = simplex_edge_sets(model, std::move(simplices), region);
   Cells cells = scheme.grouped_at_vertices()
-                  ? vertex_cells(simplices.corners, region.number_of_centres)
+                  ? vertex_cells(simplices.corners, region.number_of_centers)
                   : separate_cells(region.number_of_movable_simplices);
   for(int c = 0; c < cells.size(); ++c)
     cells.stiffness[c] = stiffness_of(energy_model, c);
@@ -229,7 +229,7 @@ inline Sequential_fit make_sequential_fit(const Energy_model& energy_model, cons
           edges.emplace_back(c, region.corners_of(s)[l]);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  Index_lists neighbours;
+  Index_lists neighbors;
   Array<double> factors;
   auto edge = edges.begin();
   for(int c = 0; c < number_of_cells; ++c)
@@ -237,11 +237,11 @@ inline Sequential_fit make_sequential_fit(const Energy_model& energy_model, cons
     int valence = 0;
     for(; edge != edges.end() && edge->first == c; ++edge, ++valence)
       if(edge->second < number_of_cells)
-        neighbours.items.push_back(edge->second);
-    neighbours.begin.push_back(static_cast<int>(neighbours.items.size()));
-    factors.push_back(energy_model.neighbour_weight / valence);
+        neighbors.items.push_back(edge->second);
+    neighbors.end_list();
+    factors.push_back(energy_model.neighbor_weight / valence);
   }
-  return Sequential_fit(energy_model.fit_order, std::move(neighbours), std::move(factors));
+  return Sequential_fit(energy_model.fit_order, std::move(neighbors), std::move(factors));
 }
 
 inline Deformation_energy make_deformation_energy(const Edge_weight_model& model,

@@ -28,7 +28,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -192,58 +191,55 @@ inline Simplices simplex_edge_sets(const Edge_weight_model& model, Simplices sim
   return simplices;
 }
 
-// one edge set for each centre: its edges to its neighbours, in the order of their numbers
+// one edge set for each center: its edges to its neighbors, in the order of their numbers
 inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& simplices,
                             const Region& region)
 {
-  const auto n = static_cast<std::size_t>(region.number_of_centres);
-  const Index_lists places = // the corners at each centre
-    places_of(simplices.corners, region.number_of_centres);
+  const auto n = static_cast<std::size_t>(region.number_of_centers);
+  const Index_lists places = // the corners at each center
+    places_of(simplices.corners, region.number_of_centers);
   const Array<int> simplex_of_place = list_of_each(simplices.corners);
 
-  // the neighbours of a centre, with the sum of the weights of all simplices at the edge
-  using Neighbour = std::pair<int, double>;
-  const auto find_neighbours = [&](std::size_t i, std::vector<Neighbour>& neighbours) {
-    neighbours.clear();
+  // the neighbors of a center, with the sum of the weights of all simplices at the edge
+  using Neighbor = std::pair<int, double>;
+  const auto find_neighbors = [&](std::size_t i, std::vector<Neighbor>& neighbors) {
+    neighbors.clear();
     for(int k = places.begin[i]; k < places.begin[i + 1]; ++k)
     {
       const int place = places.items[k], s = simplex_of_place[place];
       for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
         if(other != place)
-          neighbours.emplace_back(simplices.corners.items[other],
+          neighbors.emplace_back(simplices.corners.items[other],
                                   simplices.weight(s, place, other));
     }
-    neighbours.resize(
-      static_cast<std::size_t>(sort_and_add_up(neighbours.begin(), neighbours.end())));
+    neighbors.resize(
+      static_cast<std::size_t>(sort_and_add_up(neighbors.begin(), neighbors.end())));
   };
 
   // Found twice: to keep them in between saves a little time, but takes more memory than the stars,
   // and the C library does not give back what other threads have allocated.
   Stars stars;
-  stars.neighbours.begin.resize(n + 1);
+  stars.neighbors.begin.resize(n + 1);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> neighbours;
+    std::vector<Neighbor> neighbors;
     for(std::size_t i = begin; i < end; ++i)
     {
-      find_neighbours(i, neighbours);
-      stars.neighbours.begin[i + 1] = static_cast<int>(neighbours.size());
+      find_neighbors(i, neighbors);
+      stars.neighbors.begin[i + 1] = static_cast<int>(neighbors.size());
     }
   });
-  std::partial_sum(stars.neighbours.begin.begin(), stars.neighbours.begin.end(),
-                   stars.neighbours.begin.begin(), [](int a, int b) {
-                     return to_index(static_cast<std::size_t>(a) + static_cast<std::size_t>(b));
-                   });
-  stars.neighbours.items = Array<int>(stars.neighbours.begin.back());
-  stars.weights = Array<double>(stars.neighbours.begin.back());
+  add_up(stars.neighbors.begin);
+  stars.neighbors.items = Array<int>(stars.neighbors.begin.back());
+  stars.weights = Array<double>(stars.neighbors.begin.back());
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> neighbours;
+    std::vector<Neighbor> neighbors;
     for(std::size_t i = begin; i < end; ++i)
     {
-      find_neighbours(i, neighbours);
-      int e = stars.neighbours.begin[i];
-      for(const auto& [j, w] : neighbours)
+      find_neighbors(i, neighbors);
+      int e = stars.neighbors.begin[i];
+      for(const auto& [j, w] : neighbors)
       {
-        stars.neighbours.items[e] = j;
+        stars.neighbors.items[e] = j;
         stars.weights[e++] = model.edge(Edge_set::star, region.indices[i], region.indices[j], w);
       }
     }

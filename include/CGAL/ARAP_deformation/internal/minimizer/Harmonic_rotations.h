@@ -65,7 +65,7 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
   return result;
 }
 
-// Whether something that is fixed is torn away from its neighbours: by more than a tenth of a size,
+// Whether something that is fixed is torn away from its neighbors: by more than a tenth of a size,
 // which is given by its square.
 inline bool is_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
                     double size, const Array<Coordinates>& x)
@@ -222,7 +222,7 @@ private:
     return true;
   }
 
-  // by how much the neighbours pull at the value of each vertex
+  // by how much the neighbors pull at the value of each vertex
   static Array<Coordinates> pulls(const Deformation_energy& energy,
                                   const Array<Coordinates>& values)
   {

@@ -32,7 +32,7 @@ namespace internal {
 
 // Naive Laplacian editing (Section 4 of the paper): the positions x of the free vertices that
 // minimize || L x - L p ||^2, where row i of L is the sum of w_ij (x_i - x_j) over the star of i,
-// and p is the rest shape. The rows are those of the free vertices and their neighbours; all others
+// and p is the rest shape. The rows are those of the free vertices and their neighbors; all others
 // are constant. Vertices that are pulled to targets are put there; hard rows are met; other rows
 // are not considered. Vertices that are placed already stay where they are.
 //

@@ -109,7 +109,7 @@ public:
     return next_direction();
   }
 
-  // A direction of negative curvature is a mix of many. Turns it towards the most negative one, by
+  // A direction of negative curvature is a mix of many. Turns it toward the most negative one, by
   // a step of the locally optimal preconditioned conjugate gradients of Knyazev (2001): to the best
   // combination of the direction p, of w = M^-1 (A p - c M p) with its curvature c, and of the
   // change q in the last step. False if there is little left to turn, or if it fails.

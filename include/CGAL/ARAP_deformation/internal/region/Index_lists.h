@@ -33,9 +33,20 @@ namespace internal {
 inline int to_index(std::size_t number)
 {
   if(number > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
-    throw std::length_error("CGAL::ARAP: the region has more than 2147483647 corners, neighbours "
+    throw std::length_error("CGAL::ARAP: the region has more than 2147483647 corners, neighbors "
                             "or weights");
   return static_cast<int>(number);
+}
+
+inline int checked_sum(int a, int b)
+{
+  return to_index(static_cast<std::size_t>(a) + static_cast<std::size_t>(b));
+}
+
+// Adds to each number all that come before it: sizes of lists, after a 0, become their begins.
+inline void add_up(Array<int>& numbers)
+{
+  std::partial_sum(numbers.begin(), numbers.end(), numbers.begin(), checked_sum);
 }
 
 // Lists of indices: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
@@ -45,6 +56,9 @@ struct Index_lists
   Array<int> items;
 
   int size() const { return static_cast<int>(begin.size()) - 1; }
+
+  // what has been appended to `items` since the end of the last list is a list
+  void end_list() { begin.push_back(to_index(items.size())); }
 };
 
 // For each first number that pairs have, in ascending order, the list of their second numbers, in
@@ -58,7 +72,7 @@ Index_lists lists_by_first(std::vector<std::pair<Number, int>> pairs)
   {
     result.items.push_back(pairs[k].second);
     if(k + 1 == pairs.size() || pairs[k + 1].first != pairs[k].first)
-      result.begin.push_back(static_cast<int>(k + 1));
+      result.end_list();
   }
   return result;
 }
@@ -71,7 +85,7 @@ Index_lists lists_of_pairs(int n, const For_each_pair& for_each_pair)
   Index_lists result;
   result.begin = Array<int>(n + 1, 0);
   for_each_pair([&](int first, int) { ++result.begin[first + 1]; });
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  add_up(result.begin);
   result.items = Array<int>(result.begin.back());
   Array<int> next(result.begin.begin(), result.begin.end() - 1);
   for_each_pair([&](int first, int second) { result.items[next[first]++] = second; });

@@ -28,14 +28,14 @@ constexpr int most_corners = 2048;
 
 // What the numeric core knows of a mesh: the vertices that may move, with some rings of simplices
 // around them, two unless cells are larger than a star. Those vertices come first, then their
-// neighbours, then the neighbours of those, and so on. All but the last ring are centres: the
+// neighbors, then the neighbors of those, and so on. All but the last ring are centers: the
 // vertices whose simplices are all here. Which of the vertices that may move are fixed is not said
 // here, and may change.
 struct Region
 {
   int dimension = 2; // of the simplices: 2 for triangles and polygons, 3 for tetrahedra
   int number_of_movable_vertices = 0;
-  int number_of_centres = 0;
+  int number_of_centers = 0;
   int number_of_vertex_cells = 0; // the vertices whose cells have movable vertices come first
   int number_of_movable_simplices = 0; // those that have a movable vertex, which come first
   Array<Coordinates> rest;    // for each vertex its position in the rest shape

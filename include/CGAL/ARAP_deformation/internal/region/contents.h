@@ -40,16 +40,16 @@ inline double content_of(const Region& region, int s)
   return std::sqrt(dot(normal, normal));
 }
 
-// the share of each centre in the area or volume of its simplices
-inline Array<double> contents_at_centres(const Region& region)
+// the share of each center in the area or volume of its simplices
+inline Array<double> contents_at_centers(const Region& region)
 {
-  Array<double> contents(region.number_of_centres, 0);
+  Array<double> contents(region.number_of_centers, 0);
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const int n = region.number_of_corners(s);
     const double share = content_of(region, s) / n;
     for(int k = 0; k < n; ++k)
-      if(const int v = region.corners_of(s)[k]; v < region.number_of_centres)
+      if(const int v = region.corners_of(s)[k]; v < region.number_of_centers)
         contents[v] += share;
   }
   return contents;

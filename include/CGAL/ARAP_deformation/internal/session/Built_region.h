@@ -69,7 +69,7 @@ struct Built_region : Built_core
       return e.is_roi && (is_whole || !vertices.is_hard_control(e));
     });
     if(!is_whole)
-      append_neighbours(vertices, movable);
+      append_neighbors(vertices, movable);
     if(!region->collect(domain, movable, static_cast<int>(options.cells.rings())))
       return outcome_of_vertex(region->refusal(), region->refused_vertex());
 
@@ -155,7 +155,7 @@ struct Built_region : Built_core
 
 private:
   // adds the vertices of the region of interest that are in a simplex with one of those
-  static void append_neighbours(const Vertices& vertices, std::vector<vertex_descriptor>& movable)
+  static void append_neighbors(const Vertices& vertices, std::vector<vertex_descriptor>& movable)
   {
     const Domain& domain = vertices.domain();
     Paged_index_map is_there;

@@ -61,7 +61,7 @@ public:
   void set_fit_order(std::function<std::vector<vertex_descriptor>()> order, double weight)
   {
     m_fit_order = std::move(order);
-    m_neighbour_weight = weight;
+    m_neighbor_weight = weight;
   }
 
   // Fills in the model for the cells of a region, if there is nothing wrong with the values.
@@ -79,7 +79,7 @@ public:
     if(m_fit_order)
       for(vertex_descriptor v : m_fit_order())
         model.fit_order.push_back(region.find_vertex(domain, v));
-    model.neighbour_weight = m_neighbour_weight;
+    model.neighbor_weight = m_neighbor_weight;
     return check_stiffness(model, flat);
   }
 
@@ -124,7 +124,7 @@ private:
     {
       if(is_at_vertices ? !m_of_vertex : !m_of_simplex)
         return {};
-      Array<T> values(is_at_vertices ? flat.number_of_centres : flat.number_of_movable_simplices);
+      Array<T> values(is_at_vertices ? flat.number_of_centers : flat.number_of_movable_simplices);
       for(std::size_t c = 0; c < values.size(); ++c)
         values[c] = is_at_vertices
                       ? m_of_vertex(region.vertices[c], domain.index(region.vertices[c]))
@@ -186,7 +186,7 @@ private:
   Values<double> m_stiffness;
   Values<std::int64_t> m_group;
   std::function<std::vector<vertex_descriptor>()> m_fit_order;
-  double m_neighbour_weight = 0;
+  double m_neighbor_weight = 0;
 };
 
 } // namespace internal

@@ -295,7 +295,7 @@ private:
   }
 
   // Movable is all of the region of interest, so that handles may change without another region.
-  // But where most of it is fixed, these are the free vertices and their neighbours: the cost
+  // But where most of it is fixed, these are the free vertices and their neighbors: the cost
   // follows what can move. Not so if rotations depend on those of cells that are far away.
   bool is_whole(std::size_t roi_size, std::size_t number_of_fixed) const
   {

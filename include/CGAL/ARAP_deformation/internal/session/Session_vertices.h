@@ -70,7 +70,7 @@ public:
 
   const Domain& domain() const { return m_domain; }
 
-  // What a control vertex or a control point is moved to or pulled towards.
+  // What a control vertex or a control point is moved to or pulled toward.
   struct Target
   {
     Point point;
@@ -305,8 +305,8 @@ public:
     return is_change;
   }
 
-  // the vertices whose entries fulfil a predicate, in the order in which they entered the region of
-  // interest
+  // the vertices whose entries fulfill a predicate, in the order in which they entered the region
+  // of interest
   template <typename Predicate>
   std::vector<vertex_descriptor> select(const Predicate& predicate) const
   {
