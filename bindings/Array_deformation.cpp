@@ -277,7 +277,7 @@ public:
   Quality quality() const override { return ARAP::quality(domain(), m_rest); }
   std::vector<double> quality_at_vertices(Vertex_measure measure) const override
   {
-    return ARAP::quality_at_vertices(measure, domain(), m_rest);
+    return ARAP::quality_at_vertices(domain(), measure, m_rest);
   }
 
 private:

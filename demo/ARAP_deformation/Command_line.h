@@ -38,7 +38,6 @@
 
 namespace CGAL::ARAP::demo {
 
-
 enum class Solver_choice { automatic, single_precision, eigen, cholmod, petsc, petsc_cg };
 
 enum class Rotation_choice { newton, svd };
@@ -65,6 +64,7 @@ struct Handle_options
 struct Command_line
 {
   bool is_help = false;
+  bool is_version = false;
   bool is_quiet = false;
   std::string mesh, selection, output; // files; there may be no selection
   std::vector<std::string> transforms; // files, one for each key frame
@@ -192,7 +192,8 @@ inline boost::program_options::options_description described_options()
      "the rate at which velocities decay");
   other.add_options()
     ("quiet", "print only errors: no summary, no notes, no progress")
-    ("help,h", "print this and exit");
+    ("help,h", "print this and exit")
+    ("version", "print the version, and what it was built with, and exit");
   return task.add(output).add(run).add(dynamics).add(other);
 }
 
@@ -518,7 +519,8 @@ inline Command_line parse_command_line(int argc, char** argv)
     po::store(parsed, values);
     Command_line line;
     line.is_help = values.count("help") > 0;
-    if(line.is_help)
+    line.is_version = values.count("version") > 0;
+    if(line.is_help || line.is_version)
       return line;
     if(!values.count("mesh"))
       throw Usage_error("no mesh is given");

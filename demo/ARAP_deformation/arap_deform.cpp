@@ -28,6 +28,9 @@
 #include <CGAL/ARAP_deformation/self_intersections.h>
 #include <CGAL/ARAP_deformation/target_sets.h>
 #include <CGAL/Real_timer.h>
+#include <CGAL/version.h>
+
+#include <Eigen/Core>
 
 #include <nlohmann/json.hpp>
 
@@ -419,6 +422,36 @@ void flush_output()
     throw std::runtime_error("the standard output could not be written to the end");
 }
 
+#ifndef CGAL_ARAP_DEMO_VERSION
+#define CGAL_ARAP_DEMO_VERSION "without a version"
+#endif
+
+// What a report of an error should tell.
+void print_version(std::ostream& out)
+{
+  out << "arap_deform " CGAL_ARAP_DEMO_VERSION "\nwith CGAL " CGAL_VERSION_STR ", Eigen "
+      << EIGEN_WORLD_VERSION << '.' << EIGEN_MAJOR_VERSION << '.' << EIGEN_MINOR_VERSION;
+#ifdef CGAL_LINKED_WITH_TBB
+  out << ", TBB";
+#endif
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+  out << ", CHOLMOD";
+#endif
+#ifdef CGAL_METIS_ENABLED
+  out << ", METIS";
+#endif
+#ifdef CGAL_LINKED_WITH_PETSC
+  out << ", PETSc";
+#endif
+#ifdef CGAL_ARAP_DEMO_WITH_GIFLIB
+  out << ", giflib";
+#endif
+#ifdef CGAL_ARAP_DEMO_WITH_ZLIB
+  out << ", zlib";
+#endif
+  out << '\n';
+}
+
 // Where the summary goes: not into an output.
 std::ostream& summary_stream(const Command_line& line)
 {
@@ -589,7 +622,7 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
     result.frames.push_back(report);
     if(!line.color.empty())
     {
-      measures = CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), domain, rest_points);
+      measures = CGAL::ARAP::quality_at_vertices(domain, vertex_measure(line.color), rest_points);
       shape.set_property(line.color, measures);
     }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
@@ -660,9 +693,9 @@ int main(int argc, char** argv)
   try
   {
     const Command_line line = parse_command_line(argc, argv);
-    if(line.is_help)
+    if(line.is_help || line.is_version)
     {
-      print_help(std::cout);
+      (line.is_help ? print_help : print_version)(std::cout);
       flush_output();
     }
     else if(const Chosen_processes processes(line.solver); !processes.serve())

@@ -33,7 +33,6 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Embedding.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Random.h>
@@ -150,8 +149,7 @@ Panel deformed_panel(const Demo_shape& shape, const std::string& caption,
   expect_success(report);
   std::cout << "  " << shape.name << ", " << caption << ": " << report.iterations
             << " iterations, energy " << report.final_energy() << ", edge error "
-            << CGAL::ARAP::relative_edge_length_error(mesh, shape.mesh.points(), mesh.points())
-            << '\n';
+            << CGAL::ARAP::quality(mesh, shape.mesh.points()).edge_length_error << '\n';
   return panel(mesh, shape.selection, caption);
 }
 
@@ -516,7 +514,7 @@ Panel result_panel(const Command_line& line, const Mesh& rest, const std::string
   Panel result = panel(mesh, make_task(line, points_of(rest)).selection, caption);
   if(!line.color.empty())
     color(result, line.color, skin(mesh),
-          CGAL::ARAP::quality_at_vertices(vertex_measure(line.color), mesh, rest.points()));
+          CGAL::ARAP::quality_at_vertices(mesh, vertex_measure(line.color), rest.points()));
   return result;
 }
 

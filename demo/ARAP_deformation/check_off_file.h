@@ -140,7 +140,7 @@ private:
   // The numbers from begin to end are a color: an index, or red, green and blue, integers or
   // fractions. Once there is one, all others of its kind must have one.
   void check_color(const char* what, std::size_t number, std::size_t begin, std::size_t end,
-                    bool& has_colors) const
+                   bool& has_colors) const
   {
     const std::size_t n = end - begin;
     if(n == 0 && !has_colors)

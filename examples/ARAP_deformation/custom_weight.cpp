@@ -1,5 +1,5 @@
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>
@@ -67,8 +67,7 @@ bool bend(const char* name, const Traits& traits, Cell_scheme cells)
   }
   const CGAL::ARAP::Report report = deformation.deform();
   std::cout << name << ": " << report.iterations << " iterations, edge length error "
-            << CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points())
-            << std::endl;
+            << CGAL::ARAP::quality(mesh, rest.points()).edge_length_error << std::endl;
   return bool(report);
 }
 

@@ -28,7 +28,7 @@ using Mesh_triangulation = CGAL::Mesh_triangulation_3<Mesh_domain>::type;
 using Mesh_criteria = CGAL::Mesh_criteria_3<Mesh_triangulation>;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Mesh_triangulation>;
 
-// A surface as modelling tools leave it: open rings, some of which overlap the next one while
+// A surface as modeling tools leave it: open rings, some of which overlap the next one while
 // others do not reach it, and two duplicated sheets that intersect the rings and each other.
 void make_unclean_surface(std::vector<Point>& points, std::vector<Triangle>& faces)
 {

@@ -1,5 +1,5 @@
 #include <CGAL/ARAP_deformation.h>
-#include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Random.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -55,8 +55,7 @@ bool fit(double weight)
     sum += CGAL::squared_distance(mesh.point(v), scanned(rest.point(v)));
   std::cout << "weight " << weight << ": " << report.iterations << " iterations, "
             << std::sqrt(sum / mesh.number_of_vertices()) << " from the object, edge length error "
-            << CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points())
-            << std::endl;
+            << CGAL::ARAP::quality(mesh, rest.points()).edge_length_error << std::endl;
   return true;
 }
 

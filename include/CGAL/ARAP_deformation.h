@@ -143,8 +143,8 @@ public:
   /// \brief constructs a deformation of `mesh` with named parameters, and deduces its type:
   /// `ARAP_deformation deformation(mesh, parameters::vertex_point_map(points));`
   ///
-  /// The named parameters are those of `arap_deform()`, except for those of targets and the
-  /// visitor, which `deform()` takes: `visitor` and `target_weight` do not compile. The region of
+  /// The named parameters are those of `arap_deform()`, except for those of targets, which are set
+  /// afterwards, and the visitor, which `deform()` takes: these do not compile. The region of
   /// interest is empty by default; vertices that are constrained become control vertices.
   /// \pre The options are valid, see `ARAP::Options::check()`; in Release `preprocess()` and
   /// `deform()` refuse them.
@@ -157,9 +157,13 @@ public:
     using ARAP::internal::has_parameter;
     static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::visitor_t>,
                   "ARAP_deformation: pass the visitor to deform()");
-    static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t>,
-                  "ARAP_deformation: no target is known yet; use set_target_weight() instead of "
-                  "the named parameter target_weight");
+    static_assert(!has_parameter<CGAL_NP_CLASS, internal_np::target_weight_t> &&
+                  !has_parameter<CGAL_NP_CLASS, internal_np::target_sets_t> &&
+                  !has_parameter<CGAL_NP_CLASS, internal_np::target_rotations_t> &&
+                  !has_parameter<CGAL_NP_CLASS, internal_np::control_points_t>,
+                  "ARAP_deformation: no target is known yet; use set_target_weight(), "
+                  "set_target_set(), set_target_rotation() or insert_control_point() instead of a "
+                  "named parameter");
     CGAL_precondition_msg(bool(options().check()), options().check().message.c_str());
     if constexpr(has_parameter<CGAL_NP_CLASS, internal_np::region_of_interest_t>)
       insert_roi_vertices(parameters::get_parameter(np, internal_np::region_of_interest));
@@ -611,7 +615,8 @@ public:
   ///
   /// \param dynamics the length of the step, masses and accelerations
   /// \param forces a map of vertices, as for stiffness: the external forces, which have
-  ///        `operator[]`; where it has no value there is none
+  ///        `operator[]` for as many coordinates as the points have; where it has no value there is
+  ///        none
   /// \param visitor a model of `ARAPDeformationVisitor`, which is called at each iterate; what it
   ///        cancels has not happened
   template <typename ForceMap, typename Visitor>
@@ -621,7 +626,7 @@ public:
     const auto force_at = [&](vertex_descriptor v) {
       ARAP::Coordinates force = {0, 0, 0};
       ARAP::internal::with_value(forces, v, domain().index(v), [&](const auto& f) {
-        force = {f[0], f[1], f[2]};
+        force = coordinates_of(f);
       });
       return force;
     };
@@ -645,12 +650,13 @@ public:
   /// what was set since. Zero at first, and after `deform()` and `reset()`.
   ARAP::Coordinates velocity(vertex_descriptor v) const { return m_session.velocity(v); }
 
-  /// sets the velocity with which the next step begins, whose type has `operator[]`. Returns
-  /// `false`, and changes nothing, if `v` is not in the region of interest.
+  /// sets the velocity with which the next step begins, whose type has `operator[]` for as many
+  /// coordinates as the points have. Returns `false`, and changes nothing, if `v` is not in the
+  /// region of interest.
   template <typename Vector>
   bool set_velocity(vertex_descriptor v, const Vector& velocity)
   {
-    return m_session.set_velocity(v, {velocity[0], velocity[1], velocity[2]});
+    return m_session.set_velocity(v, coordinates_of(velocity));
   }
 
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
@@ -706,12 +712,24 @@ public:
   /// @}
 
 private:
+  // a vector with as many coordinates as the points; in the plane z is 0
+  template <typename Vector>
+  static ARAP::Coordinates coordinates_of(const Vector& v)
+  {
+    if constexpr(ARAP::internal::number_of_coordinates<Point>() == 2)
+      return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), 0};
+    else
+      return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])};
+  }
+
   // a handle as the type that the session knows, which is a control vertex or a control point
   template <typename Handle>
   auto control(const Handle& handle) const
   {
     using Known = std::conditional_t<std::is_same_v<Handle, ARAP::Control_point>,
                                      ARAP::Control_point, vertex_descriptor>;
+    static_assert(std::is_convertible_v<const Handle&, Known> || std::is_integral_v<Handle>,
+                  "ARAP_deformation: what has a target is a vertex or a control point");
     const Known known = static_cast<Known>(handle);
     CGAL_precondition_msg(m_session.vertices().find_target(known) != nullptr,
                           "what is no control vertex or control point has no target: insert it");
@@ -759,6 +777,13 @@ ARAP_deformation(Mesh&) -> ARAP_deformation<Mesh>;
 
 template <typename Domain>
 ARAP_deformation(const Domain&) -> ARAP_deformation<Domain>;
+
+template <typename Mesh, typename DeformationTraits>
+ARAP_deformation(Mesh&, const DeformationTraits&) -> ARAP_deformation<Mesh, DeformationTraits>;
+
+template <typename Domain, typename DeformationTraits>
+ARAP_deformation(const Domain&, const DeformationTraits&)
+  -> ARAP_deformation<Domain, DeformationTraits>;
 #endif
 
 } // namespace CGAL

@@ -119,6 +119,52 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   return deformation.deform(visitor);
 }
 
+// makes control vertices of a range of pairs of a vertex and its target
+template <typename TargetRange>
+auto insert_targets(const TargetRange& targets)
+{
+  static_assert(is_valid<Pair_of, TargetRange>,
+                "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
+                "as a std::map");
+  return [&targets](auto& deformation, const auto& insert_target) {
+    Outcome outcome(Status::success, "");
+    for(const auto& [v, target] : targets)
+    {
+      outcome = insert_target(v);
+      if(!outcome)
+        break;
+      deformation.set_target_position(v, target);
+    }
+    return outcome;
+  };
+}
+
+// makes control vertices of those that a map tells are constrained
+template <typename VertexConstrainedMap, typename VertexTargetMap>
+auto insert_constrained(const VertexConstrainedMap& constrained, const VertexTargetMap& targets)
+{
+  return [&constrained, &targets](auto& deformation, const auto& insert_target) {
+    const auto& domain = deformation.domain();
+    Outcome outcome(Status::success, "");
+    for(auto v : domain.vertices())
+      with_value(constrained, v, domain.index(v), [&](const auto& value) {
+        if(!is_constrained(value, v))
+          return;
+        deformation.insert_control_vertex(v);
+        with_value(targets, v, domain.index(v), [&](const auto& target) {
+          constexpr bool is_point =
+            std::is_convertible_v<decltype(target), decltype(domain.point(v))>;
+          static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
+          if(Outcome inserted = insert_target(v); !inserted)
+            outcome = std::move(inserted);
+          if constexpr(is_point)
+            deformation.set_target_position(v, target);
+        });
+      });
+    return outcome;
+  };
+}
+
 } // namespace internal
 } // namespace ARAP
 
@@ -142,7 +188,8 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_is_constrained_map}
 ///     \cgalParamDescription{tells which other vertices stay where they are: a property map, a
-///                          function object, a map, or a vector by the indices of the vertices}
+///                          function object, a map, or a vector by the indices of the vertices,
+///                          which throws `std::out_of_range` if it is too short}
 ///     \cgalParamType{a map from vertices to `bool`}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
@@ -186,35 +233,23 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  return arap_deform(shape, targets, ARAP::internal::options_from_parameters(np), np);
+  using namespace ARAP::internal;
+  return deform_in_one_call(shape, options_from_parameters(np), np, insert_targets(targets));
 }
 
 /// \ingroup PkgARAPDeformationRef
 /// \brief deforms a shape as rigidly as possible, in one call, with options.
 ///
-/// The other parameters are those of the overload without `options`. Named parameters take
-/// precedence over the options.
+/// The other parameters are those of the overload without `options`. The number of iterations of
+/// `np`, if it has one, takes precedence.
 template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const ARAP::Options& options,
                                        const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  static_assert(ARAP::internal::is_valid<ARAP::internal::Pair_of, TargetRange>,
-                "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
-                "as a std::map");
-  const ARAP::Options all_options = ARAP::internal::options_from_parameters(np, options);
-  const auto insert = [&](auto& deformation, const auto& insert_target) {
-    ARAP::Outcome outcome(ARAP::Status::success, "");
-    for(const auto& [v, target] : targets)
-    {
-      outcome = insert_target(v);
-      if(!outcome)
-        break;
-      deformation.set_target_position(v, target);
-    }
-    return outcome;
-  };
-  return ARAP::internal::deform_in_one_call(shape, all_options, np, insert);
+  using namespace ARAP::internal;
+  return deform_in_one_call(shape, options_from_parameters(np, options), np,
+                            insert_targets(targets));
 }
 
 /// \ingroup PkgARAPDeformationRef
@@ -236,29 +271,9 @@ template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMa
 arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const VertexTargetMap& targets,
             const ARAP::Options& options, const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  using ARAP::internal::with_value;
-  const ARAP::Options all_options = ARAP::internal::options_from_parameters(np, options);
-  const auto insert = [&](auto& deformation, const auto& insert_target) {
-    const auto& domain = deformation.domain();
-    ARAP::Outcome outcome(ARAP::Status::success, "");
-    for(auto v : domain.vertices())
-      with_value(constrained, v, domain.index(v), [&](bool is_constrained) {
-        if(!is_constrained)
-          return;
-        deformation.insert_control_vertex(v);
-        with_value(targets, v, domain.index(v), [&](const auto& target) {
-          constexpr bool is_point =
-            std::is_convertible_v<decltype(target), decltype(domain.point(v))>;
-          static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
-          if(ARAP::Outcome inserted = insert_target(v); !inserted)
-            outcome = std::move(inserted);
-          if constexpr(is_point)
-            deformation.set_target_position(v, target);
-        });
-      });
-    return outcome;
-  };
-  return ARAP::internal::deform_in_one_call(shape, all_options, np, insert);
+  using namespace ARAP::internal;
+  return deform_in_one_call(shape, options_from_parameters(np, options), np,
+                            insert_constrained(constrained, targets));
 }
 
 /// \ingroup PkgARAPDeformationRef
@@ -272,7 +287,9 @@ template <typename Shape, typename VertexConstrainedMap, typename VertexTargetMa
 arap_deform(Shape&& shape, const VertexConstrainedMap& constrained, const VertexTargetMap& targets,
             const CGAL_NP_CLASS& np = parameters::default_values())
 {
-  return arap_deform(shape, constrained, targets, ARAP::internal::options_from_parameters(np), np);
+  using namespace ARAP::internal;
+  return deform_in_one_call(shape, options_from_parameters(np), np,
+                            insert_constrained(constrained, targets));
 }
 
 } // namespace CGAL

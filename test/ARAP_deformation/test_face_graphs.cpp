@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 using CGAL::ARAP::Face_graph_domain;
@@ -78,6 +79,10 @@ void test_const_mesh()
   const auto output_map = boost::make_assoc_property_map(output);
   const auto domain = CGAL::ARAP::make_face_graph_domain(mesh, output_map);
   check_conforms(domain);
+  const auto same =
+    CGAL::ARAP::make_face_graph_domain(mesh, CGAL::parameters::output_point_map(output_map));
+  static_assert(std::is_same_v<decltype(same), decltype(domain)>);
+  CHECK(!same.is_in_place());
   output.clear();
   Result result = deform(domain, all_vertices(mesh), s, Cell_scheme::spokes(), [&](auto v) {
     return s.selection[v] == 0 ? mesh.point(v) : output.at(v);

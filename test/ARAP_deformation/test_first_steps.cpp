@@ -586,7 +586,7 @@ void test_state()
   CHECK(same_points(other, untouched) && d.roi_vertices().size() == 1);
 }
 
-// A modeller who writes old points back goes on from there.
+// A modeler who writes old points back goes on from there.
 void test_points_of_others()
 {
   test_case() = "points of others";
@@ -926,6 +926,13 @@ void test_one_call()
     return CGAL::arap_deform(mesh, targets, options,
                              parameters::vertex_is_constrained_map(is_fixed));
   }) == few);
+  options.iterations = 100;
+  CHECK(run("a number of iterations beside options", [&](Mesh& mesh) {
+    return CGAL::arap_deform(
+      mesh, targets, options,
+      parameters::vertex_is_constrained_map(is_fixed).number_of_iterations(2));
+  }) == few);
+  options.iterations = 2;
   CHECK(run("options last", [&](Mesh& mesh) {
     const auto np = parameters::vertex_is_constrained_map(is_fixed).number_of_iterations(2);
     return CGAL::arap_deform(mesh, targets, parameters::deformation_options(options, np));

@@ -29,8 +29,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 // what newer versions of CGAL ship as CGAL/Testsuite/DerivedSurfaceMesh.h
@@ -75,6 +77,14 @@ void test_planar_mesh()
     CHECK_AT_MOST(std::abs(mesh.point(v).x() + shape.points[v].x()), 1e-6);
     CHECK_AT_MOST(std::abs(mesh.point(v).y() + shape.points[v].y()), 1e-6);
   }
+
+  // velocities and forces have two coordinates, too
+  using Vector_2 = CGAL::Simple_cartesian<double>::Vector_2;
+  const auto v = *std::prev(vertices.end());
+  CHECK(deformation.set_velocity(v, Vector_2(1, 2)));
+  CHECK(deformation.velocity(v) == (CGAL::ARAP::Coordinates{1, 2, 0}));
+  CHECK(deformation.advance(CGAL::ARAP::Dynamics(), std::map{std::pair{v, Vector_2(0, 3)}}));
+  CHECK(deformation.velocity(v)[2] == 0 && deformation.velocity(v)[1] > 0);
 }
 
 // points of a type that has nothing but what is asked for

@@ -722,37 +722,6 @@ void test_checks()
   CHECK(CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 0, 0, 0, 1}));
   CHECK(!CGAL::ARAP::is_rotation({0, 1, 0, 1, 0, 0, 0, 0, 1}));    // a reflection
   CHECK(!CGAL::ARAP::is_rotation({0, -1, 0, 1, 0, 1e-9, 0, 0, 1})); // sheared a little
-
-  Mesh mesh = make_mesh<Mesh>(shape);
-  const Mesh rest = mesh;
-  CHECK(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) == 0);
-  for(Vertex v : mesh.vertices())
-    mesh.point(v) = CGAL::ORIGIN + 1.25 * (mesh.point(v) - CGAL::ORIGIN);
-  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points()) -
-                 0.25) < 1e-14);
-
-  // the same over the simplices of a domain: each edge counts once, and those of triangles are all
-  mesh.point(Vertex(3)) = Point(1, 2, 3);
-  const std::vector<Point> rest_points(rest.points().begin(), rest.points().end());
-  const double of_graph =
-    CGAL::ARAP::relative_edge_length_error(mesh, rest.points(), mesh.points());
-  const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
-  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(domain, rest_points) - of_graph) < 1e-14);
-  const std::vector<Point> square = {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0),
-                                     Point(0, 1, 0)};
-  std::vector<Point> stretched = square;
-  stretched[2] = stretched[3] = Point(0, 3, 0);
-  const std::vector<std::array<int, 4>> corners = {{0, 1, 2, 3}};
-  using Corners = std::vector<std::array<int, 4>>;
-  const CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, Corners> face(stretched, corners);
-  const CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Corners> flat(stretched, corners);
-  const double left = 2, top = -1, right = std::sqrt(10.0) - 1; // errors of the sides, all 1 before
-  const double rising = 3 - std::sqrt(2.0), falling = std::sqrt(10.0) - std::sqrt(2.0);
-  const double sides = left * left + top * top + right * right;
-  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(face, square) -
-                 std::sqrt(sides / 4)) < 1e-14);
-  CHECK(std::abs(CGAL::ARAP::relative_edge_length_error(flat, square) -
-                 std::sqrt((sides + rising * rising + falling * falling) / 8)) < 1e-14);
 }
 
 // For a geometric series of decreases the extrapolated gap is that of some iterations before: never

@@ -15,6 +15,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/arap_deform.h>
 #include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>
 #include <CGAL/Eigen_solver_traits.h>
@@ -26,6 +27,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 using namespace CGAL::ARAP;
@@ -204,6 +206,24 @@ int main()
 #elif WRONG_MODEL == 26
   Mesh mesh;
   CGAL::ARAP_deformation deformation(mesh, CGAL::parameters::target_weight(1));
+#elif WRONG_MODEL == 27
+  Mesh mesh;
+  const std::map<Mesh::Vertex_index, Mesh::Point> targets;
+  const std::vector<Mesh::Vertex_index> fixed;
+  return bool(CGAL::arap_deform(mesh, targets,
+                                CGAL::parameters::vertex_is_constrained_map(fixed)));
+#elif WRONG_MODEL == 28
+  Mesh mesh;
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  deformation.set_target_position(Mesh::Face_index(0), Mesh::Point());
+#elif WRONG_MODEL == 29
+  Mesh mesh;
+  const std::map<Mesh::Vertex_index, Mesh::Point> targets;
+  return bool(CGAL::arap_deform(mesh, targets, Options(),
+                                CGAL::parameters::deformation_options(Options())));
+#elif WRONG_MODEL == 30
+  Mesh mesh;
+  Locator locator(mesh);
 #else
 #error "there is no wrong model of that number"
 #endif

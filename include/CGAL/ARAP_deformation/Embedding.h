@@ -62,6 +62,8 @@ namespace ARAP {
 template <typename Domain>
 class Embedding
 {
+  static_assert(internal::Is_domain<Domain>::value,
+                "Embedding: pass a domain, as make_triangulation_domain(triangulation) returns it");
   static_assert(Domain::dimension == 3,
                 "Embedding: the simplices of the domain must be tetrahedra (dimension 3)");
 

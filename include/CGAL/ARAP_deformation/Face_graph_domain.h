@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
+#include <CGAL/ARAP_deformation/parameters.h>
 
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>
@@ -248,42 +249,6 @@ Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
 #endif
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief returns the domain of a surface with the property maps of named parameters.
-///
-/// \cgalNamedParamsBegin
-///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices, read and written}
-///     \cgalParamType{a model of `ReadWritePropertyMap`}
-///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
-///   \cgalParamNEnd
-///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex, starting from 0}
-///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
-///     \cgalParamDefault{the initialized index map of the mesh}
-///   \cgalParamNEnd
-/// \cgalNamedParamsEnd
-template <typename PolygonMesh, typename CGAL_NP_TEMPLATE_PARAMETERS>
-auto make_face_graph_domain(PolygonMesh& mesh,
-                            const CGAL_NP_CLASS& np = parameters::default_values())
-{
-  constexpr bool is_writable = !std::is_const_v<PolygonMesh> || !std::is_same_v<
-    typename internal_np::Lookup_named_param_def<internal_np::vertex_point_t, CGAL_NP_CLASS,
-                                                 Default>::type, Default>;
-  static_assert(is_writable, "make_face_graph_domain: the points of a const mesh cannot be "
-                             "written; pass an output point map");
-  if constexpr(is_writable)
-  {
-    auto point_map =
-      parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                   get_property_map(vertex_point, mesh));
-    return Face_graph_domain(mesh, point_map,
-                             get_initialized_vertex_index_map(std::as_const(mesh), np));
-  }
-  else // there is no second error
-    return Face_graph_domain(const_cast<std::remove_const_t<PolygonMesh>&>(mesh));
-}
-
-/// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface, which may be `const`, whose deformed points are written
 /// to `output_point_map`.
 ///
@@ -309,6 +274,51 @@ auto make_face_graph_domain(PolygonMesh& mesh, OutputPointMap output_point_map,
   return Face_graph_domain(mesh, point_map,
                            get_initialized_vertex_index_map(std::as_const(mesh), np),
                            output_point_map);
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the domain of a surface with the property maps of named parameters.
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the points of the vertices, read and written}
+///     \cgalParamType{a model of `ReadWritePropertyMap`}
+///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{vertex_index_map}
+///     \cgalParamDescription{a unique index for each vertex, starting from 0}
+///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
+///     \cgalParamDefault{the initialized index map of the mesh}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{output_point_map}
+///     \cgalParamDescription{where deformed points are written; the mesh may then be `const`}
+///     \cgalParamType{a model of `WritablePropertyMap`}
+///     \cgalParamDefault{the vertex point map}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
+template <typename PolygonMesh, typename CGAL_NP_TEMPLATE_PARAMETERS>
+auto make_face_graph_domain(PolygonMesh& mesh,
+                            const CGAL_NP_CLASS& np = parameters::default_values())
+{
+  using internal::has_parameter;
+  constexpr bool has_output = has_parameter<CGAL_NP_CLASS, internal_np::output_point_map_t>;
+  constexpr bool is_writable = has_output || !std::is_const_v<PolygonMesh> ||
+                               has_parameter<CGAL_NP_CLASS, internal_np::vertex_point_t>;
+  static_assert(is_writable, "make_face_graph_domain: the points of a const mesh cannot be "
+                             "written; pass an output point map");
+  if constexpr(has_output)
+    return make_face_graph_domain(
+      mesh, parameters::get_parameter(np, internal_np::output_point_map), np);
+  else if constexpr(is_writable)
+  {
+    auto point_map =
+      parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_property_map(vertex_point, mesh));
+    return Face_graph_domain(mesh, point_map,
+                             get_initialized_vertex_index_map(std::as_const(mesh), np));
+  }
+  else // there is no second error
+    return Face_graph_domain(const_cast<std::remove_const_t<PolygonMesh>&>(mesh));
 }
 
 } // namespace ARAP

@@ -45,6 +45,9 @@ namespace ARAP {
 template <typename Domain>
 class Locator
 {
+  static_assert(internal::Is_domain<Domain>::value,
+                "Locator: pass a domain, as make_face_graph_domain(mesh) returns it for a mesh");
+
 public:
   /// a face or a tetrahedron.
   using simplex_descriptor = typename Domain::simplex_descriptor;
@@ -71,7 +74,8 @@ public:
   }
 
   /// \brief returns the place of the nearest simplex that is nearest to `point`, and its
-  /// coordinates; none if there is no simplex, or if `point` is not finite.
+  /// coordinates; none if there is no simplex, if `point` is not finite, or if it is so far away
+  /// that the computation overflows.
   ///
   /// On a surface the coordinates are not negative: those of the nearest point. For a point outside
   /// of all tetrahedra they are those of the point itself, and some are negative.
@@ -123,8 +127,12 @@ private:
 /// `CGAL::ARAP_deformation::insert_control_point()`.
 ///
 /// Builds a search tree. For more than one point use `Locator`.
-/// \returns a `std::optional` of a `Location`; none if there is no simplex, or if `point` is not
-///          finite
+///
+/// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, with its own points,
+///        or a model of `ARAPDomain`, which may have others
+/// \param point a point of the shape's type, or any with `operator[]`
+/// \returns a `std::optional` of a `Location`; none if there is no simplex, if `point` is not
+///          finite, or if it is so far away that the computation overflows
 template <typename Shape, typename Point>
 auto locate(const Shape& shape, const Point& point)
 {

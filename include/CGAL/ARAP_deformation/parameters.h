@@ -48,6 +48,23 @@ Named_function_parameters<T, Tag, Base> prepend(const T& value, const Base& base
 
 } // namespace internal_np
 
+namespace ARAP {
+namespace internal {
+
+template <typename NamedParameters, typename Tag>
+using Parameter_of = std::decay_t<decltype(parameters::get_parameter(
+  std::declval<const NamedParameters&>(), Tag()))>;
+
+template <typename NamedParameters, typename Tag>
+constexpr bool has_parameter =
+  !std::is_same_v<Parameter_of<NamedParameters, Tag>, internal_np::Param_not_found>;
+
+template <typename NamedParameters, typename Tag>
+constexpr bool has_number = std::is_arithmetic_v<Parameter_of<NamedParameters, Tag>>;
+
+} // namespace internal
+} // namespace ARAP
+
 namespace parameters {
 
 /// \addtogroup PkgARAPDeformationParameters
@@ -118,7 +135,8 @@ auto output_point_map(const OutputPointMap& points, const NP&... np)
 }
 
 /// the rotations that control vertices prescribe, see `ARAP_deformation::set_target_rotation()`: a
-/// range of pairs of a vertex and a rotation, such as a `std::map`; default none.
+/// range of pairs of a vertex and a rotation, such as a `std::map`; default none. In
+/// `arap_deform()` only.
 template <typename RotationRange, typename... NP>
 auto target_rotations(const RotationRange& rotations, const NP&... np)
 {

@@ -15,7 +15,6 @@
 #include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
@@ -38,14 +37,15 @@ namespace ARAP {
 ///
 /// \f$l\f$ is a length, \f$A\f$ an area, \f$V\f$ a volume and \f$\alpha\f$ an angle in the
 /// rest shape; \f$l'\f$, \f$A'\f$, \f$V'\f$ and \f$\alpha'\f$ are the same in the deformed
-/// shape. After a rigid motion all are zero.
+/// shape. After a rigid motion all that are defined are zero.
 struct Quality
 {
-  /// \f$\sqrt{\sum (l' - l)^2 / \sum l^2}\f$ over all edges; see `relative_edge_length_error()`
+  /// \f$\sqrt{\sum (l' - l)^2 / \sum l^2}\f$ over all edges (Table 1 of
+  /// \cgalCite{Sorkine2007AsRigidAs}); those of a polygon are its sides
   double edge_length_error = 0;
 
   /// \f$\sum A' / \sum A - 1\f$ over all faces of a surface, or of the boundary of tetrahedra. The
-  /// area of a polygon is the length of its vector area.
+  /// area of a polygon is the length of its vector area. 0 if the shape had no area.
   double area_change = 0;
 
   /// \f$V' / V - 1\f$, of the volume that a closed and oriented surface encloses, or of all
@@ -172,10 +172,14 @@ public:
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    Edge_length_error error;
+    double errors = 0, lengths = 0; // of squares
     for(const auto& [v, w] : edges)
-      error.add_edge(m_rest[v], m_rest[w], m_points[v], m_points[w]);
-    result.edge_length_error = error.relative();
+    {
+      const double rest = length(difference(m_rest[w], m_rest[v]));
+      errors += std::pow(length(difference(m_points[w], m_points[v])) - rest, 2);
+      lengths += rest * rest;
+    }
+    result.edge_length_error = lengths == 0 ? 0 : std::sqrt(errors / lengths);
 
     const auto faces = m_list.faces();
     double area = 0, rest_area = 0;
@@ -231,10 +235,10 @@ private:
   template <typename Function>
   static void for_each_edge(const Simplex& s, const Function& f)
   {
-    for(std::size_t i = 0; i < s.size(); ++i)
-      for(std::size_t j = 0; j < s.size(); ++j)
-        if(i != j && (is_volume || (i + 1) % s.size() == j || (j + 1) % s.size() == i))
-          f(s[i], s[j]);
+    const std::size_t n = s.size();
+    for(std::size_t i = 0; i < n; ++i)
+      for(std::size_t j = 1; j < n; j += is_volume ? 1 : n - 2)
+        f(s[i], s[(i + j) % n]);
   }
 
   // Calls f(v, change of the angle) for each two edges at v.
@@ -243,13 +247,12 @@ private:
   {
     const std::size_t n = s.size();
     for(std::size_t i = 0; i < n; ++i)
-      for(std::size_t j = 1; j < n; ++j)
-        for(std::size_t k = 1; k < j; ++k)
-          if(is_volume || (k == 1 && j + 1 == n)) // of a polygon, the next and the previous corner
-          {
-            const std::size_t a = s[i], b = s[(i + j) % n], c = s[(i + k) % n];
-            f(a, std::abs(angle(m_points, a, b, c) - angle(m_rest, a, b, c)));
-          }
+      for(std::size_t j = is_volume ? 2 : n - 1; j < n; ++j)
+        for(std::size_t k = 1; k < (is_volume ? j : 2); ++k)
+        {
+          const std::size_t a = s[i], b = s[(i + j) % n], c = s[(i + k) % n];
+          f(a, std::abs(angle(m_points, a, b, c) - angle(m_rest, a, b, c)));
+        }
   }
 
   // in degrees, at a
@@ -317,13 +320,14 @@ private:
 
 /// \ingroup PkgARAPDeformationQuality
 /// \brief measures what a deformation has done to a shape, in \f$O(n \log n)\f$ time for \f$n\f$
-/// simplices.
+/// corners of simplices.
 ///
-/// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, or a model of
-///        `ARAPDomain`
+/// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, with its own points,
+///        or a model of `ARAPDomain`, which may have others
 /// \param rest_points the points of the vertices in the rest shape: a function object, a property
 ///        map, an associative container, where vertices without a value are where the shape has
-///        them, or a vector by the indices of the vertices
+///        them, or a vector by the indices of the vertices, which throws `std::out_of_range` if it
+///        is too short
 /// \param points the same for the deformed shape
 template <typename Shape, typename RestPointMap, typename PointMap>
 Quality quality(const Shape& shape, const RestPointMap& rest_points, const PointMap& points)
@@ -334,7 +338,8 @@ Quality quality(const Shape& shape, const RestPointMap& rest_points, const Point
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief measures what a deformation has done to a shape that has its points now.
+/// \brief measures what a deformation has done to a shape whose present points are the deformed
+/// ones.
 template <typename Shape, typename RestPointMap>
 Quality quality(const Shape& shape, const RestPointMap& rest_points)
 {
@@ -344,10 +349,15 @@ Quality quality(const Shape& shape, const RestPointMap& rest_points)
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief returns what a deformation has done at each vertex, in linear time: the value of a vertex
-/// is at its index in the domain. It is 0 where no simplex is.
+/// \brief returns what a deformation has done at each vertex, in linear time.
+///
+/// \param shape, rest_points, points as for `quality()`
+/// \param measure what is measured
+/// \returns a vector by the indices of the vertices: of the domain, of the mesh (its initialized
+///          index map), or of the finite vertices of a triangulation in their order. It is 0 where
+///          no simplex is, and at indices that no vertex has.
 template <typename Shape, typename RestPointMap, typename PointMap>
-std::vector<double> quality_at_vertices(Vertex_measure measure, const Shape& shape,
+std::vector<double> quality_at_vertices(const Shape& shape, Vertex_measure measure,
                                         const RestPointMap& rest_points, const PointMap& points)
 {
   return internal::with_domain(shape, [&](const auto& domain) {
@@ -356,9 +366,9 @@ std::vector<double> quality_at_vertices(Vertex_measure measure, const Shape& sha
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief returns the same for a shape that has its points now.
+/// \brief returns the same for a shape whose present points are the deformed ones.
 template <typename Shape, typename RestPointMap>
-std::vector<double> quality_at_vertices(Vertex_measure measure, const Shape& shape,
+std::vector<double> quality_at_vertices(const Shape& shape, Vertex_measure measure,
                                         const RestPointMap& rest_points)
 {
   return internal::with_domain(shape, [&](const auto& domain) {

@@ -39,11 +39,14 @@ namespace ARAP {
 /// intersect other than in a common corner or side, by the exact predicates of
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
-/// Polygons are cut from one of their corners. Triangles without area do not count. No other
-/// header needs CGAL's package Polygon Mesh Processing.
+/// Polygons are cut from one of their corners. Triangles without area do not count. Where the
+/// surface is not an orientable manifold, as at an edge of three faces, the triangles that meet
+/// there may count. Takes \f$O(n \log n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which
+/// have bounding boxes that intersect. No other header needs CGAL's package Polygon Mesh
+/// Processing.
 ///
 /// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,
-///        or a model of `ARAPDomain`
+///        with its own points, or a model of `ARAPDomain`, which may have others
 template <typename Shape>
 std::size_t number_of_self_intersections(const Shape& shape)
 {

@@ -12,7 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_TEST_NASTY_SHAPES_H
 #define CGAL_ARAP_DEFORMATION_TEST_NASTY_SHAPES_H
 
-// A shelf of shapes as they come out of scanners, modellers and bugs, and random ones.
+// A shelf of shapes as they come out of scanners, modelers and bugs, and random ones.
 
 #include "domains.h"
 #include "shapes.h"

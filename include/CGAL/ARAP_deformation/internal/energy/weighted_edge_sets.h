@@ -210,7 +210,7 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
       for(int other = simplices.corners.begin[s]; other < simplices.corners.begin[s + 1]; ++other)
         if(other != place)
           neighbors.emplace_back(simplices.corners.items[other],
-                                  simplices.weight(s, place, other));
+                                 simplices.weight(s, place, other));
     }
     neighbors.resize(
       static_cast<std::size_t>(sort_and_add_up(neighbors.begin(), neighbors.end())));

@@ -28,17 +28,6 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-template <typename NamedParameters, typename Tag>
-using Parameter_of = std::decay_t<decltype(parameters::get_parameter(
-  std::declval<const NamedParameters&>(), Tag()))>;
-
-template <typename NamedParameters, typename Tag>
-constexpr bool has_parameter =
-  !std::is_same_v<Parameter_of<NamedParameters, Tag>, internal_np::Param_not_found>;
-
-template <typename NamedParameters, typename Tag>
-constexpr bool has_number = std::is_arithmetic_v<Parameter_of<NamedParameters, Tag>>;
-
 // The domain of a shape that is a domain or a mesh. Maps apply to a FaceGraph only.
 template <typename Shape, typename NamedParameters>
 auto domain_from_parameters(Shape& shape, const NamedParameters& np)
@@ -47,16 +36,11 @@ auto domain_from_parameters(Shape& shape, const NamedParameters& np)
   using Domain = typename Default_domain<Mesh>::type;
   if constexpr(std::is_same_v<Domain, Face_graph_domain<Mesh>>)
   {
-    constexpr bool has_output = has_parameter<NamedParameters, internal_np::output_point_map_t>;
-    static_assert(has_output || !std::is_const_v<Shape>,
-                  "a const mesh cannot be deformed; give its new points a place by the named "
-                  "parameter output_point_map");
-    if constexpr(has_output)
-    {
-      const auto output_map = parameters::get_parameter(np, internal_np::output_point_map);
-      return make_face_graph_domain(shape, output_map, np);
-    }
-    else if constexpr(!std::is_const_v<Shape>)
+    constexpr bool is_writable = has_parameter<NamedParameters, internal_np::output_point_map_t> ||
+                                 !std::is_const_v<Shape>;
+    static_assert(is_writable, "a const mesh cannot be deformed; give its new points a place by "
+                               "the named parameter output_point_map");
+    if constexpr(is_writable)
       return make_face_graph_domain(shape, np);
   }
   else if constexpr(Is_domain<Mesh>::value)
@@ -81,21 +65,34 @@ auto traits_from_parameters(const NamedParameters& np)
   }
 }
 
-// the options given, but for the number of iterations that is a parameter of its own
 template <typename NamedParameters>
-Options options_from_parameters(const NamedParameters& np, Options options)
+Options options_from_parameters(const NamedParameters& np)
 {
+  Options options = parameters::choose_parameter(
+    parameters::get_parameter(np, internal_np::deformation_options), Options());
   options.iterations = static_cast<unsigned int>(parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations));
   return options;
 }
 
+// the options given, but for the number of iterations that is a parameter of its own
 template <typename NamedParameters>
-Options options_from_parameters(const NamedParameters& np)
+Options options_from_parameters(const NamedParameters& np, const Options& options)
 {
-  return options_from_parameters(
-    np, parameters::choose_parameter(
-          parameters::get_parameter(np, internal_np::deformation_options), Options()));
+  static_assert(!has_parameter<NamedParameters, internal_np::deformation_options_t>,
+                "arap_deform: there are two options, an argument and the named parameter "
+                "deformation_options");
+  return options_from_parameters(parameters::deformation_options(options, np));
+}
+
+// what a map of constrained vertices tells of one of them
+template <typename Value, typename Vertex>
+bool is_constrained(const Value& value, const Vertex&)
+{
+  static_assert(!std::is_same_v<Value, Vertex> || std::is_arithmetic_v<Vertex>,
+                "a vector of vertices tells no vertex whether it is constrained; use a set, as "
+                "[&](auto v) { return set.count(v) > 0; }");
+  return static_cast<bool>(value);
 }
 
 // inserts the vertices that stay where they are
@@ -105,8 +102,8 @@ void insert_constrained_vertices(Deformation& deformation, const NamedParameters
   if constexpr(has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>)
     for(auto v : deformation.domain().vertices())
       with_value(parameters::get_parameter(np, internal_np::vertex_is_constrained), v,
-                 deformation.domain().index(v), [&](bool is_constrained) {
-                   if(is_constrained) deformation.insert_control_vertex(v);
+                 deformation.domain().index(v), [&](const auto& value) {
+                   if(is_constrained(value, v)) deformation.insert_control_vertex(v);
                  });
 }
 
