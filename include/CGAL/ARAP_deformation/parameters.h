@@ -19,6 +19,9 @@
 
 #include <CGAL/Named_function_parameters.h>
 
+#include <type_traits>
+#include <utility>
+
 namespace CGAL {
 
 namespace internal_np {
