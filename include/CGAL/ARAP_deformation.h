@@ -778,10 +778,12 @@ ARAP_deformation(Mesh&) -> ARAP_deformation<Mesh>;
 template <typename Domain>
 ARAP_deformation(const Domain&) -> ARAP_deformation<Domain>;
 
-template <typename Mesh, typename DeformationTraits>
+template <typename Mesh, typename DeformationTraits,
+          typename = std::enable_if_t<!ARAP::internal::is_named_parameters<DeformationTraits>>>
 ARAP_deformation(Mesh&, const DeformationTraits&) -> ARAP_deformation<Mesh, DeformationTraits>;
 
-template <typename Domain, typename DeformationTraits>
+template <typename Domain, typename DeformationTraits,
+          typename = std::enable_if_t<!ARAP::internal::is_named_parameters<DeformationTraits>>>
 ARAP_deformation(const Domain&, const DeformationTraits&)
   -> ARAP_deformation<Domain, DeformationTraits>;
 #endif

@@ -37,11 +37,6 @@ namespace internal {
 template <typename Range>
 using Pair_of = decltype(std::begin(std::declval<const Range&>())->second);
 
-template <typename T>
-constexpr bool is_named_parameters = false;
-template <typename T, typename Tag, typename Base>
-constexpr bool is_named_parameters<Named_function_parameters<T, Tag, Base>> = true;
-
 // `insert(deformation, insert_target)` makes the control vertices, by `insert_target(v)` those with
 // a target
 template <typename Shape, typename NamedParameters, typename Function>
@@ -241,7 +236,7 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
 /// \brief deforms a shape as rigidly as possible, in one call, with options.
 ///
 /// The other parameters are those of the overload without `options`. The number of iterations of
-/// `np`, if it has one, takes precedence.
+/// `np`, if it has one, takes precedence; `deformation_options` does not compile.
 template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const ARAP::Options& options,

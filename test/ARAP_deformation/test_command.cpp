@@ -1280,7 +1280,7 @@ void test_help()
        "--quiet", "--fix", "--handle", "--move", "--rotate", "--soft", "--region", "--frames",
        "--animation", "--view", "--quality", "--color", "--save-selection", "--save-transform",
        "--stiffness", "--rigid", "--gravity", "--time_step", "--modulus", "--damping", "--bending",
-       "--smoothing", "--turn", "--onto", "--solver", "--rotation"})
+       "--smoothing", "--turn", "--onto", "--solver", "--rotation", "--version"})
     CHECK(help.out.find(option) != std::string::npos);
 
   test_case() = "version";

@@ -1009,6 +1009,16 @@ void test_class()
   CHECK(points_of(mesh) == points_of(rest));
   CGAL::ARAP_deformation plain(mesh);
   static_assert(std::is_same_v<decltype(plain), Deformation>);
+  using Domain = CGAL::ARAP::Face_graph_domain<Mesh>;
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
+  static_assert(std::is_same_v<decltype(CGAL::ARAP_deformation(mesh, Traits())),
+                               CGAL::ARAP_deformation<Mesh, Traits>>);
+  static_assert(std::is_same_v<decltype(CGAL::ARAP_deformation(Domain(mesh), Traits())),
+                               CGAL::ARAP_deformation<Domain, Traits>>);
+  const Mesh& constant = mesh; // by named parameters, which are no traits
+  using To_other_points = decltype(
+    CGAL::ARAP_deformation(constant, CGAL::parameters::output_point_map(points)));
+  static_assert(std::is_same_v<To_other_points::Deformation_domain::Mesh, const Mesh>);
 
   test_case() = "constrained vertices of the constructor";
   const auto is_fixed = [](Vertex v) { return v < Vertex(9); };

@@ -14,6 +14,7 @@
 // compiles. The sentences that must come first are in CMakeLists.txt.
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Embedding.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/arap_deform.h>
@@ -224,6 +225,13 @@ int main()
 #elif WRONG_MODEL == 30
   Mesh mesh;
   Locator locator(mesh);
+#elif WRONG_MODEL == 31
+  Mesh mesh;
+  const std::map<Mesh::Vertex_index, Matrix_3x3> rotations;
+  CGAL::ARAP_deformation deformation(mesh, CGAL::parameters::target_rotations(rotations));
+#elif WRONG_MODEL == 32
+  Mesh mesh;
+  Embedding embedding(mesh, mesh.points());
 #else
 #error "there is no wrong model of that number"
 #endif

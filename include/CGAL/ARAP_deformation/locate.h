@@ -130,7 +130,7 @@ private:
 ///
 /// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, with its own points,
 ///        or a model of `ARAPDomain`, which may have others
-/// \param point a point of the shape's type, or any with `operator[]`
+/// \param point a point of the shape's type
 /// \returns a `std::optional` of a `Location`; none if there is no simplex, if `point` is not
 ///          finite, or if it is so far away that the computation overflows
 template <typename Shape, typename Point>

@@ -54,6 +54,11 @@ Named_function_parameters<T, Tag, Base> prepend(const T& value, const Base& base
 namespace ARAP {
 namespace internal {
 
+template <typename T>
+constexpr bool is_named_parameters = false;
+template <typename T, typename Tag, typename Base>
+constexpr bool is_named_parameters<Named_function_parameters<T, Tag, Base>> = true;
+
 template <typename NamedParameters, typename Tag>
 using Parameter_of = std::decay_t<decltype(parameters::get_parameter(
   std::declval<const NamedParameters&>(), Tag()))>;
@@ -102,7 +107,8 @@ auto region_of_interest(const VertexRange& vertices, const NP&... np)
 
 /// the weight of each target, see `ARAP_deformation::set_target_weight()`: a number, or a map from
 /// vertices to numbers (a property map, a function object, a map, or a vector by the indices of
-/// the vertices); default infinite. A map says nothing of control points: they are hard.
+/// the vertices); default infinite. A map says nothing of control points: they are hard. In
+/// `arap_deform()` only.
 template <typename Weight, typename... NP>
 auto target_weight(const Weight& weight, const NP&... np)
 {

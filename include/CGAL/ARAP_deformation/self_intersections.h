@@ -41,8 +41,8 @@ namespace ARAP {
 ///
 /// Polygons are cut from one of their corners. Triangles without area do not count. Where the
 /// surface is not an orientable manifold, as at an edge of three faces, the triangles that meet
-/// there may count. Takes \f$O(n \log n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which
-/// have bounding boxes that intersect. No other header needs CGAL's package Polygon Mesh
+/// there may count. Takes \f$O(n \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of
+/// which have bounding boxes that intersect. No other header needs CGAL's package Polygon Mesh
 /// Processing.
 ///
 /// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,

@@ -20,17 +20,8 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <CGAL/number_utils.h>
-
-#include <boost/graph/graph_traits.hpp>
-#include <boost/property_map/property_map.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {

@@ -48,18 +48,18 @@ barycentric_coordinates(const std::array<Coordinates, 4>& corners, const Coordin
 }
 
 // The same for a point in the plane of a triangle, or none if that has no area up to rounding. They
-// are those in a tetrahedron over it, as high as it is long.
+// are those in a tetrahedron over it, as high as the longer edge at its first corner.
 inline std::optional<std::array<double, 3>>
 barycentric_coordinates(const std::array<Coordinates, 3>& corners, const Coordinates& point)
 {
   const Coordinates u = difference(corners[1], corners[0]), v = difference(corners[2], corners[0]);
-  const Coordinates normal = cross(u, v);
   const double length = std::sqrt((std::max)(dot(u, u), dot(v, v)));
-  const double area = std::sqrt(dot(normal, normal)); // twice that
-  if(!(area > 0))
+  const Coordinates normal = cross(scaled(u, 1 / length), v); // its length is at most that
+  const double height = std::sqrt(dot(normal, normal));
+  if(!(height > 0))
     return std::nullopt;
   const auto found = barycentric_coordinates(
-    {Coordinates{0, 0, 0}, u, v, scaled(normal, length / area)}, difference(point, corners[0]));
+    {Coordinates{0, 0, 0}, u, v, scaled(normal, length / height)}, difference(point, corners[0]));
   if(!found)
     return std::nullopt;
   return std::array<double, 3>{1 - (*found)[1] - (*found)[2], (*found)[1], (*found)[2]};

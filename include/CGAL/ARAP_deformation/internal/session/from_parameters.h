@@ -89,10 +89,16 @@ Options options_from_parameters(const NamedParameters& np, const Options& option
 template <typename Value, typename Vertex>
 bool is_constrained(const Value& value, const Vertex&)
 {
-  static_assert(!std::is_same_v<Value, Vertex> || std::is_arithmetic_v<Vertex>,
-                "a vector of vertices tells no vertex whether it is constrained; use a set, as "
-                "[&](auto v) { return set.count(v) > 0; }");
-  return static_cast<bool>(value);
+  constexpr bool is_told = !std::is_same_v<Value, Vertex> || std::is_arithmetic_v<Vertex>;
+  static_assert(is_told, "a vector of vertices tells no vertex whether it is constrained; use a "
+                         "set, as [&](auto v) { return set.count(v) > 0; }");
+  if constexpr(is_told)
+  {
+    const bool result = value; // what converts only explicitly is no answer
+    return result;
+  }
+  else
+    return false;
 }
 
 // inserts the vertices that stay where they are
