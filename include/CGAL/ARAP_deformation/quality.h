@@ -320,7 +320,7 @@ private:
 
 /// \ingroup PkgARAPDeformationQuality
 /// \brief measures what a deformation has done to a shape, in \f$O(n \log n)\f$ time for \f$n\f$
-/// corners of simplices.
+/// simplices, where a polygon with \f$k\f$ corners counts as \f$k^2\f$.
 ///
 /// \param shape a mesh as the template parameter `Mesh` of `ARAP_deformation`, with its own points,
 ///        or a model of `ARAPDomain`, which may have others
@@ -349,7 +349,8 @@ Quality quality(const Shape& shape, const RestPointMap& rest_points)
 }
 
 /// \ingroup PkgARAPDeformationQuality
-/// \brief returns what a deformation has done at each vertex, in linear time.
+/// \brief returns what a deformation has done at each vertex, in linear time, where a polygon with
+/// \f$k\f$ corners counts as \f$k^2\f$.
 ///
 /// \param shape, rest_points, points as for `quality()`
 /// \param measure what is measured
