@@ -626,7 +626,7 @@ public:
     const auto force_at = [&](vertex_descriptor v) {
       ARAP::Coordinates force = {0, 0, 0};
       ARAP::internal::with_value(forces, v, domain().index(v), [&](const auto& f) {
-        force = coordinates_of(f);
+        force = ARAP::internal::coordinates_of<Point>(f);
       });
       return force;
     };
@@ -656,7 +656,7 @@ public:
   template <typename Vector>
   bool set_velocity(vertex_descriptor v, const Vector& velocity)
   {
-    return m_session.set_velocity(v, coordinates_of(velocity));
+    return m_session.set_velocity(v, ARAP::internal::coordinates_of<Point>(velocity));
   }
 
   /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
@@ -712,16 +712,6 @@ public:
   /// @}
 
 private:
-  // a vector with as many coordinates as the points; in the plane z is 0
-  template <typename Vector>
-  static ARAP::Coordinates coordinates_of(const Vector& v)
-  {
-    if constexpr(ARAP::internal::number_of_coordinates<Point>() == 2)
-      return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), 0};
-    else
-      return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])};
-  }
-
   // a handle as the type that the session knows, which is a control vertex or a control point
   template <typename Handle>
   auto control(const Handle& handle) const

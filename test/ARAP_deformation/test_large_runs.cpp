@@ -135,19 +135,27 @@ struct Course
 {
   double first, last;
   unsigned int iterations;
+  CGAL::ARAP::Status status;
 };
 
+template <typename Solver = CGAL::Default>
+auto prepared(Mesh& mesh, const Scenario& s, const Options& options)
+{
+  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> d(mesh);
+  CHECK(d.set_options(options));
+  prepare(d, s, all_vertices(mesh));
+  return d;
+}
+
+template <typename Solver = CGAL::Default>
 Course course(const Shape& shape, const Scenario& s, const Options& options)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  Deformation d(mesh);
-  CHECK(d.set_options(options));
-  prepare(d, s, all_vertices(mesh));
-  const Report report = d.deform();
+  const Report report = prepared<Solver>(mesh, s, options).deform();
   CHECK(report.status == CGAL::ARAP::Status::converged ||
         report.status == CGAL::ARAP::Status::iteration_limit);
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-  return {report.energy.front(), report.final_energy(), report.iterations};
+  return {report.energy.front(), report.final_energy(), report.iterations, report.status};
 }
 
 // The first energy of a run, which is stopped then.
@@ -156,9 +164,7 @@ double first_energy(const Shape& shape, const Scenario& s, const Options& option
                     double weight = 0)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> d(mesh);
-  CHECK(d.set_options(options));
-  prepare(d, s, all_vertices(mesh));
+  auto d = prepared<Solver>(mesh, s, options);
   if(weight > 0) // of a soft target
   {
     const Mesh::Vertex_index middle(static_cast<Mesh::size_type>(shape.points.size() / 2));
@@ -261,16 +267,10 @@ void test_runs_without_start()
   first_energies_agree(shape, 20, [](const Shape& of, const Scenario& s, const Options& options) {
     return first_energy<Solver_of_large_systems>(of, s, options);
   });
-  const Scenario s = twist(shape, 1.5); // to its end
-  Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver_of_large_systems>> d(mesh);
   Options options = options_for(Cell_scheme::spokes());
   options.iterations = 20;
-  CHECK(d.set_options(options));
-  prepare(d, s, all_vertices(mesh));
-  const Report report = d.deform();
-  CHECK(report.status == CGAL::ARAP::Status::iteration_limit);
-  CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
+  CHECK(course<Solver_of_large_systems>(shape, twist(shape, 1.5), options).status ==
+        CGAL::ARAP::Status::iteration_limit);
   test_case() = "a thin tube";
   const double pi = std::acos(-1.0);
   first_energies_agree(grid("tube", 8000, 3, [pi](double u, double v) {

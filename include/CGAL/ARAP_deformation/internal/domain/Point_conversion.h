@@ -83,6 +83,16 @@ Point translated(const Point& p, const Vector& t)
     return construct_from_coordinates<Point>(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
 }
 
+// the coordinates of a point or a vector that has as many as points do; in the plane z is 0
+template <typename Point, typename Vector>
+Coordinates coordinates_of(const Vector& v)
+{
+  double z = 0;
+  if constexpr(number_of_coordinates<Point>() != 2)
+    z = CGAL::to_double(v[2]);
+  return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), z};
+}
+
 // A base of the domains: the point functions of ARAPDomain, for any type with operator[] and a
 // constructor from three coordinates, or from two: such points are in the plane z = 0.
 template <typename Point>
@@ -92,13 +102,7 @@ struct Point_conversion
   static_assert(is_planar || number_of_coordinates<Point>() == 3,
                 "the points of a shape must have three coordinates, or two in the plane");
 
-  static Coordinates coordinates(const Point& point)
-  {
-    double z = 0;
-    if constexpr(!is_planar)
-      z = CGAL::to_double(point[2]);
-    return {CGAL::to_double(point[0]), CGAL::to_double(point[1]), z};
-  }
+  static Coordinates coordinates(const Point& point) { return coordinates_of<Point>(point); }
 
   static Point make_point(const Coordinates& c) { return construct_point<Point>(c[0], c[1], c[2]); }
 };

@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 
 namespace CGAL {
 namespace ARAP {
@@ -77,8 +76,8 @@ public:
         m_places[k] = place[v];
       }
     }
-    m_first_place.push_back(static_cast<int>(vertices.items.size()));
-    vertices.begin.push_back(m_first_place.back());
+    vertices.end_list();
+    m_first_place.push_back(vertices.begin.back());
     m_places_of_vertices = places_of(vertices, number_of_vertices);
     m_forces = Array<Double4>(vertices.items.size(), Double4::zero());
   }
