@@ -122,7 +122,7 @@ public:
         }
       if(measure == Vertex_measure::angle_change)
         for_each_angle(s, [&](std::size_t v, double change) {
-          result[v] = larger(result[v], change);
+          result[v] = larger_or_nan(result[v], change);
         });
       for_each_edge(s, [&](std::size_t v, std::size_t w) {
         const Coordinates e = difference(m_rest[w], m_rest[v]),
@@ -200,7 +200,7 @@ public:
     const auto largest = [this](Vertex_measure measure) {
       double value = 0;
       for(double at_vertex : at_vertices(measure))
-        value = larger(value, at_vertex);
+        value = larger_or_nan(value, at_vertex);
       return value;
     };
     result.largest_angle_change = largest(Vertex_measure::angle_change);

@@ -26,7 +26,7 @@ namespace ARAP {
 namespace internal {
 
 // the larger of two numbers, or NaN if one of them is
-inline double larger(double a, double b) { return b <= a || std::isnan(a) ? a : b; }
+inline double larger_or_nan(double a, double b) { return b <= a || std::isnan(a) ? a : b; }
 
 // the largest absolute value of a coordinate of n points, or NaN if there is one
 inline double largest_entry(const Coordinates* points, std::size_t n)
@@ -36,12 +36,12 @@ inline double largest_entry(const Coordinates* points, std::size_t n)
     double largest = 0;
     for(std::size_t v = begin; v < end; ++v)
       for(double entry : points[v])
-        largest = larger(largest, std::abs(entry));
+        largest = larger_or_nan(largest, std::abs(entry));
     of_blocks[begin / default_block_size] = largest;
   });
   double largest = 0;
   for(double of_block : of_blocks)
-    largest = larger(largest, of_block);
+    largest = larger_or_nan(largest, of_block);
   return largest;
 }
 
