@@ -38,7 +38,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -125,12 +124,13 @@ public:
     m_number_of_free_vertices = static_cast<int>(std::count(is_fixed.begin(), is_fixed.end(), 0));
     if(is_chosen != m_is_chosen)
     {
+      m_is_chosen.clear(); // until all is done: what follows may throw
       std::visit([&](auto& cells) { cells.choose_cells(is_chosen); }, m_cells);
       if(!m_bending.is_none())
         m_bending.choose_cells(is_chosen);
       m_batches.choose(number_of_cells(), [&](int c) { return is_chosen[c] != 0; }, batch_size);
+      measure(is_chosen);
       m_is_chosen = std::move(is_chosen);
-      measure();
     }
   }
 
@@ -369,13 +369,14 @@ private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
   // of the cells that count, in the rest shape
-  void measure()
+  // of what the chosen cells depend on
+  void measure(const Array<char>& is_chosen)
   {
     std::visit([&](const auto& cells) {
       const Edge_sums sums = cells.edge_sums(m_rest) + m_bending.sums();
       m_sum_of_weights = sums.weights;
       m_scale = sums.squares;
-      m_is_in_cell = cells.vertices_of(m_is_chosen);
+      m_is_in_cell = cells.vertices_of(is_chosen);
     }, m_cells);
     Bounding_box box;
     for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)

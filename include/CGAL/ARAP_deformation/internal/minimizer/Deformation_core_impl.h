@@ -45,10 +45,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -295,7 +297,7 @@ void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
 
 // Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
 // need few iterations, nor for elements, which hardly resist bending, nor for a preview or a frame;
-// and that surface has no rows, no stiffness and no order of fits.
+// and that surface has no rows and no stiffness.
 CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::can_have_coarse_start(const Options& options) const
 {
@@ -304,7 +306,7 @@ bool Deformation_core::can_have_coarse_start(const Options& options) const
   return m_region.dimension == 2 && has_vertex_cells() && options.iterations >= least_iterations &&
          m_constraints.number_of_free_vertices() >= least_vertices &&
          m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
-         m_energy_model.stiffness.empty() && m_energy_model.fit_order.empty();
+         m_energy_model.stiffness.empty();
 }
 
 // The rotation at each vertex, from a run on a coarser surface. That begins at x, or if it is
@@ -400,9 +402,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   // where cells depend on others that are far away, a part is not all that its energy depends on
   const bool is_certain = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
                           m_energy_model.cells.rings() == 0 && targets.frames.empty();
-  Array<Coordinates> unplaced = is_certain ? Array<Coordinates>() : x;
+  Array<Coordinates> unplaced;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
+    if(!is_certain)
+      unplaced = x;
     targets.project(m_constraints.rows, x);
     if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
     {
@@ -412,12 +416,13 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                           is_laplacian, x);
     }
   }
-  const bool is_any_placed = std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
+  const bool has_other_start =
+    !is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
   if(is_laplacian && !are_all_placed(is_placed))
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!guess_by_laplacian(is_placed, targets, x) ||
-       (!is_certain && is_any_placed &&
+       (has_other_start &&
         !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
       return {Status::solver_failed};
   }
@@ -437,13 +442,13 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!m_state->system.meet(targets.hard, x) ||
-       (!is_certain && !m_state->system.meet(targets.hard, unplaced)))
+       (has_other_start && !m_state->system.meet(targets.hard, unplaced)))
       return {Status::solver_failed};
   }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, m_region.rest, targets, x, rotations,
                             m_state->coarse_metric, report);
-  if(!is_certain && is_any_placed)
+  if(has_other_start)
   {
     x.swap(unplaced);
     if(!minimization.try_positions(std::move(unplaced)))

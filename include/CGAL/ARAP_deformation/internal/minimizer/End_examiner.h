@@ -115,7 +115,10 @@ public:
     report.end = End::unknown;
     m_last_energy = start;
     m_run.distrust_gap();
-    return m_run.next_iterate(start - m_run.value());
+    const std::optional<Status> status = m_run.next_iterate(start - m_run.value());
+    if(status == Status::converged) // without another look: the energy is next to zero
+      report.end = End::minimum;
+    return status;
   }
 
 private:

@@ -73,10 +73,7 @@ public:
           around[*v] = component;
         }
     }
-    constraints.for_each_row([&](auto begin, auto end, double, double weight) {
-      if(weight != 0)
-        unite(begin, end);
-    });
+    constraints.for_each_row([&](auto begin, auto end, double) { unite(begin, end); });
 
     int count = 0;
     Array<int> number(n, -1);
@@ -99,17 +96,14 @@ public:
       const int* const end = begin + region.number_of_corners(s);
       if(std::any_of(begin, end, is_constraint))
         for(const int* v = begin; v != end; ++v)
-          if(around[*v] >= 0)
-          {
+          if(around[*v] >= 0) // those at other corners may be of other parts
             add_fixed(m_part[around[*v]], begin, end);
-            break;
-          }
     }
     m_can_be_rigid = Array<char>(count, true);
     int r = 0;
-    constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
+    constraints.for_each_row([&](auto begin, auto end, double sum) {
       const auto first = std::find_if(begin, end, is_free);
-      if(weight != 0 && first != end)
+      if(first != end)
       {
         const int part = m_part[*first];
         add_fixed(part, begin, end);
@@ -308,9 +302,9 @@ private:
         if(deformed[motion.part] >= 0)
           for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
             f(m_fixed.items[k], motion.part);
-      constraints.for_each_row([&](auto begin, auto end, double, double weight) {
+      constraints.for_each_row([&](auto begin, auto end, double) {
         for(auto v = begin; v != end; ++v)
-          if(weight != 0 && is_deformed(*v))
+          if(is_deformed(*v))
             f(*v, m_part[*v]);
       });
     };
@@ -327,8 +321,8 @@ private:
         if(!is_turned[*v])
           sets.unite(*first, *v);
     }
-    constraints.for_each_row([&](auto begin, auto end, double, double weight) {
-      for(auto v = begin; v != end && weight != 0; ++v)
+    constraints.for_each_row([&](auto begin, auto end, double) {
+      for(auto v = begin; v != end; ++v)
         sets.unite(*begin, *v);
     });
     Array<int> count(is_turned.size(), 0);  // for each set, of its constraints

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/may_be_positive_definite.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/solver/Petsc_ranks.h>
 
 #include <Eigen/SparseCore>
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <new>
+#include <stdexcept>
 #include <type_traits>
 
 namespace CGAL {
@@ -63,6 +65,8 @@ public:
   {
     constexpr PetscInt largest_workspace = 1000; // in percent of what MUMPS has estimated
     bool is_done = false;
+    if(m_tolerance > 0)
+      clear(); // of conjugate gradients nothing serves again
     while(true)
     {
       is_done = distribute(a) && (m_tolerance > 0 ? set_up_iteration() : set_up_factor());
@@ -350,8 +354,7 @@ private:
         if(entry.row() != column)
           ++begin[column + 1];
       }
-    for(std::size_t k = 1; k < begin.size(); ++k)
-      begin[k] += begin[k - 1];
+    add_up(begin);
     return begin;
   }
 
@@ -380,7 +383,7 @@ private:
   PetscInt number_of_rows(int rank) const { return m_first_rows[rank + 1] - m_first_rows[rank]; }
   PetscInt number_of_rows() const { return number_of_rows(m_ranks.rank()); }
 
-  // f() may throw where memory runs out: false, on all ranks
+  // f() may throw where memory runs out, or there are too many entries: false, on all ranks
   template <typename F>
   bool attempt(const F& f) const
   {
@@ -390,6 +393,7 @@ private:
       is_done = f();
     }
     catch(const std::bad_alloc&) {}
+    catch(const std::length_error&) {}
     return m_ranks.is_everywhere(is_done);
   }
 
