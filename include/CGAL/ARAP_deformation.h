@@ -248,7 +248,7 @@ public:
   bool insert_control_vertex(vertex_descriptor v, const Point& target)
   {
     const bool is_new = m_session.insert_control(v);
-    m_session.change_target(v, [&target](const Point&) { return target; });
+    m_session.change_target(v, [&target] { return target; });
     return is_new;
   }
 
@@ -319,14 +319,14 @@ public:
   /// \param coordinates a range of numbers, or a list in braces: the barycentric coordinates, in
   ///        the order of `domain().simplex_vertices(s)`
   template <typename CoordinateRange = std::initializer_list<double>>
-  ARAP::Control_point_insertion insert_control_point(simplex_descriptor s,
-                                                     const CoordinateRange& coordinates)
+  [[nodiscard]] ARAP::Control_point_insertion
+  insert_control_point(simplex_descriptor s, const CoordinateRange& coordinates)
   {
     return m_session.insert_point(s, coordinates);
   }
 
   /// inserts a control point at a location, as `ARAP::locate()` returns it.
-  ARAP::Control_point_insertion
+  [[nodiscard]] ARAP::Control_point_insertion
   insert_control_point(const ARAP::Location<simplex_descriptor>& location)
   {
     return insert_control_point(location.simplex, location.coordinates);
@@ -373,7 +373,7 @@ public:
   template <typename Handle>
   ARAP::Outcome set_target_position(const Handle& handle, const Point& target)
   {
-    return change_targets(handle, [&target](auto, const Point&) { return target; });
+    return change_targets(handle, [&target](auto) { return target; });
   }
 
   /// \brief makes the target of a control vertex or a control point a set, such as a plane or a
@@ -400,8 +400,8 @@ public:
   template <typename Handles, typename Vector>
   ARAP::Outcome translate(const Handles& handles, const Vector& t)
   {
-    return change_targets(handles, [&t](auto, const Point& p) {
-      return ARAP::internal::translated(p, t);
+    return change_targets(handles, [&](auto handle) {
+      return ARAP::internal::translated(m_session.target(handle), t);
     });
   }
 
@@ -416,12 +416,12 @@ public:
     static_assert(can_turn, "rotate() needs a quaternion or matrix q for which q * center is a "
                             "vector of the type of center, as with Eigen; for a transformation of "
                             "CGAL use transform()");
-    return change_targets(handles, [&](auto, const Point& point) {
+    return change_targets(handles, [&](auto handle) {
       if constexpr(!can_turn)
-        return point;
+        return m_session.target(handle);
       else
       {
-        const ARAP::Coordinates p = Domain_::coordinates(point);
+        const ARAP::Coordinates p = Domain_::coordinates(m_session.target(handle));
         const Vector r = q * Vector(p[0] - center[0], p[1] - center[1], p[2] - center[2]);
         return Domain_::make_point({center[0] + r[0], center[1] + r[1], center[2] + r[2]});
       }
@@ -435,8 +435,9 @@ public:
   ARAP::Outcome transform(const Handles& handles, const Transformation& t,
                           ARAP::Transformed transformed = ARAP::Transformed::targets)
   {
-    return change_targets(handles, [&](auto handle, const Point& p) -> Point {
-      return t(transformed == ARAP::Transformed::targets ? p : m_session.rest_point(handle));
+    return change_targets(handles, [&](auto handle) -> Point {
+      return t(transformed == ARAP::Transformed::targets ? m_session.target(handle)
+                                                         : m_session.rest_point(handle));
     });
   }
 
@@ -741,12 +742,12 @@ private:
       return f(control(handles));
   }
 
-  // replaces each target p by f(handle, p)
+  // replaces each target by f(handle)
   template <typename Handles, typename Function>
   ARAP::Outcome change_targets(const Handles& handles, const Function& f)
   {
     return for_each_handle(handles, [&](auto handle) {
-      return m_session.change_target(handle, [&](const Point& p) { return f(handle, p); });
+      return m_session.change_target(handle, [&] { return f(handle); });
     });
   }
 

@@ -60,6 +60,8 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   else
     deformation.insert_roi_vertices(domain.vertices());
   insert_constrained_vertices(deformation, np);
+  // a number or a map, which is copied, or none
+  [[maybe_unused]] const auto& weight = get_parameter(np, internal_np::target_weight);
   const auto insert_target = [&](auto v) {
     Outcome outcome(Status::success, "");
     deformation.insert_control_vertex(v);
@@ -67,10 +69,10 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
       outcome = Outcome(Status::not_a_control_vertex,
                         "a target is given for a vertex that the mesh does not have");
     else if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
-      outcome = deformation.set_target_weight(v, get_parameter(np, internal_np::target_weight));
+      outcome = deformation.set_target_weight(v, weight);
     else if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
-      with_value(get_parameter(np, internal_np::target_weight), v, domain.index(v),
-                 [&](double weight) { outcome = deformation.set_target_weight(v, weight); });
+      with_value(weight, v, domain.index(v),
+                 [&](double w) { outcome = deformation.set_target_weight(v, w); });
     return outcome;
   };
   static_cast<Outcome&>(report) = insert(deformation, insert_target);
@@ -99,8 +101,7 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
         deformation.set_target_position(inserted.point, target);
       if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
         if(report)
-          static_cast<Outcome&>(report) = deformation.set_target_weight(
-            inserted.point, get_parameter(np, internal_np::target_weight));
+          static_cast<Outcome&>(report) = deformation.set_target_weight(inserted.point, weight);
       if(!report)
         return report;
     }

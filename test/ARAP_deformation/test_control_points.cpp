@@ -700,7 +700,7 @@ void test_stages()
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
   CHECK_AT_MOST(s.miss(), 1e-12);
   for(std::size_t k = 0; k < 2800; ++k)
-    d.insert_control_point(200 + k, coordinates(3, k));
+    CHECK(d.insert_control_point(200 + k, coordinates(3, k)));
   report = d.deform(2, 0);
   CHECK(report.status == Status::too_many_control_points);
   d.clear_control_points();
@@ -934,6 +934,50 @@ void test_refusals()
   CHECK(largest_distance(before, sheet.s.points) == 0);
   CHECK(d.set_target_set(p, onto_plane));
   CHECK(d.deform());
+
+  // the point that was the target before is not read any more, and a set is not asked when it goes
+  CHECK(d.set_target_position(p, Point(0, 0, std::numeric_limits<double>::quiet_NaN())));
+  CHECK(!d.deform());
+  CHECK(d.set_target_set(p, onto_plane));
+  CHECK(d.deform());
+  const std::size_t v = 20;
+  d.insert_control_vertex(v);
+  const auto is_asked = [](const Point&) -> Point { throw std::runtime_error("asked"); };
+  CHECK(d.set_target_weight(v, 1));
+  for(int k = 0; k < 3; ++k)
+  {
+    CHECK(d.set_target_set(v, is_asked));
+    if(k == 0)
+      CHECK(d.set_target_position(v, sheet.s.points[v]));
+    else if(k == 1)
+      CHECK(!d.insert_control_vertex(v, sheet.s.points[v]));
+    else
+      CHECK(d.transform(v, [](const Point& q) { return q; }, CGAL::ARAP::Transformed::rest_shape));
+    CHECK(d.deform(1, 0));
+  }
+}
+
+// Frames of handles that glide turn with where these are.
+void test_frames_of_sets()
+{
+  test_case() = "frames of targets that are sets";
+  Subject<2> s(triangles());
+  auto& d = s.deformation;
+  const std::vector<std::size_t> handles = {20, 21, 30};
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for(std::size_t v : handles)
+  {
+    d.insert_control_vertex(v);
+    CHECK(d.set_target_weight(v, 1));
+    const Point turned = point(turn * vector(s.points[v]));
+    CHECK(d.set_target_set(v, [turned](const Point&) { return turned; }));
+  }
+  CHECK(d.set_target_rotations(handles));
+  CHECK(d.deform(0, 0));
+  const CGAL::ARAP::Matrix_3x3 rotation = d.rotation(handles[0]);
+  for(int k = 0; k < 9; ++k)
+    CHECK_AT_MOST(std::abs(rotation[std::size_t(k)] - turn(k / 3, k % 3)), 1e-12);
 }
 
 } // namespace sets
@@ -1127,6 +1171,7 @@ int main()
   sets::test_line_at_vertex();
   sets::test_surface();
   sets::test_refusals();
+  sets::test_frames_of_sets();
   locations::test_function();
   guess::test_all();
   return checks_result();

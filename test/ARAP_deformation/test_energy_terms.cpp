@@ -662,6 +662,30 @@ void test_changes(const Model& model)
   plain.deformation.reset();
   CHECK(plain.deformation.deform(4, 0));
   CHECK_AT_MOST(largest_distance(run.points, plain.points), 1e-8);
+
+  test_case() = "smooth rotations and groups, switched on and off";
+  Run<2> undisturbed(model, s, Cell_scheme::spokes_and_rims(), {});
+  CHECK(undisturbed.deformation.deform(4, 0));
+  for(const auto& [number, smoothing, group] :
+      {std::tuple(0, 0.1, std::vector<int>()), {1, 0., std::vector<int>(model.points.size(), 1)},
+       {2, 0., std::vector<int>()}})
+  {
+    Terms others;
+    others.smoothing_length = smoothing;
+    others.group = group;
+    d.reset();
+    for(std::size_t v = 0; v < model.points.size(); ++v)
+      if(s.selection[v] == 2)
+        CHECK(d.set_target_position(v, point(s.targets[v])));
+    d.clear_groups();
+    apply(d, Cell_scheme::spokes_and_rims(), others);
+    report = d.deform(4, 0);
+    CHECK(report && !report.stages.region && report.stages.weights);
+    Run<2> same(model, s, Cell_scheme::spokes_and_rims(), others);
+    CHECK(same.deformation.deform(4, 0));
+    CHECK_AT_MOST(largest_distance(run.points, same.points), 1e-8);
+    CHECK((largest_distance(run.points, undisturbed.points) < 1e-8) == (number == 2));
+  }
 }
 
 // Rigid motions with smooth rotations, and starts that are taken only where they lower the energy.

@@ -50,6 +50,8 @@ using Vertex = Mesh::Vertex_index;
 using Deformation = CGAL::ARAP_deformation<Mesh>;
 using Indices = std::vector<std::size_t>;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // a sheet with ripples; vertex i * (n + 1) + j is in row i
 Shape sheet(int n)
 {
@@ -644,7 +646,25 @@ void test_points_of_others()
   CHECK(broken.status == Status::non_finite_point);
   CHECK(says(broken, "vertex 50"));
   s.mesh.point(Vertex(50)) = sound;
+  CHECK(s.d.preprocess()); // reads it again, as a run does
+  s.mesh.point(Vertex(50)) = Point(0, std::nan(""), 0);
+  CHECK(s.d.preprocess().status == Status::non_finite_point);
+  s.mesh.point(Vertex(50)) = sound;
   CHECK(s.d.deform(2, 0));
+
+  // what left the region of interest matters only where the region has it
+  for(int row = 1; row <= 4; ++row)
+    for(int column = 0; column <= 4; ++column)
+      s.d.erase_roi_vertex(Vertex(13 * row + column));
+  CHECK(s.d.deform(2, 0));
+  const Point corner = s.mesh.point(Vertex(13)), beside = s.mesh.point(Vertex(52));
+  s.mesh.point(Vertex(13)) = Point(0, std::nan(""), 0);
+  CHECK(s.d.deform(2, 0));
+  s.mesh.point(Vertex(52)) = Point(0, std::nan(""), 0);
+  CHECK(says(s.d.deform(2, 0), "vertex 52"));
+  s.mesh.point(Vertex(52)) = beside;
+  CHECK(s.d.deform(2, 0));
+  s.mesh.point(Vertex(13)) = corner;
 }
 
 } // namespace undo
@@ -911,6 +931,23 @@ void test_one_call()
       constrained.push_back(is_fixed(v) || targets.count(v) > 0);
     return CGAL::arap_deform(mesh, constrained, targets, Options());
   }) == expected);
+
+  run("maps that count their copies", [&](Mesh& mesh) {
+    int number = 0;
+    struct Counted
+    {
+      explicit Counted(int& copies) : m_copies(copies) {}
+      Counted(const Counted& other) : m_copies(other.m_copies) { ++m_copies; }
+      int& m_copies;
+    };
+    const Counted counted(number);
+    const Report report = CGAL::arap_deform(mesh, targets, parameters::target_weight(
+      [counted](Vertex v) { return v == Vertex(80) ? infinity : 1; },
+      parameters::vertex_is_constrained_map(
+        [counted, is_fixed](Vertex v) { return is_fixed(v); })));
+    CHECK_AT_MOST(number, 40); // not for each of 81 vertices
+    return report;
+  });
 
   Options options;
   options.iterations = 2;

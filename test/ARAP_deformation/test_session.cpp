@@ -298,7 +298,7 @@ void test_options_by_name()
     {"cells", {"elements", "spokes_and_rims", "k_ring:2", "spokes"}},
     {"minimizer", {"local_global", "quasi_newton", "automatic"}},
     {"initial_guess", {"rotations", "laplacian", "previous", "automatic"}},
-    {"iterations", {"0", "2147483647"}}, {"threads", {"3", "0"}}, {"tolerance", {"0", "0.25"}},
+    {"iterations", {"0", "4294967295"}}, {"threads", {"3", "0"}}, {"tolerance", {"0", "0.25"}},
     {"verify_minimum", {"false", "true"}}, {"coarse_metric", {"false", "true"}},
     {"bending_length", {"1", "0.5"}}, {"smoothing_length", {"7"}}};
   for(const auto& [name, values] : valid)
@@ -321,8 +321,8 @@ void test_options_by_name()
     {"cells", "k_ring:101", "at most k_ring(100)"},
     {"cells", "elements", "bending_length needs cells at vertices"},
     {"minimizer", "", "minimizer '' is not known; use one of automatic, local_global"},
-    {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 2147483647"},
-    {"threads", "2147483648", "threads '2147483648' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
+    {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 4294967295"},
+    {"threads", "4294967296", "threads '4294967296' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
     {"verify_minimum", "1", "verify_minimum '1' is not known; use one of true, false"},
     {"tolerance", "nan", "tolerance is nan"}, {"smoothing_length", "-1", "smoothing_length"},
     {"Cells", "spokes", "the option 'Cells' is not known; use one of cells, minimizer"}};

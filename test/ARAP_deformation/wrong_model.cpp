@@ -232,6 +232,10 @@ int main()
 #elif WRONG_MODEL == 32
   Mesh mesh;
   Embedding embedding(mesh, mesh.points());
+#elif WRONG_MODEL == 33
+  Mesh mesh;
+  CGAL::ARAP_deformation deformation(mesh);
+  return bool(deformation.set_target_rotation(Mesh::Vertex_index(0), Eigen::Rotation2Dd(1)));
 #else
 #error "there is no wrong model of that number"
 #endif

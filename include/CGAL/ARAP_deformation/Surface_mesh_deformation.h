@@ -230,7 +230,7 @@ public:
   /// sets the target of a control vertex. Ignores any other vertex.
   Outcome set_target_position(vertex_descriptor v, const Point& target_position)
   {
-    return m_session.change_target(v, [&](const Point&) { return target_position; });
+    return m_session.change_target(v, [&] { return target_position; });
   }
 
   /// translates the target of a control vertex by `t`, whose type has `operator[]`. Ignores any
@@ -238,7 +238,8 @@ public:
   template <typename Vect>
   Outcome translate(vertex_descriptor v, const Vect& t)
   {
-    return m_session.change_target(v, [&t](const Point& p) {
+    return m_session.change_target(v, [&] {
+      const Point p = m_session.target(v);
       return Point(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
     });
   }
@@ -256,7 +257,8 @@ public:
   template <typename Quaternion, typename Vect>
   Outcome rotate(vertex_descriptor v, const Vect& to_rotation_center, const Quaternion& quat)
   {
-    return m_session.change_target(v, [&](const Point& p) {
+    return m_session.change_target(v, [&] {
+      const Point p = m_session.target(v);
       const Vect& c = to_rotation_center;
       const Vect r = quat * Vect(CGAL::to_double(p[0]) - c[0], CGAL::to_double(p[1]) - c[1],
                                  CGAL::to_double(p[2]) - c[2]);

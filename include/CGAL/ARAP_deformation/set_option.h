@@ -21,6 +21,7 @@
 #include <boost/lexical_cast.hpp>
 
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -108,10 +109,11 @@ struct Read_option
 
   Outcome operator()(unsigned int& value) const
   {
-    int number = -1;
-    if(!boost::conversion::try_lexical_convert(text, number) || number < 0)
-      return Outcome(Status::invalid_option,
-                     name + " '" + text + "' is not a whole number from 0 to 2147483647");
+    constexpr unsigned int most = (std::numeric_limits<unsigned int>::max)();
+    long long number = -1;
+    if(!boost::conversion::try_lexical_convert(text, number) || number < 0 || number > most)
+      return Outcome(Status::invalid_option, name + " '" + text + "' is not a whole number from 0 "
+                     "to " + std::to_string(most));
     value = static_cast<unsigned int>(number);
     return Outcome(Status::success, std::string());
   }

@@ -81,12 +81,12 @@ public:
     take_points(vertices, changed, m_prepared->positions);
     for(int v = core().region().number_of_movable_vertices;
         v < core().region().number_of_vertices(); ++v)
+    {
       if(!vertices.find(region().vertices[v]))
-      {
         m_prepared->positions[v] = Domain::coordinates(domain.point(region().vertices[v]));
-        if(!is_finite(m_prepared->positions[v]))
-          return outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
-      }
+      if(!is_finite(m_prepared->positions[v]))
+        return outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
+    }
     return outcome(Status::success);
   }
 

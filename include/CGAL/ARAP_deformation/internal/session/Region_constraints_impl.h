@@ -98,9 +98,9 @@ void Region_constraints::add_inertia(double weight)
   contents = contents_at_centers(m_core.core->region());
   contents.resize(m_constraints.is_fixed.size());
   for(int v = 0; v < static_cast<int>(contents.size()); ++v)
-    if(m_constraints.is_fixed[v])
+    if(m_constraints.is_fixed[v] || !(weight * contents[v] > 0))
       contents[v] = 0;
-    else if(contents[v] > 0)
+    else
     {
       m_constraints.rows.append(v, weight * contents[v]);
       m_constraints.inertia += weight * contents[v];

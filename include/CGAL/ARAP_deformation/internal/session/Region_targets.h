@@ -57,7 +57,7 @@ public:
       if(!entry.is_control)
         continue;
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
-      if(!is_finite(target))
+      if(!is_finite(target) && !m_vertices.whole_target(entry).set)
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex),
                                  "the target of ");
       const int v = region.find_vertex(domain(), entry.vertex);
@@ -72,7 +72,7 @@ public:
       for(Control_point point : *points)
       {
         const auto& held = m_vertices.points().at(point);
-        if(!is_finite(Domain::coordinates(held.target.point)))
+        if(!is_finite(Domain::coordinates(held.target.point)) && !held.target.set)
           return outcome(Status::non_finite_point, "the target of " + control_point_name(point));
         const Coordinates fixed = fixed_share(held, positions);
         if(points == &rows.soft_points)

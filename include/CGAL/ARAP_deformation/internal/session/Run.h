@@ -24,7 +24,6 @@
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 
-#include <cstddef>
 
 namespace CGAL {
 namespace ARAP {
@@ -34,11 +33,11 @@ namespace internal {
 class Run
 {
 public:
-  // starts at the present positions, and reports what moves
+  // reports what moves
   Run(Built_core& core, const Region_rows& rows, Report& report);
   ~Run();
 
-  Array<Coordinates> positions;
+  Array<Coordinates> positions; // where it starts, and then where it ends
   Targets targets;
 
   // moves the positions

@@ -69,6 +69,10 @@ public:
     Outcome prepared = m_options.check();
     if(!prepared)
       return prepared;
+    double seconds = 0;
+    prepared = take_points_of_others(seconds);
+    if(!prepared)
+      return prepared;
     m_prepared.set_inertia(0); // of the last time step
     prepared = prepare();
     if(prepared)
@@ -88,7 +92,7 @@ public:
     Report report;
     {
       Scoped_seconds total(report.seconds.total);
-      static_cast<Outcome&>(report) = deform(options, visitor, report);
+      static_cast<Outcome&>(report) = perform(options, nullptr, {}, visitor, report);
     }
     return report;
   }
@@ -105,12 +109,13 @@ public:
     options.initial_guess = Initial_guess::previous;
     {
       Scoped_seconds total(report.seconds.total);
-      static_cast<Outcome&>(report) = advance(step, force, options, visitor, report);
-      if(!report)
-        return report;
-      Scoped_seconds seconds(report.seconds.transfer);
-      step.measure(m_prepared.rows().contents, m_prepared.positions(), report);
-      m_energy = report.elastic_energy / dynamics.modulus;
+      static_cast<Outcome&>(report) = perform(options, &step, force, visitor, report);
+      if(report)
+      {
+        Scoped_seconds seconds(report.seconds.transfer);
+        step.measure(m_prepared.rows().contents, m_prepared.positions(), report);
+        m_energy = report.elastic_energy / dynamics.modulus;
+      }
     }
     return report;
   }
@@ -189,40 +194,22 @@ private:
     return m_prepared.prepare(m_vertices, this->m_cell_values, m_options, m_stages);
   }
 
-  Outcome deform(const Options& options, const Visitor& visitor, Report& report)
-  {
-    return perform(options, 0, visitor, report,
-                   [](const Region_targets<Domain>&, Run&) { return outcome(Status::success); },
-                   [](const Region_targets<Domain>&, const Run&) { return Array<Coordinates>(); });
-  }
-
-  Outcome advance(Time_step& step, const Force& force, const Options& options,
+  // A run, or a time step with these forces.
+  Outcome perform(const Options& options, Time_step* step, const Force& force,
                   const Visitor& visitor, Report& report)
   {
-    return perform(options, step.inertia(), visitor, report,
-                   [&](const Region_targets<Domain>& reader, Run& run) {
-                     return reader.begin(step, force, run.positions, run.targets);
-                   },
-                   [&](const Region_targets<Domain>& reader, const Run& run) {
-                     return reader.velocities_after(step, run.positions);
-                   });
-  }
-
-  // A run with this inertia. begin_step(reader, run) completes what the run starts from, and
-  // velocities_after(reader, run) are those that it leads to.
-  template <typename BeginStep, typename VelocitiesAfter>
-  Outcome perform(const Options& options, double inertia, const Visitor& visitor, Report& report,
-                  const BeginStep& begin_step, const VelocitiesAfter& velocities_after)
-  {
+    const double inertia = step ? step->inertia() : 0;
     if(Outcome begun = begin(options, inertia, report); !begun)
       return begun;
     Run run(m_prepared.built(), m_prepared.rows(), report);
     const Region_targets<Domain> reader(m_vertices, m_prepared);
     {
       Scoped_seconds seconds(report.seconds.transfer);
-      if(Outcome read = reader.read(run.positions, run.targets); !read)
-        return read;
-      if(Outcome begun = begin_step(reader, run); !begun)
+      run.positions = m_prepared.positions();
+      Outcome begun = reader.read(run.positions, run.targets);
+      if(begun && step)
+        begun = reader.begin(*step, force, run.positions, run.targets);
+      if(!begun)
         return begun;
     }
     const Scoped_flag in_a_run(m_is_in_a_run);
@@ -233,7 +220,8 @@ private:
                   inertia == 0 && m_prepared.number_of_controls() == 0,
                   m_prepared.rows().isolated_controls);
       Scoped_seconds seconds(report.seconds.transfer);
-      finish(run, velocities_after(reader, run), report);
+      finish(run, step ? reader.velocities_after(*step, run.positions) : Array<Coordinates>(),
+             report);
     }
     return result;
   }
@@ -245,7 +233,7 @@ private:
       return outcome(Status::in_a_run);
     if(Outcome checked = options.check(); !checked)
       return checked;
-    if(Outcome taken = take_points_of_others(report); !taken)
+    if(Outcome taken = take_points_of_others(report.seconds.transfer); !taken)
       return taken;
     Scoped_seconds seconds(report.seconds.preprocess);
     m_prepared.set_inertia(inertia);
@@ -276,16 +264,16 @@ private:
 
   // Points that others have moved are where the run starts, or fixed there: undo by writing back
   // old points, for example.
-  Outcome take_points_of_others(Report& report)
+  Outcome take_points_of_others(double& transfer)
   {
-    Scoped_seconds seconds(report.seconds.transfer);
+    Scoped_seconds seconds(transfer);
     if(!takes_points())
       return outcome(Status::success);
     const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
     for(const auto& [k, point] : changed)
-      if(!is_finite(Domain::coordinates(point)))
-        return outcome_of_vertex(Status::non_finite_point,
-                                 domain().index(m_vertices.entries()[k].vertex));
+      if(const Entry& entry = m_vertices.entries()[k];
+         entry.is_roi && !is_finite(Domain::coordinates(point)))
+        return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex));
     for(const auto& [k, point] : changed)
     {
       Entry& entry = m_vertices.entries()[k];

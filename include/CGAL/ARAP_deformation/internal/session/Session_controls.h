@@ -77,8 +77,7 @@ public:
     Outcome checked = options.check();
     if(checked)
     {
-      if(options.cells != m_options.cells ||
-         (options.smoothing_length > 0) != (m_options.smoothing_length > 0))
+      if(options.cells != m_options.cells)
         region_changed();
       else if(options.bending_length != m_options.bending_length ||
               options.smoothing_length != m_options.smoothing_length)
@@ -181,11 +180,9 @@ public:
         held.coordinates[k] /= sum;
     held.target.point = Domain::make_point(Vertices::position(
       held, [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
-    for(vertex_descriptor v : held.corners)
-      insert_roi(v);
-    constraints_changed();
-    return Control_point_insertion(Outcome(Status::success, std::string()),
-                                   m_vertices.insert_point(std::move(held)));
+    const auto [point, is_region_other] = m_vertices.insert_point(std::move(held));
+    is_region_other ? region_changed() : constraints_changed();
+    return Control_point_insertion(Outcome(Status::success, std::string()), point);
   }
 
   bool erase_point(Control_point point)
@@ -205,12 +202,8 @@ public:
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
-    const bool had_groups = m_cell_values.has_groups();
     change(m_cell_values);
-    if(had_groups || m_cell_values.has_groups())
-      region_changed();
-    else
-      values_changed();
+    values_changed();
     return Outcome(Status::success, std::string());
   }
 

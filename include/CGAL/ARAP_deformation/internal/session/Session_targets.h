@@ -56,11 +56,13 @@ public:
            : target->set     ? target->set(present(handle)) : target->point;
   }
 
+  // `f()` is the new target. It alone may ask where the present one is, which calls a set: a set
+  // that is replaced may be gone.
   template <typename Handle, typename Function>
   Outcome change_target(Handle handle, const Function& f)
   {
     return with_target(handle, [&](auto& target) {
-      replace_target(target, f(this->target(handle)));
+      replace_target(target, f());
       return Outcome(Status::success, std::string());
     });
   }
@@ -122,7 +124,7 @@ public:
       if(entry == nullptr)
         return outcome(Status::not_a_control_vertex, name(v));
       rest.push_back(Domain::coordinates(entry->rest));
-      targets.push_back(Domain::coordinates(m_vertices.target(*entry)));
+      targets.push_back(Domain::coordinates(target(v)));
     }
     const std::optional<Matrix_3x3> rotation = rotation_of_motion(rest, targets);
     if(!rotation)

@@ -89,11 +89,11 @@ public:
 
   // the target of a control vertex
   Target& whole_target(const Entry& entry) { return m_targets[entry.target]; }
+  const Target& whole_target(const Entry& entry) const { return m_targets[entry.target]; }
   Point& target(const Entry& entry) { return m_targets[entry.target].point; }
   const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
 
   // the weight of the target of a control vertex
-  double& weight(const Entry& entry) { return m_targets[entry.target].weight; }
   double weight(const Entry& entry) const { return m_targets[entry.target].weight; }
 
   // the rotation of the cells at a control vertex, if it is given
@@ -124,7 +124,8 @@ public:
 
   const Target* find_target(vertex_descriptor v) const
   {
-    return is_control(v) ? &m_targets[find(v)->target] : nullptr;
+    const Entry* entry = find(v);
+    return entry != nullptr && entry->is_control ? &m_targets[entry->target] : nullptr;
   }
 
   const Target* find_target(Control_point point) const
@@ -213,11 +214,7 @@ public:
     return entry != nullptr && entry->is_roi;
   }
 
-  bool is_control(vertex_descriptor v) const
-  {
-    const Entry* entry = find(v);
-    return entry != nullptr && entry->is_control;
-  }
+  bool is_control(vertex_descriptor v) const { return find_target(v) != nullptr; }
 
   // The functions that change the sets return whether they did.
 
@@ -225,10 +222,7 @@ public:
 
   bool insert_control(vertex_descriptor v)
   {
-    if(!is_vertex(v))
-      return false;
-    const Entry* known = find(v);
-    if(known != nullptr && known->is_control)
+    if(!is_vertex(v) || is_control(v))
       return false;
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
@@ -249,10 +243,10 @@ public:
 
   bool erase_roi(vertex_descriptor v)
   {
-    if(!is_roi(v))
+    Entry* entry = find(v);
+    if(entry == nullptr || !entry->is_roi)
       return false;
-    Entry& entry = find_or_insert(v);
-    entry.is_roi = entry.is_control = false;
+    entry->is_roi = entry->is_control = false;
     return true;
   }
 
@@ -287,13 +281,18 @@ public:
     return is_change;
   }
 
-  // The corners are in the region of interest.
-  Control_point insert_point(Held_point held)
+  // Inserts the corners in the region of interest, and returns whether one of them was not there.
+  std::pair<Control_point, bool> insert_point(Held_point held)
   {
     const Control_point point(m_last_point + 1);
-    m_points.emplace(point, std::move(held));
+    for(vertex_descriptor v : held.corners) // what can throw comes first
+      find_or_insert(v);
+    const Held_point& inserted = m_points.emplace(point, std::move(held)).first->second;
     ++m_last_point;
-    return point;
+    bool is_region_other = false;
+    for(vertex_descriptor v : inserted.corners)
+      is_region_other |= enter_roi(*find(v));
+    return {point, is_region_other};
   }
 
   bool erase_point(Control_point point) { return m_points.erase(point) > 0; }

@@ -22,7 +22,6 @@
 #include <CGAL/Named_function_parameters.h>
 
 #include <type_traits>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -106,11 +105,13 @@ template <typename Deformation, typename NamedParameters>
 void insert_constrained_vertices(Deformation& deformation, const NamedParameters& np)
 {
   if constexpr(has_parameter<NamedParameters, internal_np::vertex_is_constrained_t>)
+  {
+    const auto& map = parameters::get_parameter(np, internal_np::vertex_is_constrained); // a copy
     for(auto v : deformation.domain().vertices())
-      with_value(parameters::get_parameter(np, internal_np::vertex_is_constrained), v,
-                 deformation.domain().index(v), [&](const auto& value) {
-                   if(is_constrained(value, v)) deformation.insert_control_vertex(v);
-                 });
+      with_value(map, v, deformation.domain().index(v), [&](const auto& value) {
+        if(is_constrained(value, v)) deformation.insert_control_vertex(v);
+      });
+  }
 }
 
 } // namespace internal

@@ -33,6 +33,10 @@ using Call_to_rotation_matrix = decltype(std::declval<const Rotation&>().toRotat
 template <typename Matrix>
 using Call_entry = decltype(double(std::declval<const Matrix&>()(0, 0)));
 
+// of Eigen, with a size that is known
+template <typename Matrix>
+using Call_2x2 = std::enable_if_t<0 <= Matrix::ColsAtCompileTime && Matrix::ColsAtCompileTime < 3>;
+
 template <typename Transformation>
 using Call_m = decltype(std::declval<const Transformation&>().m(0, 0));
 
@@ -48,6 +52,7 @@ Matrix_3x3 rotation_matrix(const Rotation& rotation)
   else
   {
     constexpr bool has_entries = is_valid<Call_entry, Rotation>;
+    static_assert(!is_valid<Call_2x2, Rotation>, "a rotation must have 3 rows and 3 columns");
     static_assert(has_entries || is_valid<Call_m, Rotation>,
                   "a rotation must be a quaternion or matrix as Eigen's, a CGAL "
                   "Aff_transformation_3, or an ARAP::Matrix_3x3");
