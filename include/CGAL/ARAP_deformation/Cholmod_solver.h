@@ -33,7 +33,6 @@
 #endif
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {

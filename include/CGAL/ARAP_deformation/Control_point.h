@@ -18,7 +18,6 @@
 #include <CGAL/ARAP_deformation/Status.h>
 
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 

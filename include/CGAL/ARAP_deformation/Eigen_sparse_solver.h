@@ -24,7 +24,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -80,6 +79,8 @@ constexpr bool reports_analysis<Eigen::SparseLU<Matrix, Ordering>> = false;
 /// that does not reach its tolerance fails. If its tolerance is loose the deformation still
 /// converges to the same shape: what is solved for are corrections. It may need more iterations.
 ///
+/// A copy has the same preparation and nothing analyzed; a move keeps the factor.
+///
 /// \tparam EigenSolver a solver for a `Sparse_matrix` with the functions `analyzePattern()`,
 ///         `factorize()`, `solve()` and `info()` of Eigen's sparse solvers
 ///
@@ -102,18 +103,6 @@ public:
   explicit Eigen_sparse_solver(std::function<void(EigenSolver&)> prepare)
     : m_prepare(std::move(prepare))
   {}
-
-  /// moves, with the factor.
-  Eigen_sparse_solver(Eigen_sparse_solver&&) = default;
-
-  /// moves, with the factor.
-  Eigen_sparse_solver& operator=(Eigen_sparse_solver&&) = default;
-
-  /// constructs a solver with the same preparation that has nothing analyzed.
-  Eigen_sparse_solver(const Eigen_sparse_solver&) = default;
-
-  /// makes this a solver with the same preparation that has nothing analyzed.
-  Eigen_sparse_solver& operator=(const Eigen_sparse_solver&) = default;
 
   /// lets Eigen analyze the pattern of `a`.
   bool analyze(const Sparse_matrix& a)

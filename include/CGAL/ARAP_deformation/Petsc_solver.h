@@ -24,7 +24,6 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {

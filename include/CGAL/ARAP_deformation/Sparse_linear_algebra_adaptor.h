@@ -38,6 +38,8 @@ namespace ARAP {
 /// for general matrices such as `Eigen::SparseLU` work too. It depends on the model whether a
 /// matrix that is not positive definite is detected.
 ///
+/// A copy has the same preparation and nothing factorized; a move keeps the factor.
+///
 /// \tparam SparseLinearAlgebra a model of `SparseLinearAlgebraWithFactorTraits_d`, for example
 ///         `CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>`. It need
 ///         be neither copied nor moved.
@@ -58,18 +60,6 @@ public:
   explicit Sparse_linear_algebra_adaptor(std::function<void(SparseLinearAlgebra&)> prepare)
     : m_prepare(std::move(prepare))
   {}
-
-  /// moves, with the factor.
-  Sparse_linear_algebra_adaptor(Sparse_linear_algebra_adaptor&&) = default;
-
-  /// moves, with the factor.
-  Sparse_linear_algebra_adaptor& operator=(Sparse_linear_algebra_adaptor&&) = default;
-
-  /// constructs a solver with the same preparation that has nothing factorized.
-  Sparse_linear_algebra_adaptor(const Sparse_linear_algebra_adaptor&) = default;
-
-  /// makes this a solver with the same preparation that has nothing factorized.
-  Sparse_linear_algebra_adaptor& operator=(const Sparse_linear_algebra_adaptor&) = default;
 
   /// makes an object of `SparseLinearAlgebra`; all else is left to `factorize()`.
   bool analyze(const Sparse_matrix&)

@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {

@@ -28,7 +28,6 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {

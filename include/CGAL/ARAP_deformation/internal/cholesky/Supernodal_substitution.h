@@ -21,7 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <algorithm>
-#include <cstddef>
 
 namespace CGAL {
 namespace ARAP {

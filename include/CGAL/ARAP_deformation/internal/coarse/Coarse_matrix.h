@@ -41,7 +41,7 @@ namespace internal {
 // C = P^T (L - sum over cells of A^T K^-1 A) P, half the second derivative of the energy on a
 // coarse space of deformations P: A is the change of the axis by which the rotation of a cell
 // turns, and K = tr(S) I - S with its covariance S, for which that of the rest shape, turned, is
-// taken. Then C is positive semidefinite wherever the shape is, as the energy of each cell is with
+// taken. Then C is positive semidefinite at all positions, as the energy of each cell is with
 // the rotation that follows best. Work is divided into groups of cells and columns, those next to
 // each node.
 class Coarse_matrix

@@ -183,7 +183,8 @@ private:
     return labels;
   }
 
-  // The weights are (1 - d / D)^2, D a little more than the distance of one node more.
+  // The weights are (1 - d / D)^2, where D is one edge more than the distance of the farthest node
+  // that is known, or half an edge if there are fewer nodes.
   void weigh(const Array<Label>& labels)
   {
     const int n = static_cast<int>(labels.size()) / most_labels;

@@ -22,7 +22,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -55,8 +54,8 @@ public:
 
   double weight(int r) const { return m_weights[r]; }
 
-  // Calls f(i, j, a) for each entry a of B^T M B with i >= j, one call for each row. There may be
-  // several calls for one entry, in the order of the rows.
+  // Calls f(i, j, a) for each entry a of M B^T B of each row with i >= j, in the order of the rows:
+  // what entries of B^T M B consist of.
   template <typename Function>
   void for_each_entry(const Function& f) const
   {
@@ -87,7 +86,7 @@ public:
   // whether each row has one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
-  // Calls f(begin, end, sum, weight) for each row, with its vertices and the sum of its
+  // Calls f(begin, end, sum) for each row, with its vertices and the sum of its
   // coefficients.
   template <typename Function>
   void for_each_row(const Function& f) const
@@ -96,8 +95,7 @@ public:
     {
       const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
       f(m_vertices.items.begin() + begin, m_vertices.items.begin() + end,
-        std::accumulate(m_coefficients.begin() + begin, m_coefficients.begin() + end, 0.0),
-        m_weights[r]);
+        std::accumulate(m_coefficients.begin() + begin, m_coefficients.begin() + end, 0.0));
     }
   }
 
@@ -108,8 +106,7 @@ public:
   {
     const Array<int> a_order = a.order(), b_order = b.order();
     const auto visit = [&f](const Weighted_rows& rows, int r) {
-      for(int k = rows.m_vertices.begin[r]; k < rows.m_vertices.begin[r + 1]; ++k)
-        f(rows.m_vertices.items[k]);
+      rows.for_each_coefficient(r, [&f](int v, double) { f(v); });
     };
     auto i = a_order.begin(), j = b_order.begin();
     while(i != a_order.end() || j != b_order.end())
@@ -132,7 +129,7 @@ private:
 
   static bool is_less(const Weighted_rows& a, int r, const Weighted_rows& b, int s);
 
-  Index_lists m_vertices;             // of each row
+  Index_lists m_vertices;       // of each row
   Array<double> m_coefficients; // of each item of these lists
   Array<double> m_weights;      // of each row
   bool m_is_diagonal = true;
@@ -156,14 +153,12 @@ struct Constraints
   double inertia = 0;      // If not 0, each free vertex of positive mass has a row that ties it to
                            // where its inertia takes it; then this is the sum of their weights.
 
-  // calls f(begin, end, sum, weight) for each row, first for the soft ones
+  // calls f(begin, end, sum) for each row, first for the soft ones
   template <typename Function>
   void for_each_row(const Function& f) const
   {
     rows.for_each_row(f);
-    hard_rows.for_each_row([&f](auto begin, auto end, double sum, double) {
-      f(begin, end, sum, std::numeric_limits<double>::infinity());
-    });
+    hard_rows.for_each_row(f);
   }
 
   std::size_t number_of_free_vertices() const;
@@ -181,19 +176,22 @@ struct Targets
   };
 
   Array<Coordinates> soft, hard; // one for each row
-  std::vector<Set> sets;               // of soft rows, in their order
-  std::vector<Frame> frames;           // the rotations that are given to cells
+  std::vector<Set> sets;         // of soft rows, in their order
+  std::vector<Frame> frames;     // the rotations that are given to cells
 
   void project(const Weighted_rows& rows, const Array<Coordinates>& x);
 
   // the target of the next soft or hard row
-  void add_soft(const Coordinates& target);
-  void add_hard(const Coordinates& target);
+  void add_soft(const Coordinates& target) { soft.push_back(target); }
+  void add_hard(const Coordinates& target) { hard.push_back(target); }
 
   // makes the target of the last soft row a set
-  void add_set(std::function<Coordinates(const Coordinates&)> projection);
+  void add_set(std::function<Coordinates(const Coordinates&)> projection)
+  {
+    sets.push_back({static_cast<int>(soft.size()) - 1, std::move(projection)});
+  }
 
-  void add_frame(int vertex, const Matrix_3x3& rotation);
+  void add_frame(int vertex, const Matrix_3x3& rotation) { frames.push_back({vertex, rotation}); }
 };
 
 } // namespace internal

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -89,8 +90,7 @@ CGAL_ARAP_INLINE_FUNCTION
 Array<int> Weighted_rows::order() const
 {
   Array<int> rows(m_weights.size());
-  for(int r = 0; r < size(); ++r)
-    rows[r] = r;
+  std::iota(rows.begin(), rows.end(), 0);
   std::sort(rows.begin(), rows.end(),
             [this](int r, int s) { return is_less(*this, r, *this, s); });
   return rows;
@@ -123,31 +123,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Targets::project(const Weighted_rows& rows, const Array<Coordinates>& x)
 {
   for(const Set& set : sets)
-    soft[static_cast<std::size_t>(set.row)] = set.projection(rows.value(set.row, x.data()));
-}
-
-CGAL_ARAP_INLINE_FUNCTION
-void Targets::add_soft(const Coordinates& target)
-{
-  soft.push_back(target);
-}
-
-CGAL_ARAP_INLINE_FUNCTION
-void Targets::add_hard(const Coordinates& target)
-{
-  hard.push_back(target);
-}
-
-CGAL_ARAP_INLINE_FUNCTION
-void Targets::add_set(std::function<Coordinates(const Coordinates&)> projection)
-{
-  sets.push_back({static_cast<int>(soft.size()) - 1, std::move(projection)});
-}
-
-CGAL_ARAP_INLINE_FUNCTION
-void Targets::add_frame(int vertex, const Matrix_3x3& rotation)
-{
-  frames.push_back({vertex, rotation});
+    soft[set.row] = set.projection(rows.value(set.row, x.data()));
 }
 
 } // namespace internal

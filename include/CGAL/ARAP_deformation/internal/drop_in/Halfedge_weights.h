@@ -15,7 +15,6 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
-#include <CGAL/ARAP_deformation/flat_types.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/boost/graph/iterator.h>

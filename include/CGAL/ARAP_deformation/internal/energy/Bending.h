@@ -100,7 +100,7 @@ struct Form_forces_kernel
   }
 };
 
-// Bending, the second sum of the energy, over the vertices i with a cell that are not on the
+// Bending, the second term of the energy, over the vertices i with a cell that are not on the
 // border:
 //   b^2 k_i m_i || f_i(x) - R_i f_i(p) ||^2,   f_i(x) = (L x)_i / m_i,
 // with L the Laplacian of the cotangents as they are, m_i the share of vertex i in the area

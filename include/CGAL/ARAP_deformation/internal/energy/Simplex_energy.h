@@ -159,14 +159,9 @@ public:
       m_cells_of_simplices(lists_with(m_cells.sets, m_simplices.size())),
       m_forces(m_simplices.corners, number_of_movable_vertices)
   {
-    for(int n : {3, 4})
-    {
-      bool are_alike = true;
-      for(int s = 0; s < m_simplices.size() && are_alike; ++s)
-        are_alike = m_simplices.number_of_corners(s) == n;
-      if(are_alike)
-        m_number_of_corners = n;
-    }
+    for(int s = 0; s < m_simplices.size(); ++s)
+      m_number_of_corners = s == 0 || m_simplices.number_of_corners(s) == m_number_of_corners
+                              ? m_simplices.number_of_corners(s) : 0;
     for(int c = 0; c < m_cells.size(); ++c)
       m_is_each_a_cell &= m_cells.sets.begin[c + 1] == c + 1 && m_cells.sets.items[c] == c;
     if(!m_is_each_a_cell)

@@ -30,7 +30,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Smooth rotations (Levi and Gotsman 2015), the fourth sum of the energy, over pairs of
+// Smooth rotations (Levi and Gotsman 2015), the last term of the energy, over pairs of
 // neighboring cells c and d:
 //   s_cd || R_c - R_d ||^2.
 // Here rotations are state: all are fitted at once to what those before give, which are Q. A cell

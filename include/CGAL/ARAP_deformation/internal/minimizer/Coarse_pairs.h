@@ -21,7 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

@@ -117,7 +117,7 @@ public:
 
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
   // rotations but for those that frames give. Targets that are sets become the projections of the
-  // final positions. Keeps only the factorization for the initial guess.
+  // final positions. What it prepares for guesses and coarse metrics is kept for the next run.
   Diagnosis run(const Options& options, const Observer& observe, Targets& targets,
                 Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
 

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace CGAL {
 namespace ARAP {

@@ -26,8 +26,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A region with the numbers that the vertices of a mesh have in it. Here is what collecting it
-// needs of a mesh in no other way than by the indices of vertices.
+// A region with the numbers that the vertices of a mesh have in it. Here is the part of collecting
+// it that needs only the indices of vertices.
 class Numbered_region
 {
 public:

@@ -23,7 +23,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 
-#include <cstddef>
 #include <memory>
 #include <utility>
 

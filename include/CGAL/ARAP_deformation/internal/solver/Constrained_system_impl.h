@@ -24,6 +24,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {

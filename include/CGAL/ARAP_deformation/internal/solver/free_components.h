@@ -51,8 +51,8 @@ inline Free_components find_free_components(const Laplacian& laplacian,
     for(Sparse_matrix::InnerIterator entry(laplacian.matrix, v); entry; ++entry)
       if(entry.value() != 0 && entry.row() != v)
         tie(static_cast<int>(entry.row()), v);
-  constraints.for_each_row([&](auto begin, auto end, double sum, double weight) {
-    for(auto v = begin; v != end && weight != 0; ++v)
+  constraints.for_each_row([&](auto begin, auto end, double sum) {
+    for(auto v = begin; v != end; ++v)
     {
       tie(*begin, *v);
       is_tied[*v] |= sum != 0; // a row that adds up to zero only ties its vertices
