@@ -8,9 +8,12 @@ vertices with points, and simplices of one dimension.
 The simplices are the triangles and polygons of a surface, or the tetrahedra of a volume. The only
 connectivity needed is which simplices are incident to a vertex.
 
-The class reads points when vertices are inserted and when it preprocesses, computes on arrays of
-coordinates, and writes the points at the end of a run. It traverses the simplices of the region of
-interest from vertex to vertex, and never the whole mesh.
+The class reads points when vertices are inserted and when it preprocesses. If `is_in_place()`, it
+also reads them at the start of each run, where a control vertex or a control point is inserted, and
+in `state()`, `overwrite_initial_geometry()` and `control_point_position()`, for others may have
+moved them. It computes on arrays of coordinates, and writes the points at the end of a run, in
+`reset()` and in `restore()`. It traverses the simplices of the region of interest from vertex to
+vertex, and never the whole mesh.
 
 An object is a handle: its copies refer to the same mesh. All member functions are `const`,
 including `set_point()`, which changes the mesh and not the handle. While a `CGAL::ARAP_deformation`
@@ -39,7 +42,7 @@ public:
   /// \name Types
   /// @{
 
-  /// identifies a vertex. A model of `CopyConstructible` and `Assignable`.
+  /// identifies a vertex. A model of `CopyConstructible`, `Assignable` and `EqualityComparable`.
   using vertex_descriptor = unspecified_type;
 
   /// identifies a simplex. A model of `CopyConstructible`, `Assignable` and `EqualityComparable`: a
@@ -68,8 +71,8 @@ public:
 
   /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`.
   ///
-  /// Used by `CGAL::arap_deform()` and by functions that process a whole mesh, but not by the class
-  /// `CGAL::ARAP_deformation`.
+  /// Used by `CGAL::arap_deform()` and by functions that process a whole mesh. The class
+  /// `CGAL::ARAP_deformation` uses it only for the named parameter `vertex_is_constrained_map`.
   unspecified_type vertices() const;
 
   /// returns the index of `v`, which is unique.
@@ -84,8 +87,8 @@ public:
   /// sets the point of `v`, in the mesh or in a separate output.
   void set_point(vertex_descriptor v, const Point& point) const;
 
-  /// returns whether `point()` returns what `set_point()` has set. If not, points are read only
-  /// once, and the result of `point()` must not change.
+  /// returns whether `point()` returns what `set_point()` has set. If not, the result of `point()`
+  /// must not change.
   bool is_in_place() const;
 
   /// returns whether `v` is a vertex of the mesh; one that is not enters neither the region of

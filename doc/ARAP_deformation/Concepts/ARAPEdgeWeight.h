@@ -10,9 +10,10 @@ returns the weight of an edge in an edge set, given the sum over the simplices t
 and belong to the edge set. In the star of a vertex these are all simplices at the edge; in a
 simplex it is this simplex alone.
 
-The weights of the edges and diagonals of a polygon are averages over all its triangulations. A
-model need not support polygons: it is called for their triangles. The share of a triangle goes to
-zero as its corners become collinear, unless all other triangles degenerate too.
+The weights of the edges and diagonals of a polygon are averages over all its triangulations, with
+more than 64 corners over those that are fans. A model need not support polygons: it is called for
+their triangles. The share of a triangle goes to zero as its corners become collinear, unless all
+other triangles degenerate too.
 
 The energy \f$\sum w \|e' - R e\|^2\f$ scales with the weights, but its minima do not: the unit of
 the weights is arbitrary. Cotangent weights are dimensionless in triangles and lengths in
@@ -22,8 +23,8 @@ The matrix of the system sums the weights of an edge over all edge sets, so it i
 If no weight is negative, no cell has a negative energy. Negative weights are allowed as long as the
 matrix is positive definite, which the factorization checks.
 
-Weights in stars are needed for the cells `CGAL::ARAP::Cell_scheme::spokes()`, and for
-`CGAL::ARAP::Initial_guess::laplacian` with any cells.
+Weights in stars are needed for the cells `CGAL::ARAP::Cell_scheme::spokes()` and `k_ring()`, and
+for `CGAL::ARAP::Initial_guess::laplacian` with any cells.
 
 What a weight depends on besides the shape of a simplex, such as data at faces, has to come by way
 of the indices \f$i\f$ and \f$j\f$, or of the stiffness of cells
@@ -42,6 +43,7 @@ the state. `CGAL::ARAP::check_edge_weight()` tests a model.
 \cgalHasModels{CGAL::ARAP::Clamped_cotangent_weight}
 \cgalHasModels{CGAL::ARAP::Uniform_weight}
 \cgalHasModels{CGAL::ARAP::Edge_map_weight}
+\cgalHasModels{CGAL::ARAP::Chosen_edge_weight}
 \cgalHasModelsEnd
 
 \sa `ARAPDeformationTraits`
@@ -74,8 +76,9 @@ public:
   /// \param sum the sum of the weights of the edge, as returned by `simplex_weights()`, over the
   ///        simplices of the edge set
   ///
-  /// Preprocessing fails with `CGAL::ARAP::Status::singular_matrix` if the sum of the weights at a
-  /// free vertex is not positive and finite.
+  /// Preprocessing fails with `CGAL::ARAP::Status::non_finite_weight` if a weight is infinite or not
+  /// a number, and with `CGAL::ARAP::Status::singular_matrix` if the weights at a free vertex that
+  /// is connected by non-zero ones do not add up to a positive number.
   double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const;
 
   /// returns a number that changes when weights do: the next `deform()` computes all weights again.
