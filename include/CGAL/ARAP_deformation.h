@@ -70,17 +70,18 @@ using Call_turn = Requires_convertible<
 /// move to target positions, and the others follow so that every small part turns and moves, but
 /// stretches and shears as little as possible.
 ///
-/// The *rest shape* is the shape at construction. Only vertices in the *region of interest* move:
-/// its *control vertices* move to their targets, or are pulled toward them, see
+/// The *rest shape* of a vertex is the point that it has when it is inserted, or when a
+/// preprocessing first finds it around the region of interest. Only vertices in the *region of
+/// interest* move: its *control vertices* move to their targets, or are pulled toward them, see
 /// `set_target_weight()`; its other vertices are *free* and are solved for. Vertices outside the
 /// region are *fixed*, and so are those in it, other than control vertices, that have no incident
 /// simplex.
 ///
-/// Time and memory are proportional to the size of the region of interest, not of the mesh, if the
-/// mesh has, or is given, an index map. The mesh must outlive the object. While the object exists,
-/// the connectivity of the mesh must not change. A run starts from the points that the mesh has
-/// then, also where others have moved them; the rest shape stays what it is. All computations are
-/// in `double`, whatever the type of the points.
+/// Time and memory are proportional to the number of vertices that were ever in the region of
+/// interest, and not to that of the mesh, if the mesh has, or is given, an index map. The mesh must
+/// outlive the object. While the object exists, the connectivity of the mesh must not change. A run
+/// starts from the points that the mesh has then, also where others have moved them; the rest shape
+/// stays what it is. All computations are in `double`, whatever the type of the points.
 ///
 /// \tparam Mesh the type of the mesh, or of its domain
 /// \tparam Traits a model of `ARAPDeformationTraits`, default `ARAP_deformation_traits<>`
@@ -284,13 +285,16 @@ public:
   /// returns whether `v` is a control vertex.
   bool is_control_vertex(vertex_descriptor v) const { return m_session.vertices().is_control(v); }
 
-  /// returns the vertices of the region of interest, control vertices included. Linear time.
+  /// returns the vertices of the region of interest, control vertices included, in the order in
+  /// which they entered it. Linear time, or \f$O(n \log n)\f$ if vertices have left and entered
+  /// again.
   std::vector<vertex_descriptor> roi_vertices() const
   {
     return m_session.vertices().select([](const auto& entry) { return entry.is_roi; });
   }
 
-  /// returns the control vertices. Linear time.
+  /// returns the control vertices, in the order in which they entered the region of interest. Time
+  /// as for `roi_vertices()`.
   std::vector<vertex_descriptor> control_vertices() const
   {
     return m_session.vertices().select([](const auto& entry) { return entry.is_control; });
@@ -313,8 +317,9 @@ public:
   /// coordinates in the region of interest, as free vertices if they are not in it.
   ///
   /// Its target is its current position, with infinite weight. Refuses a simplex that is not there
-  /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one, or
-  /// are too few or too many (`ARAP::Status::invalid_coordinates`).
+  /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one
+  /// within 1e-9, or are too few or too many (`ARAP::Status::invalid_coordinates`). Divide
+  /// coordinates that were computed in `float` by their sum first.
   /// \param s a simplex
   /// \param coordinates a range of numbers, or a list in braces: the barycentric coordinates, in
   ///        the order of `domain().simplex_vertices(s)`
@@ -447,9 +452,9 @@ public:
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
-  /// \f$m\f$ compares with the weights of the edges at the vertex, each added up over the cells
-  /// that count it. With cotangents these sums are about 1 on a surface, and lengths in a volume.
-  /// Weights below about \f$10^{-14}\f$ times them are lost to rounding.
+  /// Choose the weight relative to the edges: on a surface with cotangents, one edge, over all
+  /// cells that contain it, weighs about 1; in a volume, about a length. Weights below about
+  /// \f$10^{-14}\f$ times these are lost to rounding.
   ///
   /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
   /// nothing. Returns `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative
@@ -524,7 +529,8 @@ public:
   /// both have the same type, as in ranges, it is taken for what the cells are. The keys of a
   /// generic lambda, or of another function object without one `operator()`, are vertices:
   /// `ARAP::of_simplices()` of it takes simplices. Where cells are simplices, a run refuses one
-  /// without it, with `ARAP::Status::undeclared_map`.
+  /// without it, with `ARAP::Status::undeclared_map`. The functions themselves return
+  /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a visitor calls them.
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
@@ -660,9 +666,9 @@ public:
     return m_session.set_velocity(v, ARAP::internal::coordinates_of<Point>(velocity));
   }
 
-  /// moves all vertices that this object has moved, and all targets, back to the rest shape. Keeps
-  /// the weights of the targets, but erases the rotations that control vertices prescribe. Targets
-  /// that are sets become points.
+  /// moves all vertices that were ever in the region of interest, whoever has moved them, and all
+  /// targets back to the rest shape. Keeps the weights of the targets, but erases the rotations
+  /// that control vertices prescribe. Targets that are sets become points.
   void reset() { m_session.reset(); }
 
   /// makes the current shape the rest shape. Keeps the targets and their weights, but erases the
@@ -671,13 +677,15 @@ public:
 
   /// returns the region of interest, the control vertices and control points, their targets and
   /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
-  /// memory. The options are no part of it, nor is the factor: where that, or the region, was
-  /// computed again since, runs from a restored state have the same iterates only up to rounding.
+  /// memory. Options, stiffness and groups are no part of it: a program that lets its users change
+  /// these keeps them itself. Nor is the factor: where that, or the region, was computed again
+  /// since, runs from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
-  /// from it. If the region is the same, its preprocessing is used again. Linear time. Vertices
-  /// that have entered the region of interest since return to where they were before. Returns
+  /// from it. If the region is the same, its preprocessing is used again. Vertices that have
+  /// entered the region of interest since return to where they were before. Linear time, and
+  /// \f$O(k \log k)\f$ for \f$k\f$ of these, and of those that enter it again. Returns
   /// `ARAP::Status::foreign_state`, and changes nothing, if the state is of another object.
   [[nodiscard]] ARAP::Outcome restore(State state) { return m_session.restore(std::move(state)); }
   /// @}

@@ -52,9 +52,9 @@ enum class Minimizer
   local_global, ///< the iteration of the paper \cgalCite{Sorkine2007AsRigidAs}: gains the most in
                 ///< the first few iterations, and needs the least memory; see
                 ///< \ref ARAPDeformation_LocalGlobal
-  quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs many times fewer iterations to the
-                ///< minimum, and about 200 bytes more for each vertex of the region; see
-                ///< \ref ARAPDeformation_QuasiNewton
+  quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs an eighth to a thirtieth of the
+                ///< iterations to the minimum, and about 200 bytes more for each vertex of the
+                ///< region; see \ref ARAPDeformation_QuasiNewton
 };
 
 /// \ingroup PkgARAPDeformationOptions
@@ -106,11 +106,11 @@ struct Options
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of
   /// the Laplacian, after its first five iterations and where it looks at the second derivative:
-  /// see \ref ARAPDeformation_CoarseMetric. It then takes between a third and two thirds of the
-  /// iterations, and about 160 bytes more for each vertex of the region. To prepare it takes as
-  /// long as some ten iterations; this is done when it is first needed, and kept until the weights
-  /// change. Local/global runs, time steps, runs with `smoothing_length` or with control points
-  /// that are not soft, and weights for which the energy may be negative, do without.
+  /// see \ref ARAPDeformation_CoarseMetric. It then takes about 0.3 to 0.7 of the iterations, and
+  /// about 160 bytes more for each vertex of the region. To prepare it takes as long as some ten
+  /// iterations; this is done when it is first needed, and kept until the weights change.
+  /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are
+  /// not soft, and weights for which the energy may be negative, do without.
   bool coarse_metric = true;
 
   /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro

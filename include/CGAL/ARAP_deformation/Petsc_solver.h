@@ -102,8 +102,9 @@ enum class Petsc_method
 /// processes.
 ///
 /// Needs PETSc, a build of it with MUMPS for real numbers with indices of 32 bits; programs that
-/// use it are linked with the CMake target `CGAL::Petsc_support`. The processes are those of a
-/// `Petsc_environment`.
+/// use it are linked with the CMake target `CGAL::Petsc_support`:
+/// `include(ARAP_deformation/cmake/CGAL_Petsc_support.cmake)` defines it; an installed package does
+/// not have it. The processes are those of a `Petsc_environment`.
 ///
 /// No two calls of the solvers of a program may overlap: PETSc is not for several threads.
 ///

@@ -52,7 +52,8 @@ enum class Status
   no_simplex,           ///< no vertex of the region of interest has an incident simplex
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< the weight of an edge is infinite or not a number
-  no_fixed_vertex,      ///< no vertex of the region is fixed or has a target of positive weight
+  no_fixed_vertex,      ///< no vertex of the region is fixed or has a target of positive weight;
+                        ///< for `Surface_mesh_deformation` one unconstrained component is enough
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
                         ///< its solution made the energy rise
@@ -112,7 +113,8 @@ inline const char* to_string(Status status)
 struct Outcome
 {
   Status status = Status::not_run; ///< the status.
-  /// the message; empty after setting a target or a weight successfully.
+  /// the message; empty after success of the functions of `CGAL::ARAP_deformation`, but for runs,
+  /// `preprocess()` and `set_options()`.
   std::string message = "nothing was run yet";
 
   /// constructs the outcome of a call that was not made yet.

@@ -339,7 +339,8 @@ public:
   /// sets the tolerance of `deform()`. 0 runs all iterations.
   void set_tolerance(double tolerance) { m_tolerance = tolerance; }
 
-  /// returns the vertices of the region of interest in the order of insertion. Linear time.
+  /// returns the vertices of the region of interest in the order of insertion. Linear time, or
+  /// \f$O(n \log n)\f$ if vertices have left and entered again.
   const Roi_vertex_range& roi_vertices() const
   {
     Roi_vertex_range roi =
