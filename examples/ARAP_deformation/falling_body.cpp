@@ -14,7 +14,6 @@
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Tetrahedron = std::array<int, 4>;
-using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, std::vector<Tetrahedron>>;
 
 // writes the points as a .mesh file
 void write(const std::string& name, const std::vector<Point>& points,
@@ -63,7 +62,8 @@ int main(int argc, char** argv)
         while(std::next_permutation(path.begin(), path.end()));
       }
 
-  CGAL::ARAP_deformation<Domain> deformation(Domain(points, tetrahedra));
+  CGAL::ARAP_deformation deformation(
+    CGAL::ARAP::make_tetrahedron_soup_domain(points, tetrahedra));
   for(std::size_t v = 0; v < points.size(); ++v)
     deformation.insert_roi_vertex(v);
   deformation.insert_control_vertices(handles);

@@ -13,7 +13,6 @@
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Tetrahedron = std::array<int, 4>;
-using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, std::vector<Tetrahedron>>;
 
 int main()
 {
@@ -44,7 +43,8 @@ int main()
         while(std::next_permutation(path.begin(), path.end()));
       }
 
-  CGAL::ARAP_deformation<Domain> deformation(Domain(points, tetrahedra));
+  CGAL::ARAP_deformation deformation(
+    CGAL::ARAP::make_tetrahedron_soup_domain(points, tetrahedra));
   std::vector<std::size_t> top;
   for(std::size_t v = 0; v < points.size(); ++v)
   {
