@@ -28,7 +28,10 @@ int main()
 
   const auto location = CGAL::ARAP::locate(mesh, Point(1.73, 0.52, 0.01));
   if(!location)
+  {
+    std::cerr << "no face of the sheet has an area" << std::endl;
     return EXIT_FAILURE;
+  }
   std::cout << "the nearest point is in face " << location->simplex << ", at a distance of "
             << location->distance << std::endl;
   const auto handle = deformation.insert_control_point(*location);
@@ -51,8 +54,14 @@ int main()
               << std::endl;
   }
   // a soft one may be left behind
-  if(!deformation.set_target_weight(handle.point, 0.1) || !deformation.deform())
+  CGAL::ARAP::Outcome outcome = deformation.set_target_weight(handle.point, 0.1);
+  if(outcome)
+    outcome = deformation.deform();
+  if(!outcome)
+  {
+    std::cerr << outcome.message << std::endl;
     return EXIT_FAILURE;
+  }
   std::cout << "with weight 0.1 it is at " << deformation.control_point_position(handle.point)
             << std::endl;
   return EXIT_SUCCESS;

@@ -88,7 +88,10 @@ int main()
   {
     outside += embedding.distance(k) > 0;
     if(!(embedding.distance(k) <= 0.25)) // which is false of what is not a number
+    {
+      std::cerr << "point " << k << " is too far outside: " << embedding.distance(k) << std::endl;
       return EXIT_FAILURE;
+    }
     farthest = (std::max)(farthest, embedding.distance(k));
   }
   std::cout << outside << " of " << embedding.size() << " points are outside, by at most "

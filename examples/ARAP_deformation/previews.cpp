@@ -40,11 +40,16 @@ bool bend(const std::string& name, double degrees, Initial_guess guess, unsigned
   CGAL::ARAP::Options options;
   options.initial_guess = guess;
   options.iterations = iterations;
-  const CGAL::ARAP::Outcome outcome = deformation.set_options(options);
-  const CGAL::ARAP::Report report = deformation.deform();
-  if(!outcome || !report)
+  const CGAL::ARAP::Outcome chosen = deformation.set_options(options);
+  if(!chosen)
   {
-    std::cerr << (outcome ? report.message : outcome.message) << std::endl;
+    std::cerr << chosen.message << std::endl;
+    return false;
+  }
+  const CGAL::ARAP::Report report = deformation.deform();
+  if(!report)
+  {
+    std::cerr << report.message << std::endl;
     return false;
   }
   const CGAL::ARAP::Quality quality = CGAL::ARAP::quality(mesh, rest);

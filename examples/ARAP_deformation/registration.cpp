@@ -77,8 +77,12 @@ bool fit(const std::vector<Sample>& samples, bool is_to_planes)
   deformation.insert_roi_vertices(mesh.vertices());
   CGAL::ARAP::Options options;
   options.minimizer = CGAL::ARAP::Minimizer::quasi_newton;
-  if(!deformation.set_options(options))
+  const CGAL::ARAP::Outcome chosen = deformation.set_options(options);
+  if(!chosen)
+  {
+    std::cerr << chosen.message << std::endl;
     return false;
+  }
   for(int round = 0;; ++round)
   {
     const CGAL::ARAP::Locator<Deformation::Deformation_domain> locator(deformation.domain());
@@ -86,9 +90,14 @@ bool fit(const std::vector<Sample>& samples, bool is_to_planes)
     double sum = 0;
     for(const Sample& sample : samples)
     {
-      const auto nearest = *locator.locate(sample.point);
-      sum += nearest.distance * nearest.distance;
-      const auto inserted = deformation.insert_control_point(nearest);
+      const auto nearest = locator.locate(sample.point);
+      if(!nearest)
+      {
+        std::cerr << "no face of the mesh has an area" << std::endl;
+        return false;
+      }
+      sum += nearest->distance * nearest->distance;
+      const auto inserted = deformation.insert_control_point(*nearest);
       CGAL::ARAP::Outcome outcome = inserted;
       if(outcome)
         outcome = deformation.set_target_weight(inserted.point, 20);

@@ -44,10 +44,15 @@ bool fit(double weight)
   }
   const CGAL::ARAP::Outcome weighted =
     deformation.set_target_weight(deformation.control_vertices(), weight);
-  const CGAL::ARAP::Report report = deformation.deform();
-  if(!weighted || !report)
+  if(!weighted)
   {
-    std::cerr << (weighted ? report.message : weighted.message) << std::endl;
+    std::cerr << weighted.message << std::endl;
+    return false;
+  }
+  const CGAL::ARAP::Report report = deformation.deform();
+  if(!report)
+  {
+    std::cerr << report.message << std::endl;
     return false;
   }
   double sum = 0;

@@ -56,10 +56,15 @@ bool bend(const std::string& name, Cell_scheme cells, double stiffness, bool is_
     outcome = deformation.set_stiffness([=](Vertex v) { return is_middle(v) ? stiffness : 1.0; });
   if(outcome && is_rigid)
     outcome = deformation.set_groups([=](Vertex v) { return is_middle(v) ? 0 : -1; });
-  const CGAL::ARAP::Report report = deformation.deform();
-  if(!outcome || !report)
+  if(!outcome)
   {
-    std::cerr << outcome.message << "; " << report.message << std::endl;
+    std::cerr << outcome.message << std::endl;
+    return false;
+  }
+  const CGAL::ARAP::Report report = deformation.deform();
+  if(!report)
+  {
+    std::cerr << report.message << std::endl;
     return false;
   }
   double error[2] = {0, 0}, sum[2] = {0, 0}; // of squares, elsewhere and in the middle

@@ -48,14 +48,21 @@ bool bend(const std::string& name, double radius, bool has_frames)
     const Eigen::Vector3d q = to + rotation * (Eigen::Vector3d(p.x(), p.y(), p.z()) - from);
     deformation.insert_control_vertex(v, Point(q.x(), q.y(), q.z()));
   }
-  CGAL::ARAP::Outcome outcome = deformation.preprocess();
   if(has_frames)
-    outcome = handle.size() == 1 ? deformation.set_target_rotation(handle.front(), rotation)
-                                 : deformation.set_target_rotations(handle); // of its motion
-  const CGAL::ARAP::Report report = deformation.deform();
-  if(!outcome || !report)
   {
-    std::cerr << (outcome ? report.message : outcome.message) << std::endl;
+    const CGAL::ARAP::Outcome turned =
+      handle.size() == 1 ? deformation.set_target_rotation(handle.front(), rotation)
+                         : deformation.set_target_rotations(handle); // of its motion
+    if(!turned)
+    {
+      std::cerr << turned.message << std::endl;
+      return false;
+    }
+  }
+  const CGAL::ARAP::Report report = deformation.deform();
+  if(!report)
+  {
+    std::cerr << report.message << std::endl;
     return false;
   }
   std::cout << name << ": " << report.iterations << " iterations, energy "
