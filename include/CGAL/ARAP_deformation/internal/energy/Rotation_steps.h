@@ -34,7 +34,8 @@ namespace ARAP {
 namespace internal {
 
 // Steps of all rotations together, where they are to be smooth: fitted one by one to what their
-// neighbors were, rotations spread slowly, the more so the larger the smoothing length is. Of the rotations exp(w_c) R_c the energy is, to second order,
+// neighbors were, rotations spread slowly, the more so the larger the smoothing length is. Of the
+// rotations exp(w_c) R_c the energy is, to second order,
 //   -2 sum_c f_c w_c + sum_c w_c H_c w_c + 2 sum over pairs of s_cd || w_c - w_d ||^2.
 // A step is its minimum, but with the trace h_c of the covariance in the rest shape, which bounds
 // H_c there, instead of H_c: that is one matrix for all iterations and three columns.

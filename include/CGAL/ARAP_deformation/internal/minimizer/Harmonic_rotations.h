@@ -112,10 +112,11 @@ bool is_torn(const Constraints& constraints, double size, const Targets& targets
 // the rotation vectors of these are interpolated harmonically. Of a handle only simplices at
 // vertices near free ones are seen: a region that is cut to what can move has no others.
 //
-// A vertex alone has no rotation, unless it is a frame, and a control point has none. But the factor
-// keeps the vectors there at what they are. So two harmonic fields are computed that are 0 there:
-// one that has the known vectors, and one that is 1 where these are. The ratio of their pulls at
-// such a vertex is the vector with which nothing would pull at it; for a single one that is exact.
+// A vertex alone has no rotation, unless it is a frame, and a control point has none. But the
+// factor keeps the vectors there at what they are. So two harmonic fields are computed that are 0
+// there: one that has the known vectors, and one that is 1 where these are. The ratio of their
+// pulls at such a vertex is the vector with which nothing would pull at it; for a single one that
+// is exact.
 class Harmonic_rotations
 {
 public:
