@@ -78,8 +78,7 @@ struct Options
   /// \f$\ell^2 s_{cd} \|R_c - R_d\|^2\f$ for neighboring cells, after \cgalCite{levismooth},
   /// see \ref ARAPDeformation_SmoothRotationsTheory. Rotations are then part of the state, and the
   /// energy is minimized over positions and rotations in turns: see
-  /// \ref ARAPDeformation_SmoothRotations. A new value requires weights and a factorization; 0
-  /// instead of another one, or the other way round, preprocessing again.
+  /// \ref ARAPDeformation_SmoothRotations. A new value requires weights and a factorization.
   double smoothing_length = 0;
 
   /// the initial guess of each run.

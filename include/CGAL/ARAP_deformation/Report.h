@@ -34,7 +34,7 @@ struct Phase_seconds
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
   double global_steps = 0;  ///< solves with the factor, over all iterations, and coarse metrics
   double visitor = 0;       ///< in the visitor
-  double total = 0;         ///< the whole call: the sum of the others, and of copies between them
+  double total = 0;         ///< the whole call: the sum, up to a few microseconds
 };
 
 /// \ingroup PkgARAPDeformationRun

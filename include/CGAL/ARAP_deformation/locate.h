@@ -17,12 +17,11 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/domain/for_each_simplex.h>
 #include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -55,20 +54,13 @@ public:
   explicit Locator(const Domain& domain)
   {
     std::vector<Corners> corners;
-    for(const auto& v : domain.vertices())
-      domain.for_each_incident_simplex(v, [&](const simplex_descriptor& s, const auto& range) {
-        const std::vector<typename Domain::vertex_descriptor> all(std::begin(range),
-                                                                  std::end(range));
-        // at the first of its vertices only
-        const bool is_first = std::none_of(all.begin(), all.end(), [&](const auto& w) {
-          return domain.index(w) < domain.index(v);
-        });
-        internal::Array<Coordinates> points;
-        for(const auto& w : all)
-          points.push_back(Domain::coordinates(domain.point(w)));
-        if(is_first && all.size() > Domain::dimension && internal::find_non_finite(points) < 0)
-          append(s, points, corners);
-      });
+    internal::for_each_simplex(domain, [&](const simplex_descriptor& s, const auto& vertices) {
+      internal::Array<Coordinates> points;
+      for(const auto& v : vertices)
+        points.push_back(Domain::coordinates(domain.point(v)));
+      if(points.size() > Domain::dimension && internal::find_non_finite(points) < 0)
+        append(s, points, corners);
+    });
     m_search = internal::make_simplex_search(corners);
   }
 

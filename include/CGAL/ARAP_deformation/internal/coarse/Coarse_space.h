@@ -183,8 +183,8 @@ private:
     return labels;
   }
 
-  // The weights are (1 - d / D)^2, where D is one edge more than the distance of the farthest node
-  // that is known, or half an edge if there are fewer nodes.
+  // The weights are (1 - d / D)^2, where D is half an edge more than the distance of the next node,
+  // a fourth one, or one edge more than that of the last if there are no four.
   void weigh(const Array<Label>& labels)
   {
     const int n = static_cast<int>(labels.size()) / most_labels;

@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/domain/for_each_simplex.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -34,15 +36,13 @@ public:
   // Leaves out what is no simplex: fewer corners than it needs, or tetrahedra with more than four.
   explicit Simplex_list(const Domain& domain)
   {
-    for(const auto& v : domain.vertices())
-      domain.for_each_incident_simplex(v, [&](const auto&, const auto& corners) {
-        Simplex simplex;
-        for(const auto& w : corners)
-          simplex.push_back(domain.index(w));
-        const bool is_simplex = Domain::dimension == 3 ? simplex.size() == 4 : simplex.size() >= 3;
-        if(is_simplex && domain.index(v) == *std::min_element(simplex.begin(), simplex.end()))
-          m_simplices.push_back(std::move(simplex));
-      });
+    for_each_simplex(domain, [&](const auto&, const auto& corners) {
+      Simplex simplex;
+      for(const auto& v : corners)
+        simplex.push_back(domain.index(v));
+      if(Domain::dimension == 3 ? simplex.size() == 4 : simplex.size() >= 3)
+        m_simplices.push_back(std::move(simplex));
+    });
   }
 
   const std::vector<Simplex>& simplices() const { return m_simplices; }

@@ -33,6 +33,11 @@ template <typename Domain> using Vertex_of = typename Domain::vertex_descriptor;
 template <typename Domain> using Simplex_of = typename Domain::simplex_descriptor;
 
 template <typename Domain>
+using Compare_vertices = Requires_convertible<
+  decltype(std::declval<const Vertex_of<Domain>&>() == std::declval<const Vertex_of<Domain>&>()),
+  bool>;
+
+template <typename Domain>
 using Constant_dimension = std::integral_constant<int, static_cast<int>(Domain::dimension)>;
 
 template <typename Domain>
@@ -104,6 +109,8 @@ struct Domain_requirements
   static_assert(is_valid<Point_of, Domain>, "the model of ARAPDomain lacks: the type Point");
   static_assert(is_valid<Vertex_of, Domain>,
     "the model of ARAPDomain lacks: the type vertex_descriptor");
+  static_assert(is_valid<Compare_vertices, Domain>,
+    "the model of ARAPDomain lacks: operator== of vertex_descriptor");
   static_assert(is_valid<Simplex_of, Domain>,
     "the model of ARAPDomain lacks: the type simplex_descriptor");
   static_assert(is_valid<Constant_dimension, Domain>,

@@ -33,11 +33,11 @@ namespace internal {
 class Run
 {
 public:
-  // reports what moves
+  // starts at the present positions, and reports what moves
   Run(Built_core& core, const Region_rows& rows, Report& report);
   ~Run();
 
-  Array<Coordinates> positions; // where it starts, and then where it ends
+  Array<Coordinates> positions;
   Targets targets;
 
   // moves the positions

@@ -28,7 +28,7 @@ namespace internal {
 
 CGAL_ARAP_INLINE_FUNCTION
 Run::Run(Built_core& core, const Region_rows& rows, Report& report)
-  : m_core(core), m_rows(rows), m_rotations(core.core->rotations())
+  : positions(core.positions), m_core(core), m_rows(rows), m_rotations(core.core->rotations())
 {
   report.free_vertices = core.core->constraints().number_of_free_vertices();
   report.simplices = static_cast<std::size_t>(core.core->region().number_of_simplices());

@@ -201,11 +201,13 @@ private:
     const double inertia = step ? step->inertia() : 0;
     if(Outcome begun = begin(options, inertia, report); !begun)
       return begun;
-    Run run(m_prepared.built(), m_prepared.rows(), report);
+    Run run = [&] {
+      Scoped_seconds seconds(report.seconds.transfer);
+      return Run(m_prepared.built(), m_prepared.rows(), report);
+    }();
     const Region_targets<Domain> reader(m_vertices, m_prepared);
     {
       Scoped_seconds seconds(report.seconds.transfer);
-      run.positions = m_prepared.positions();
       Outcome begun = reader.read(run.positions, run.targets);
       if(begun && step)
         begun = reader.begin(*step, force, run.positions, run.targets);
