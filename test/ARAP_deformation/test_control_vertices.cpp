@@ -1152,10 +1152,10 @@ void test_all()
       weights[2 + k] = weight(generator);
       constraints.rows.append(v, weights[2 + k]);
     }
-    Constrained_system::Work work;
-    CHECK(system.prepare(constraints, work));
-    was_border |= work.border;
-    was_order |= work.order && step > 0;
+    CGAL::ARAP::Stages stages;
+    CHECK(system.prepare(constraints, stages));
+    was_border |= stages.border;
+    was_order |= stages.order && step > 0;
 
     Array<Coordinates> x(n, Coordinates{0, 0, 0});
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);

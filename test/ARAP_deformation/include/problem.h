@@ -111,8 +111,8 @@ struct Problem
   {
     energy.set_fixed(constraints.is_fixed, false);
     system.set_laplacian(laplacian_of(energy));
-    Constrained_system::Work work;
-    CHECK(system.prepare(constraints, work));
+    CGAL::ARAP::Stages stages;
+    CHECK(system.prepare(constraints, stages));
     CHECK(system.meet(targets.hard, x));
     return Minimization(energy, models.closest_rotations, system, constraints, options, observe,
                         region.rest, targets, x, rotations, coarse_metric, report);

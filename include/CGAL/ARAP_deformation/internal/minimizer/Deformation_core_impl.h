@@ -183,12 +183,7 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     return {Status::dependent_target, -1, -1, r};
   if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
     return {Status::singular_matrix, v};
-  Constrained_system::Work work;
-  const bool is_ready = m_state->system.prepare(constraints, work);
-  stages.order |= work.order;
-  stages.factor |= work.factor;
-  stages.border |= work.border;
-  if(!is_ready)
+  if(!m_state->system.prepare(constraints, stages))
     return {Status::singular_matrix};
   m_state->parts = components.component;
   for(int v = 0; v < n; ++v)
@@ -333,7 +328,7 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   for(int node = 0; node < space.number_of_nodes(); ++node)
   {
     constraints.is_fixed.push_back(coarse.is_fixed(node));
-    positions.push_back(x[static_cast<std::size_t>(space.vertex_of(node))]);
+    positions.push_back(x[space.vertex_of(node)]);
   }
   Stages stages;
   if(core.diagnosis().status != Status::success ||

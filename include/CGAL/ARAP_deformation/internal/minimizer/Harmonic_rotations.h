@@ -70,7 +70,7 @@ inline bool is_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinat
                     double size, const Array<Coordinates>& x)
 {
   return std::any_of(ties.begin(), ties.end(), [&](const std::array<int, 2>& tie) {
-    const auto i = static_cast<std::size_t>(tie[0]), j = static_cast<std::size_t>(tie[1]);
+    const int i = tie[0], j = tie[1];
     const Coordinates d = difference(difference(x[i], x[j]), difference(rest[i], rest[j]));
     return dot(d, d) > 0.01 * size;
   });
@@ -86,8 +86,7 @@ bool is_torn(const Constraints& constraints, double size, const Targets& targets
   const Array<Coordinates>* forces = nullptr;
   for(int r = 0; r < constraints.rows.size(); ++r)
   {
-    const Coordinates way = difference(targets.soft[static_cast<std::size_t>(r)],
-                                       constraints.rows.value(r, x.data()));
+    const Coordinates way = difference(targets.soft[r], constraints.rows.value(r, x.data()));
     if(!(dot(way, way) > 0.01 * size))
       continue;
     if(forces == nullptr)
@@ -97,7 +96,7 @@ bool is_torn(const Constraints& constraints, double size, const Targets& targets
     constraints.rows.for_each_coefficient(r, [&](int v, double b) {
       if(!constraints.is_fixed[v])
       {
-        add(sum, b, (*forces)[static_cast<std::size_t>(v)]);
+        add(sum, b, (*forces)[v]);
         factor += b * b * constraints.rows.weight(r);
       }
     });
@@ -156,8 +155,7 @@ public:
         members.emplace_back(sets.find(v), v);
     const Index_lists handles = lists_by_first(std::move(members));
     const auto place = [&](int v) {
-      return v < n && !constraints.is_fixed[v] ? targets.soft[static_cast<std::size_t>(row_of[v])]
-                                               : x[static_cast<std::size_t>(v)];
+      return v < n && !constraints.is_fixed[v] ? targets.soft[row_of[v]] : x[v];
     };
     for(int h = 0; h < handles.size(); ++h)
     {

@@ -74,7 +74,7 @@ public:
       if(const int v = m_constraints.rows.position(r); v >= 0 && m_is_solved_for[v])
       {
         m_is_solved_for[v] = false;
-        x[static_cast<std::size_t>(v)] = targets.soft[static_cast<std::size_t>(r)];
+        x[v] = targets.soft[r];
       }
     // solutions with the system keep hard rows
     if(!m_system.meet(targets.hard, x))

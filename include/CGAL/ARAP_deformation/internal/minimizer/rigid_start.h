@@ -156,7 +156,7 @@ public:
       if(!motion.is_twisted)
         for(int k = m_free.begin[motion.part]; k < m_free.begin[motion.part + 1]; ++k)
         {
-          const auto v = static_cast<std::size_t>(m_free.items[k]);
+          const int v = m_free.items[k];
           if(!motion.is_at_rest)
             x[v] = motion.after(motion.before(region.rest[v]));
           else if(is_from_rest)
@@ -216,10 +216,10 @@ private:
     };
     for(int k = m_fixed.begin[part]; k < m_fixed.begin[part + 1]; ++k)
     {
-      const auto v = static_cast<std::size_t>(m_fixed.items[k]);
+      const int v = m_fixed.items[k];
       rest.push_back(region.rest[v]);
       place.push_back(x[v]);
-      add_frame(m_fixed.items[k]);
+      add_frame(v);
     }
     for(int k = m_rows.begin[part]; k < m_rows.begin[part + 1]; ++k)
     {
@@ -227,13 +227,13 @@ private:
       if(r >= number_of_soft)
       {
         rest.push_back(constraints.hard_rows.value(r - number_of_soft, region.rest.data()));
-        place.push_back(targets.hard[static_cast<std::size_t>(r - number_of_soft)]);
+        place.push_back(targets.hard[r - number_of_soft]);
         continue;
       }
       if(!is_set.empty() && is_set[r])
         return;
       rest.push_back(constraints.rows.value(r, region.rest.data()));
-      place.push_back(targets.soft[static_cast<std::size_t>(r)]);
+      place.push_back(targets.soft[r]);
       add_frame(constraints.rows.position(r));
     }
     if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * size))
@@ -242,7 +242,7 @@ private:
     Array<Coordinates> free_rest, free_place;
     for(int k = m_free.begin[part]; k < m_free.begin[part + 1]; ++k)
     {
-      const auto v = static_cast<std::size_t>(m_free.items[k]);
+      const int v = m_free.items[k];
       free_rest.push_back(region.rest[v]);
       free_place.push_back(is_from_rest ? region.rest[v] : x[v]);
     }
@@ -282,7 +282,8 @@ private:
         continue;
       Matrix_3x3 covariance{};
       for(const int *v = begin, *last = end - 1; v != end; last = v++)
-        add_product(covariance, edge(x, *v, *last), edge(region.rest, *v, *last));
+        add_product(covariance, difference(x[*v], x[*last]),
+                    difference(region.rest[*v], region.rest[*last]));
       for(const int* v = begin; v != end; ++v)
         add(covariances[*v], 1, covariance);
     }
@@ -335,11 +336,6 @@ private:
         holder[part] >= 0 && holder[part] != set;
       holder[part] = set;
     });
-  }
-
-  static Coordinates edge(const Array<Coordinates>& points, int v, int w)
-  {
-    return difference(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(w)]);
   }
 
   Array<int> m_part;                   // for each movable vertex; negative if it is fixed

@@ -44,7 +44,7 @@ Outcome Run::run(const Options& options, const Observer& observe, Report& report
   const Diagnosis diagnosis =
     m_core.core->run(options, observe, targets, positions, m_rotations, report);
   for(const Targets::Set& set : targets.sets)
-    if(!is_finite(targets.soft[static_cast<std::size_t>(set.row)]))
+    if(!is_finite(targets.soft[set.row]))
       return outcome(Status::non_finite_point, "the target of " +
                      name_of_soft_row(m_rows, m_core.core->region(), set.row));
   return m_core.explain(diagnosis);

@@ -51,8 +51,6 @@ namespace internal {
 class Constrained_system
 {
 public:
-  using Work = Stages; // of which prepare() does the order, the factor and the border
-
   explicit Constrained_system(std::unique_ptr<Linear_solver> prototype)
     : m_prototype(std::move(prototype))
   {}
@@ -75,9 +73,9 @@ public:
   }
 
   // Whether the solver could factorize the system with these constraints, or can do without; if
-  // not there is no factor. A vertex that makes the system singular by itself is found before, by
-  // find_singular_vertex().
-  bool prepare(const Constraints& constraints, Work& work);
+  // not there is no factor. Adds what it did: the order, the factor, the border. A vertex that
+  // makes the system singular by itself is found before, by find_singular_vertex().
+  bool prepare(const Constraints& constraints, Stages& stages);
 
   // A free vertex whose diagonal entry is not a positive finite number, or -1.
   int find_singular_vertex(const Constraints& constraints) const;
@@ -100,7 +98,7 @@ private:
   bool border_or_eliminate(const Constraints& constraints);
   bool set_border(const Constraints& constraints, bool are_hard_rows_bordered);
   bool eliminate_hard_rows();
-  bool factorize(const Constraints& constraints, Work& work);
+  bool factorize(const Constraints& constraints, Stages& stages);
   bool solve_matrix(Array<Coordinates>& x, const Array<Coordinates>& values);
 
   Laplacian m_laplacian;

@@ -108,9 +108,8 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::prepare(const Constraints& constraints, Work& work)
+bool Constrained_system::prepare(const Constraints& constraints, Stages& stages)
 {
-  work = Work();
   m_hard_rows = Hard_rows(constraints);
   if(constraints.number_of_free_vertices() == 0)
     return true;
@@ -119,7 +118,7 @@ bool Constrained_system::prepare(const Constraints& constraints, Work& work)
   const Constraints& of_matrix = has_hard_rows ? copy : constraints;
   if(!m_has_factor || !border_or_eliminate(of_matrix))
   {
-    if(!factorize(of_matrix, work))
+    if(!factorize(of_matrix, stages))
       return false;
     if(has_hard_rows && !border_or_eliminate(of_matrix))
     {
@@ -127,7 +126,7 @@ bool Constrained_system::prepare(const Constraints& constraints, Work& work)
       return false;
     }
   }
-  work.border = !m_further_unknowns.empty() || !m_multipliers.empty() || has_hard_rows;
+  stages.border |= !m_further_unknowns.empty() || !m_multipliers.empty() || has_hard_rows;
   return true;
 }
 
@@ -139,7 +138,7 @@ bool Constrained_system::border_or_eliminate(const Constraints& constraints)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::factorize(const Constraints& constraints, Work& work)
+bool Constrained_system::factorize(const Constraints& constraints, Stages& stages)
 {
   Sparse_matrix matrix = with_rows(constraints.rows);
   const auto& is_fixed = constraints.is_fixed;
@@ -178,9 +177,9 @@ bool Constrained_system::factorize(const Constraints& constraints, Work& work)
   {
     solver.reset();
     solver = m_prototype->copy();
-    work.order = true;
+    stages.order = true;
   }
-  work.factor = true;
+  stages.factor = true;
   if(!(is_analyzed || solver->analyze(matrix)) || !solver->factorize(matrix))
     return false;
   m_factorized = constraints;
