@@ -124,11 +124,12 @@ public:
     return result;
   }
 
-  // Writes the text with the changes, and forgets them.
+  // Writes the text with the changes, and forgets them. What is inserted comes before what is
+  // replaced at the same place.
   void write(std::ostream& out)
   {
     std::stable_sort(m_changes.begin(), m_changes.end(), [](const Change& a, const Change& b) {
-      return a.place.begin < b.place.begin;
+      return std::pair(a.place.begin, a.place.end) < std::pair(b.place.begin, b.place.end);
     });
     std::size_t written = 0;
     for(const Change& change : m_changes)

@@ -28,6 +28,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 // The command arap_deform with files that lie about their counts, or are damaged otherwise: CGAL's
@@ -405,6 +406,28 @@ void test_kept()
   }
 }
 
+// A property goes behind each row of a binary file, also where a coordinate that moves follows.
+void test_color()
+{
+  test_case() = "a property of a binary file";
+  const auto binary = [](const std::string& property, float step) {
+    std::string text = ply("binary_little_endian", "float", "4", "uchar int", property);
+    for(const auto& [x, y] : {std::pair(0.f, 0.f), {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}})
+      text += bytes(x + step, false) + bytes(y, false) +
+              std::string(property.empty() ? 4 : 8, '\0'); // z, and no error
+    for(const auto& corners : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}})
+    {
+      text += '\3';
+      for(int corner : corners)
+        text += bytes(corner, false);
+    }
+    return text;
+  };
+  write("binary.ply", binary("", 0));
+  CHECK(run("binary.ply --handle x:0.. --move 1,0,0 --color edge_error -o new.ply").exit_code == 0);
+  CHECK(content(folder / "new.ply") == binary("property float edge_error\n", 1));
+}
+
 // Three tetrahedra, and a triangle on them, in binary files. The last vertex moves by a vector of
 // floats: only its bytes change.
 namespace binary_volumes {
@@ -775,6 +798,7 @@ void test_all()
   test_byte_order_marks();
   test_notes();
   test_kept();
+  test_color();
   binary_volumes::test_all();
 }
 
