@@ -97,7 +97,7 @@ inline boost::program_options::options_description described_options()
     run("The deformation"), dynamics("Time steps with inertia, instead of a shape at rest"),
     other("Other");
   // an option that picks or moves vertices: what it says depends on those before it
-  const auto in_order = [] { return value<std::vector<std::string>>()->composing()->multitoken(); };
+  const auto in_order = [] { return value<std::vector<std::string>>()->composing(); };
   task.add_options()
     ("fix", in_order()->value_name("WHAT"), "these vertices stay")
     ("handle", in_order()->value_name("WHAT"),
@@ -300,6 +300,14 @@ inline void check_outputs(const Command_line& line)
       check(output, input);
 }
 
+// Throws if --rotate or --stiffness has not enough values.
+inline void check_several(const std::string& option, std::size_t values)
+{
+  if(values < 2)
+    throw Usage_error(option == "rotate" ? "--rotate: expected AXIS ANGLE, such as z 90"
+                                         : "--stiffness: expected WHAT K, such as z:..20% 10");
+}
+
 // Reads --rotate AXIS ANGLE [X,Y,Z] or --stiffness WHAT K as one option, however the next arguments
 // look.
 inline std::vector<boost::program_options::option>
@@ -307,15 +315,13 @@ parse_several(std::vector<std::string>& arguments)
 {
   if(arguments.empty() || (arguments[0] != "--rotate" && arguments[0] != "--stiffness"))
     return {};
-  const bool is_rotation = arguments[0] == "--rotate";
-  const bool has_center = is_rotation && arguments.size() > 3 && split(arguments[3]).size() == 3;
+  const std::string name = arguments[0].substr(2);
+  const bool has_center = name == "rotate" && arguments.size() > 3 &&
+                          split(arguments[3]).size() == 3;
   const std::size_t n = (std::min)(arguments.size(), std::size_t(has_center ? 4 : 3));
-  if(n < 3)
-    throw Usage_error(is_rotation ? "--rotate: expected AXIS ANGLE, such as z 90"
-                                  : "--stiffness: expected WHAT K, such as z:..20% 10");
+  check_several(name, n - 1);
   boost::program_options::option result(
-    arguments[0].substr(2),
-    std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
+    name, std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
   arguments.erase(arguments.begin(), arguments.begin() + n);
   return {result};
 }
@@ -374,6 +380,8 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
     }
     if(option.value.empty())
       continue;
+    if(name == "rotate" || name == "stiffness") // after = there is one value only
+      check_several(name, option.value.size());
     if(const std::string& value = option.value[0]; name == "fix")
       line.picks.emplace_back(FIXED, Pick(name, value));
     else if(name == "region")
@@ -595,7 +603,7 @@ inline Command_line parse_command_line(int argc, char** argv)
   }
   catch(const po::too_many_positional_options_error&)
   {
-    throw Usage_error("more than one mesh is given");
+    throw Usage_error("more than one mesh is given, or more than one value for an option");
   }
   catch(const po::error& error)
   {

@@ -853,6 +853,16 @@ void test_picks()
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
+  check_refused("in.off --handle z:0.. -o precious.off --rotate=z", 2, "expected AXIS ANGLE");
+
+  test_case() = "an option has one value, and the mesh may follow it";
+  const std::string several = "or more than one value for an option";
+  check_refused("in.off --handle list:1,2 list:3" + rest, 2, several);
+  check_refused("in.off --handle z:0.. -o precious.off --move 0,0,1 0,1,0", 2, several);
+  const std::string lift = "--quiet --fix z:..0.5 --handle z:4.5.. --move 0,0,1 ";
+  CHECK(run("in.off -o first.off " + lift).exit_code == 0);
+  CHECK(run("-o last.off " + lift + "in.off").exit_code == 0);
+  CHECK(content(folder / "last.off") == content(folder / "first.off"));
 }
 
 struct Glb
@@ -1200,6 +1210,7 @@ void test_cell_values()
   }
   const std::string call = "in.off --selection in.sel --transform in.def -o new.off ";
   check_refused(call + "--stiffness z:..1", 2, "--stiffness: expected WHAT K");
+  check_refused(call + "--stiffness=z:..1", 2, "--stiffness: expected WHAT K");
   check_refused(call + "--stiffness z:..1 -2", 2, "a stiffness is not negative");
   check_refused(call + "--stiffness z:..1 stiff", 2, "'stiff' is not a finite number");
   check_refused(call + "--rigid everything", 2, "expected box:, sphere:");
