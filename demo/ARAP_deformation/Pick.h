@@ -53,7 +53,7 @@ public:
     else if(m_kind == "plane")
     {
       m_measures = measures(m_name, value, "x,y,z,nx,ny,nz");
-      if(option == "onto" && normal() == CGAL::NULL_VECTOR)
+      if(normal() == CGAL::NULL_VECTOR)
         throw Usage_error(m_name + ": the normal 0,0,0 has no direction");
     }
     else if(m_kind == "x" || m_kind == "y" || m_kind == "z")

@@ -835,6 +835,7 @@ void test_picks()
   refuse("--handle cube:1", 2, "--handle cube:1: expected box:, sphere:");
   refuse("--handle box:1,2,3", 2, "expected the numbers x0,y0,z0,x1,y1,z1");
   refuse("--handle box:1,2,3,4,5,x", 2, "'x' is not a finite number");
+  refuse("--fix plane:0,0,0,0,0,0 --handle z:4.5..", 2, "the normal 0,0,0 has no direction");
   refuse("--handle near:nan,0,0", 2, "'nan' is not a finite number");
   refuse("--handle z:0.. --rotate w 90", 2,
          "--rotate w: the axis must be x, y, z or a vector X,Y,Z");
