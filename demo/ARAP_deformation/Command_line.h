@@ -31,6 +31,7 @@
 #include <filesystem>
 #include <optional>
 #include <ostream>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -347,6 +348,14 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
   return step;
 }
 
+// A message of the library, with the names that options have here.
+inline std::string with_options(const std::string& message)
+{
+  static const std::regex length("(the option )?(bending|smoothing)_length"),
+    member("the option (\\w+)|(\\w+) of the dynamics");
+  return std::regex_replace(std::regex_replace(message, length, "--$2"), member, "--$1$2");
+}
+
 inline Chosen_edge_weight chosen_weight(const std::string& name)
 {
   try
@@ -464,7 +473,7 @@ inline std::optional<Dynamics> read_dynamics(const boost::program_options::varia
   const auto g = numbers("--gravity", values["gravity"].as<std::string>(), "x,y,z");
   dynamics.acceleration = {g[0], g[1], g[2]};
   if(const Outcome checked = dynamics.check(); !checked)
-    throw Usage_error(checked.message);
+    throw Usage_error(with_options(checked.message));
   return dynamics;
 }
 
@@ -587,7 +596,7 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.options.bending_length = number<double>("bending", text("bending"));
     line.options.smoothing_length = number<double>("smoothing", text("smoothing"));
     if(const Outcome checked = line.options.check(); !checked)
-      throw Usage_error(checked.message);
+      throw Usage_error(with_options(checked.message));
     if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
        !is_written_directly(line.image))
       throw Usage_error("--image " + line.image + ": the picture must be a .png file");

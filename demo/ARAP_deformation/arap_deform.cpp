@@ -194,7 +194,7 @@ void expect_success(const Command_line& line, const CGAL::ARAP::Outcome& outcome
 {
   check_interrupted();
   if(!outcome)
-    throw std::runtime_error(line.mesh + ": " + outcome.message);
+    throw std::runtime_error(line.mesh + ": " + with_options(outcome.message));
 }
 
 // A point inside a simplex that is picked, with its status.

@@ -842,8 +842,12 @@ void test_picks()
   refuse("--handle z:0.. --rotate 0,0,0 90", 2, "has no direction");
   refuse("--handle z:0.. --rotate z up", 2, "--rotate: 'up' is not a finite number");
   refuse("--handle z:0.. --move 1,2", 2, "--move: expected the numbers dx,dy,dz");
-  refuse("--handle z:0.. --bending -1", 2, "bending_length must be finite and not negative");
-  refuse("--handle z:0.. --bending 1 --cells elements", 2, "needs cells at vertices");
+  refuse("--handle z:0.. --bending -1", 2, "--bending must be finite and not negative");
+  refuse("--handle z:0.. --smoothing -1", 2, "--smoothing must be finite and not negative");
+  refuse("--handle z:0.. --bending 1 --cells elements", 2,
+         "--bending needs cells at vertices; choose spokes, k_ring or spokes_and_rims for --cells");
+  refuse("--fix z:..0.5 --handle z:4.5.. --bending 1e9", 1,
+         "--bending or --smoothing is more than a million");
   refuse("--handle z:0.. --cells k_ring:-1", 2, "is not a whole number");
   check_refused("in.off --turn -o precious.off", 2, "--turn is for the --handle before it");
   refuse("--handle z:0.. --soft -1", 2, "--soft -1: a weight is not negative");
@@ -1277,7 +1281,7 @@ void test_dynamics()
                 "--damping is for time steps: give --gravity, too");
   const std::string call = "in.off --fix z:..1 -o new.off --frames 3 --gravity ";
   check_refused(call + "0,0", 2, "expected the numbers x,y,z");
-  check_refused(call + "0,0,1 --time_step 0", 2, "time_step of the dynamics must be positive");
+  check_refused(call + "0,0,1 --time_step 0", 2, "--time_step must be positive");
   check_refused(call + "0,0,1 --modulus x", 2, "--modulus 'x' is not a number");
 }
 
