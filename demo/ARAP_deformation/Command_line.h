@@ -118,10 +118,12 @@ inline boost::program_options::options_description described_options()
     ("rigid", in_order()->value_name("WHAT"),
      "these cells share a rotation; each --rigid is a part of its own")
     ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
-     "instead: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a comment")
+     "instead of --handle: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a "
+     "comment; what --fix picks is fixed, whatever the file says")
     ("transform", value<std::vector<std::string>>()->composing()->value_name("T.def"),
      "instead of moves: a 4 x 4 matrix, row by row, for each handle or one for all; given "
-     "several times: key frames")
+     "several times: key frames, and without --frames and --animation OUT-0001 is written for the "
+     "first, OUT-0002 for the second and so on, and no OUT")
     ("save-selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
      "write the selection that was picked")
     ("save-transform", value<std::string>()->default_value("", "")->value_name("T.def"),
@@ -144,7 +146,8 @@ inline boost::program_options::options_description described_options()
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
      "draw the shape before and after, fixed red, handles yellow; needs povray")
     ("view", value<std::string>()->value_name("A,E"),
-     "azimuth and elevation of the eye in degrees, or its direction X,Y,Z");
+     "of --image and of a film: azimuth and elevation of the eye in degrees, or its direction "
+     "X,Y,Z");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
      "which edges share a rotation: spokes, spokes_and_rims, elements, or k_ring:K, the spokes of "
@@ -153,7 +156,7 @@ inline boost::program_options::options_description described_options()
      "the length over which a sharp bend is spread, as a share of the bounding box's diagonal; "
      "0.02 to 0.1 keep a pulled vertex from being a spike, except on a border")
     ("smoothing", value<std::string>()->default_value("0")->value_name("S"),
-     "the length over which rotations are made smooth, as such a share")
+     "the length over which rotations are made smooth, as a share of the bounding box's diagonal")
     ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
      "cotangent (with spokes the energy can be negative), clamped_cotangent, uniform, or "
      "safe_cotangent: clamped for stars (spokes, k_ring) only")

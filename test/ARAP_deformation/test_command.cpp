@@ -644,9 +644,15 @@ void test_frames()
     CHECK_AT_MOST((end[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
                                             mesh.point(v).z())).norm(), 1e-12);
 
-  write("precious.off", "precious");
+  test_case() = "key frames without --frames are the frames";
   const std::string two_keys = "in.off --selection in.sel --transform first.def --transform "
                                "second.def ";
+  CHECK(run(two_keys + "--fix list:50 --quiet -o keys.off").exit_code == 0);
+  CHECK(!fs::exists(folder / "keys.off") && !fs::exists(folder / "keys-0003.off"));
+  CHECK(read_points("keys-0001.off")[50] == shape.points[50]); // --fix wins over the selection
+  CHECK(read_points("keys-0002.off")[handle[0]] == read_points("six-0006.off")[handle[0]]);
+
+  write("precious.off", "precious");
   check_refused(two_keys + "--frames 1 -o new.off", 2, "--frames 1: there is at least one for");
   check_refused(call + "new.off --frames 10000", 2, "--frames 10000");
   check_refused(call + "new.off --frames x", 2, "--frames 'x' is not a whole number");
