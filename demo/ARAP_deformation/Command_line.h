@@ -261,11 +261,9 @@ inline Vertex_measure vertex_measure(const std::string& name)
 // OUT with the number of a frame before its ending
 inline std::string frame_file(const std::string& output, int frame)
 {
-  const std::string digits = std::to_string(frame);
   const std::filesystem::path path(output);
-  return (path.parent_path() / (path.stem().string() + '-' +
-                                std::string(4 - (std::min)(digits.size(), std::size_t(4)), '0') +
-                                digits + path.extension().string())).string();
+  return (path.parent_path() / (path.stem().string() + '-' + four_digits(frame) +
+                                path.extension().string())).string();
 }
 
 // the meshes that are written

@@ -109,11 +109,7 @@ public:
 private:
   static constexpr int frames_per_second = 20;
 
-  static std::string picture(std::size_t frame)
-  {
-    const std::string digits = std::to_string(frame);
-    return std::string(4 - (std::min)(digits.size(), std::size_t(4)), '0') + digits + ".ppm";
-  }
+  static std::string picture(std::size_t frame) { return four_digits(frame) + ".ppm"; }
 
 #ifdef CGAL_ARAP_DEMO_WITH_GIFLIB
   void write_gif(const internal::Temporary_folder& folder, std::ostream& out) const

@@ -17,14 +17,12 @@
 #include "Tetrahedra_text.h"
 #include "shape_files.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <ostream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -36,23 +34,21 @@ public:
   explicit Medit_file(const std::string& file) : Tetrahedra_text(file)
   {
     const std::map<std::string_view, std::size_t> sections = find_sections();
-    const auto find = [&](const char* keyword, const std::string& sentence) {
+    const auto find = [&](const char* keyword) {
       const auto section = sections.find(keyword);
       if(section == sections.end())
-        throw std::runtime_error(m_name + ": " + sentence);
+        refuse("has no " + std::string(keyword));
       return Words(text(), section->second);
     };
-    const std::string no_tetrahedra = "has no tetrahedra; surfaces are read from .off, .obj, .ply "
-                                      "and .stl files";
-    Words words = find("Dimension", "has no Dimension");
+    Words words = find("Dimension");
     if(words.next() != "3")
       refuse(words, "the Dimension of a mesh of tetrahedra is 3, but this is");
-    words = find("Vertices", "has no Vertices");
+    words = find("Vertices");
     read_vertices(words);
-    words = find("Tetrahedra", no_tetrahedra);
-    read_tetrahedra(words);
+    if(sections.count("Tetrahedra") > 0)
+      read_tetrahedra(words = find("Tetrahedra"));
     if(m_mesh.tetrahedra.empty())
-      throw std::runtime_error(m_name + ": " + no_tetrahedra);
+      refuse_without_tetrahedra();
   }
 
 private:
@@ -80,8 +76,7 @@ private:
     Words words(text());
     const std::string_view first = words.next();
     if(text().find('\0') != std::string::npos)
-      throw std::runtime_error(m_name + ": is binary; of Medit's formats only the text format "
-                                        ".mesh can be read, not .meshb");
+      refuse("is binary; of Medit's formats only the text format .mesh can be read, not .meshb");
     if(first != "MeshVersionFormatted")
       refuse(words, "a .mesh file starts with 'MeshVersionFormatted', but this with");
     std::map<std::string_view, std::size_t> sections;
@@ -153,14 +148,11 @@ private:
     const long long n = read_number(words, "Tetrahedra");
     read_rows(words, {"Tetrahedra", 0, n}, [&](const Row& row) {
       std::array<int, 4> corners;
-      for(auto corner = corners.begin(); corner != corners.end(); ++corner)
-      {
-        *corner = static_cast<int>(read_integer(words, 1, largest, [&] {
+      for(int& corner : corners)
+        corner = static_cast<int>(read_integer(words, 1, largest, [&] {
           return "a vertex from 1 to " + std::to_string(largest) + ", a corner in " + row.name();
         }) - 1);
-        if(std::find(corners.begin(), corner, *corner) != corner)
-          refuse(words, row.name() + " has twice the vertex");
-      }
+      check_tetrahedron(words, corners, [&row] { return row.name(); });
       read_reference(words, row);
       m_mesh.tetrahedra.push_back(corners);
     });

@@ -61,7 +61,6 @@ struct View
   int width = 480;           // of one panel, in pixels
   int height = 640;
   bool show_edges = false;   // draw the edges of the triangles as thin lines
-  bool show_ground = true;   // let the shapes cast a shadow on the ground under them
   std::optional<CGAL::Bbox_3> box = {}; // what each panel shows; by default its own points
 };
 
@@ -355,7 +354,7 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
       << "global_settings { assumed_gamma 1 }\n"
       << "#declare Width = " << width << ";\n"
       << "#declare Height = " << view.height << ";\n";
-  if(view.show_ground && ground.z() < 0) // seen from below, the ground would hide everything
+  if(ground.z() < 0) // seen from below, the ground would hide everything
     out << "#declare Ground = " << internal::Pov{ground} << ";\n"
         << "#declare Ground_height = " << ground_height - 0.5 << ";\n"; // just under the shape
   out << internal::stage;

@@ -165,14 +165,19 @@ protected:
     m_mesh.points.emplace_back(p[0], p[1], p[2]);
   }
 
+  static bool has_vertex_twice(std::array<int, 4> corners)
+  {
+    std::sort(corners.begin(), corners.end());
+    return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
+  }
+
   // Throws if a tetrahedron has a vertex twice.
   template <typename Description>
   void check_tetrahedron(const Words& words, const std::array<int, 4>& corners,
                          const Description& description) const
   {
-    for(auto corner = corners.begin(); corner != corners.end(); ++corner)
-      if(std::find(corners.begin(), corner, *corner) != corner)
-        refuse(words, description() + " has a vertex twice; the last word is");
+    if(has_vertex_twice(corners))
+      refuse(words, description() + " has a vertex twice; the last word is");
   }
 
   std::string m_name;

@@ -460,9 +460,7 @@ private:
       }
       if(types[i] != vtk_tetrahedron)
         continue;
-      std::array<int, 4> sorted = vertices;
-      std::sort(sorted.begin(), sorted.end());
-      if(std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      if(has_vertex_twice(vertices))
         refuse_cell("has a vertex twice");
       m_mesh.tetrahedra.push_back(vertices);
     }

@@ -86,8 +86,7 @@ void write_model(const fs::path& folder, const Demo_model<Shape>& model)
   mesh.commit();
   std::ofstream selection(folder / (model.name + ".sel"));
   std::ofstream transform(folder / (model.name + ".def"));
-  for(int status : model.selection)
-    selection << status << '\n';
+  write_selection(selection, model.selection);
   write_transform(transform, model.transform);
   if(!selection.flush() || !transform.flush())
     throw std::runtime_error(folder.string() + ": cannot be written to");
@@ -159,6 +158,8 @@ Panel deformed_panel(const Demo_shape& shape, const std::string& caption,
   return deformed_panel(shape, caption, options, [](const auto&) {});
 }
 
+using Domain =
+  CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
 using Traits = CGAL::ARAP_deformation_traits<>;
 using Uniform_traits =
   CGAL::ARAP_deformation_traits<CGAL::Default, CGAL::ARAP::Uniform_weight>;
@@ -369,8 +370,6 @@ void draw_volume(const fs::path& folder)
   Demo_shape hollow = make_bar(1.5);
   hollow.transform = motion(0, 120, Point(0, 0, 71), Vector(0, -38, -24));
   Demo_volume filled = make_filled_bar();
-  using Domain =
-    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
   CGAL::ARAP_deformation<Domain> deformation(Domain(filled.mesh.points, filled.mesh.tetrahedra));
   insert_selection(deformation, filled.selection, hollow.transform);
   expect_success(deformation.deform());
@@ -386,8 +385,6 @@ void draw_fall(const fs::path& folder)
   Demo_volume bar = make_filled_bar(2);
   bar.selection = select(bar.mesh, [](const Point& p) { return std::abs(p.z() - 0.5) < 0.06; },
                          [](const Point&) { return false; });
-  using Domain =
-    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
   CGAL::ARAP_deformation<Domain> deformation(Domain(bar.mesh.points, bar.mesh.tetrahedra));
   insert_selection(deformation, bar.selection, translation(CGAL::NULL_VECTOR));
   CGAL::ARAP::Dynamics dynamics;
@@ -589,8 +586,6 @@ void draw_embedding(const fs::path& folder)
 {
   Soup<3> palm = make_palm();
   Soup<4> volume = make_lattice_around(palm, 0.17, 0.17);
-  using Domain =
-    CGAL::ARAP::Simplex_soup_domain<3, std::vector<Point>, std::vector<std::array<int, 4>>>;
   const Domain domain(volume.points, volume.simplices);
   const CGAL::ARAP::Embedding embedding(domain, palm.points);
   if(!embedding.outcome())

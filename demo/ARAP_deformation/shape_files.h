@@ -132,6 +132,13 @@ inline std::string lower_case_extension(const std::string& file)
   return extension;
 }
 
+// a number in the name of a file
+inline std::string four_digits(std::size_t number)
+{
+  const std::string digits = std::to_string(number);
+  return std::string(4 - (std::min)(digits.size(), std::size_t(4)), '0') + digits;
+}
+
 // Formats of meshes are lower-case extensions.
 inline bool is_gltf_format(const std::string& format)
 {

@@ -1962,8 +1962,8 @@ void test_refusals()
   for(const std::string corner : {"0", "5", "-1", "4294967297", "2.5", "x"})
     refuse_with("1 2 3 4 1", "1 " + corner + " 3 4 1", ", line 11: expected a vertex from 1 to 4, "
                 "a corner in row 1 of the 1 Tetrahedra, but found '" + corner + "'");
-  refuse_with("1 2 3 4 1", "1 2 3 2 1", ", line 11: row 1 of the 1 Tetrahedra has twice the vertex "
-                                        "'2'");
+  refuse_with("1 2 3 4 1", "1 2 3 2 1", ", line 11: row 1 of the 1 Tetrahedra has a vertex twice; "
+                                        "the last word is '2'");
   refuse_with("1 2 3 4 1", "1 2 3 4 1.5", ", line 11: expected an integer, the reference in row 1");
 
   write("good.mesh", good);
