@@ -55,10 +55,11 @@ public:
   }
 
 private:
-  long long read(Words& words, long long largest = (std::numeric_limits<int>::max)()) const
+  long long read(Words& words, long long smallest = 0,
+                 long long largest = (std::numeric_limits<int>::max)()) const
   {
-    return read_integer(words, 0, largest, [largest] {
-      return "an integer from 0 to " + std::to_string(largest);
+    return read_integer(words, smallest, largest, [=] {
+      return "an integer from " + std::to_string(smallest) + " to " + std::to_string(largest);
     });
   }
 
@@ -74,7 +75,7 @@ private:
     {
       cells = look;
       cells.next(); // the type of numbers
-      begin = read(cells);
+      begin = read(cells, 0, 0); // the cells follow each other, from the start
       --number;
       connectivity = section("CONNECTIVITY", place);
       connectivity.next();
@@ -83,7 +84,7 @@ private:
       refuse(types, "expected " + std::to_string(number) + " CELL_TYPES, but found");
     for(long long i = 0; i < number; ++i)
     {
-      long long size = read(cells);
+      long long size = read(cells, begin);
       if(has_offsets)
       {
         const long long end = size;
@@ -110,7 +111,7 @@ private:
     for(long long k = 0; k < size; ++k)
     {
       const auto v = static_cast<int>(
-        read(words, static_cast<long long>(m_mesh.points.size()) - 1));
+        read(words, 0, static_cast<long long>(m_mesh.points.size()) - 1));
       if(type == vtk_tetrahedron)
         vertices[k] = v;
     }

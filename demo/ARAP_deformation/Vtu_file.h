@@ -442,10 +442,10 @@ private:
       const auto refuse_cell = [&](const std::string& what) {
         refuse("the cell " + std::to_string(i) + ' ' + what);
       };
-      const long long size = ends[i] - begin;
       if(ends[i] < begin || ends[i] > static_cast<long long>(corners.size()))
         refuse_cell("ends at " + std::to_string(ends[i]) + ", which is not from " +
                     std::to_string(begin) + " to " + std::to_string(corners.size()));
+      const long long size = ends[i] - begin;
       if(types[i] == vtk_tetrahedron ? size != 4 : !is_flat_vtk_cell(types[i]))
         refuse_cell("has the type " + std::to_string(types[i]) + " and " + std::to_string(size) +
                     " vertices; only tetrahedra with four vertices can be deformed");

@@ -1802,6 +1802,8 @@ void test_other_formats()
   refuse("vtk", replaced(grid, "UNSTRUCTURED_GRID", "POLYDATA"), ", line 4: only an UNSTRUCTURED");
   refuse("vtk", replaced(grid, "\n10\n", "\n12\n"), "a cell of the type 12 with 4 vertices, after");
   refuse("vtk", replaced(grid, "0 1 2 ", "0 1 99999 "), "but found '99999'");
+  refuse("vtk", replaced(grid, "\n0 3 7 ", "\n3 3 7 "), "an integer from 0 to 0, but found '3'");
+  refuse("vtk", replaced(grid, "\n0 3 7 ", "\n0 3 2 "), "an integer from 3 to 2147483647, but");
   refuse("vtk", replaced(grid, "CELL_TYPES ", "CELL_TYPES 1"), "CELL_TYPES, but found");
   for(std::size_t size = 60; size < grid.find("CELL_TYPES"); size += 97)
     refuse("vtk", grid.substr(0, size), "");
