@@ -179,6 +179,11 @@ private:
        (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT))
       throw std::runtime_error("has positions or normals that are quantized");
 
+    const auto same = m_pieces.lower_bound({accessors.first, std::nullopt}); // with any normals
+    if(same != m_pieces.end() && same->first.first == accessors.first &&
+       same->second.to_scene.matrix() != to_scene.matrix())
+      throw std::runtime_error("the accessor " + std::to_string(accessors.first) + " has the "
+                               "positions of two nodes in different places");
     Piece& piece = m_pieces[accessors];
     if(piece.vertices.empty())
     {

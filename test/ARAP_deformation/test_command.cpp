@@ -984,6 +984,17 @@ void test_gltf()
   refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
   refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
+  auto twice = json; // another mesh with these positions, in the node of the scene
+  twice["meshes"].push_back(json["meshes"][0]);
+  twice["nodes"][0]["mesh"] = 1;
+  for(const bool has_normals : {true, false})
+  {
+    if(!has_normals)
+      twice["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
+    write("bad.gltf", twice.dump());
+    check_refused("bad.gltf" + stay + "precious.off", 1,
+                  "bad.gltf: the accessor 0 has the positions of two nodes in different places");
+  }
   refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
   refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
   refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
