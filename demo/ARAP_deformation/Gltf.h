@@ -225,7 +225,11 @@ private:
         bytes = text.substr(begin, size_at(20 + size));
       text = text.substr(20, size);
     }
-    json = Json::parse(text);
+    json = Json::parse(text, [&file](int depth, Json::parse_event_t, const Json&) {
+      if(depth > 1000) // what copies and writes it calls itself for each
+        throw std::runtime_error(file + ": has more than 1000 lists and objects in each other");
+      return true;
+    });
     for(const Json& buffer : json.value("buffers", Json::array()))
     {
       const std::string uri = buffer.value("uri", "");

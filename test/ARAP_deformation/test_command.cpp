@@ -1004,6 +1004,9 @@ void test_gltf()
   refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
   refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");
   refuse("/buffers/0/uri", "data:;base64,=*=", "has a buffer that is not in base64");
+  const std::string deep = std::string(300000, '[') + std::string(300000, ']');
+  write("bad.gltf", "{\"extras\": " + deep + ',' + json.dump().substr(1));
+  check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: has more than 1000 lists and");
   write("bad.glb", content(folder / "out.glb").substr(0, 300));
   check_refused("bad.glb" + stay + "precious.off", 1, "bad.glb: ");
 }
