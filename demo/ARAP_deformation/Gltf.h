@@ -22,15 +22,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <ios>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -232,6 +234,7 @@ private:
     });
     for(const Json& buffer : json.value("buffers", Json::array()))
     {
+      const std::size_t size = buffer.at("byteLength");
       const std::string uri = buffer.value("uri", "");
       const std::size_t comma = uri.find(";base64,");
       m_is_inside.push_back(uri.empty() || comma != std::string::npos);
@@ -245,16 +248,44 @@ private:
         buffers.push_back(*decoded);
       }
       else
-      {
-        std::ifstream in(std::filesystem::path(file).parent_path() / uri, std::ios::binary);
-        buffers.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-      }
-      if(const std::size_t size = buffer.at("byteLength"); buffers.back().size() < size)
+        buffers.push_back(first_bytes(file, decoded(uri), size));
+      if(buffers.back().size() < size)
         throw std::runtime_error(file + ": a buffer has less than its " + std::to_string(size) +
                                  " bytes, or its file is missing");
-      else
-        buffers.back().resize(size);
+      buffers.back().resize(size);
     }
+  }
+
+  // A URI with its escapes decoded: %20 is a blank.
+  static std::string decoded(const std::string& uri)
+  {
+    std::string result;
+    for(std::size_t i = 0; i < uri.size(); ++i)
+    {
+      const std::string digits = uri[i] == '%' ? uri.substr(i + 1, 2) : "";
+      const bool is_escape = digits.size() == 2 && std::all_of(
+        digits.begin(), digits.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+      result += is_escape ? static_cast<char>(std::stoi(digits, nullptr, 16)) : uri[i];
+      i += is_escape ? 2 : 0;
+    }
+    return result;
+  }
+
+  // The first bytes of a buffer beside a file; none if it does not have them.
+  static std::string first_bytes(const std::string& file, const std::filesystem::path& name,
+                                 std::size_t size)
+  {
+    if(name.has_root_path())
+      throw std::runtime_error(file + ": has a buffer whose place is not relative to the file");
+    const std::filesystem::path buffer = std::filesystem::path(file).parent_path() / name;
+    std::error_code error; // a pipe or a device may have no end
+    if(!std::filesystem::is_regular_file(buffer, error) ||
+       std::filesystem::file_size(buffer, error) < size)
+      return {};
+    std::string bytes(size, '\0');
+    if(!std::ifstream(buffer, std::ios::binary).read(bytes.data(), std::streamsize(size)))
+      return {};
+    return bytes;
   }
 
   std::vector<bool> m_is_inside; // of each buffer: not in a file of its own

@@ -50,9 +50,7 @@ public:
   {
     try
     {
-      const Gltf::Json& json = m_gltf.json;
-      const std::size_t scene = json.value("scene", std::size_t(0));
-      for(const auto& node : json.at("scenes").at(scene).at("nodes"))
+      for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
     }
     catch(const Gltf::Json::exception& error)
@@ -135,6 +133,24 @@ private:
     result.translate(Eigen::Vector3d(t[0], t[1], t[2]));
     result.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized());
     result.scale(Eigen::Vector3d(s[0], s[1], s[2]));
+    return result;
+  }
+
+  // The first nodes of the scene; without a scene, those that are no child.
+  std::vector<std::size_t> roots() const
+  {
+    using Indices = std::vector<std::size_t>;
+    const Gltf::Json& json = m_gltf.json;
+    if(json.contains("scenes"))
+      return json["scenes"].at(json.value("scene", std::size_t(0))).at("nodes").get<Indices>();
+    std::set<std::size_t> children;
+    for(const auto& node : json.at("nodes"))
+      for(std::size_t child : node.value("children", Indices()))
+        children.insert(child);
+    Indices result;
+    for(std::size_t node = 0; node < json["nodes"].size(); ++node)
+      if(children.count(node) == 0)
+        result.push_back(node);
     return result;
   }
 

@@ -958,6 +958,12 @@ void test_gltf()
   CHECK(run("out.gltf" + stay + "out2.glb").exit_code == 0);
   CHECK(content(folder / "out2.glb") == content(folder / "out.glb"));
   CHECK(run("in.gltf" + stay + "out.off").exit_code == 0);
+  auto other = json;
+  other.erase("scenes");
+  other["buffers"][0]["uri"] = "%70art%2Ebin";
+  write("other.gltf", other.dump());
+  CHECK(run("other.gltf" + stay + "other.off").exit_code == 0);
+  CHECK(content(folder / "other.off") == content(folder / "out.off"));
   const auto points = read_points("out.off");
   CHECK(points.size() == 4); // the seam is closed
   CHECK_AT_MOST((points[1] - to_scene * local[1]).norm(), 1e-12);
@@ -1003,6 +1009,14 @@ void test_gltf()
   refuse("/accessors/0/componentType", 5123, "has positions or normals that are quantized");
   refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
   refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");
+  refuse("/buffers/0/uri", (folder / "part.bin").string(), "has a buffer whose place is not rel");
+#if defined(__unix__) || defined(__APPLE__)
+  fs::create_symlink("/dev/zero", folder / "zero.bin"); // has no end
+  const std::string unlimited = command;
+  limit_command();
+  refuse("/buffers/0/uri", "zero.bin", "a buffer has less than its 192 bytes");
+  command = unlimited;
+#endif
   refuse("/buffers/0/uri", "data:;base64,=*=", "has a buffer that is not in base64");
   const std::string deep = std::string(300000, '[') + std::string(300000, ']');
   write("bad.gltf", "{\"extras\": " + deep + ',' + json.dump().substr(1));
