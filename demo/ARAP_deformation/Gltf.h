@@ -170,6 +170,9 @@ public:
     return index;
   }
 
+  // Puts all buffers into what is written.
+  void embed_buffers() { std::fill(m_is_inside.begin(), m_is_inside.end(), true); }
+
   // Buffers in files of their own stay there if they are unchanged.
   void write(std::ostream& out, bool is_binary)
   {

@@ -26,12 +26,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -46,10 +48,13 @@ public:
 
   static constexpr const char* simplices = "faces";
 
-  Gltf_file(const std::string& file, const std::string&) : m_gltf(file)
+  Gltf_file(const std::string& file, const std::string&)
+    : m_gltf(file), m_folder(std::filesystem::absolute(file).parent_path())
   {
     try
     {
+      for(const auto& image : m_gltf.json.value("images", Gltf::Json::array()))
+        m_has_images = m_has_images || image.value("uri", "data:").rfind("data:", 0) != 0;
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
     }
@@ -71,15 +76,23 @@ public:
   std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
   Domain domain() { return Domain(m_mesh); }
 
-  void check_output(const std::string& file, const std::string& format) const
+  void check_output(const std::string& file, const std::string& format)
   {
     check_format(file, format, m_mesh);
+    std::error_code error;
+    if(std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), m_folder, error))
+      return;
+    m_gltf.embed_buffers(); // their files are not beside the output
+    m_are_images_left = m_has_images;
   }
 
   std::set<std::string> dropped(const std::string& format) const
   {
-    return is_gltf_format(format) ? std::set<std::string>()
-                                  : std::set<std::string>{"all but points and faces"};
+    if(!is_gltf_format(format))
+      return {"all but points and faces"};
+    if(m_are_images_left)
+      return {"images, which stay in the folder of the input"};
+    return {};
   }
 
   void set_property(const std::string& name, const std::vector<double>& values)
@@ -265,6 +278,8 @@ private:
   }
 
   Gltf m_gltf;
+  std::filesystem::path m_folder;
+  bool m_has_images = false, m_are_images_left = false; // in files of their own
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces; // of two accessors

@@ -952,8 +952,24 @@ void test_gltf()
   rest["buffers"] = json["buffers"];
   CHECK(rest == json); // all else is kept
 
+  test_case() = "glTF to another folder";
+  const std::string all = " --handle x:-99.. --move 0,0,0 -o ", stay = " --quiet" + all;
+  const auto uri = [](const std::string& file) {
+    return nlohmann::json::parse(content(folder / file))["buffers"][0]["uri"].get<std::string>();
+  };
+  auto with_image = json;
+  with_image["images"] = {{{"uri", "red.png"}}};
+  write("image.gltf", with_image.dump());
+  fs::create_directory(folder / "apart");
+  CHECK(run("image.gltf" + all + "beside.gltf").err.empty());
+  CHECK(uri("beside.gltf") == "part.bin");
+  CHECK(run("image.gltf" + all + "apart/out.gltf").err ==
+        "note: apart/out.gltf does not keep: images, which stay in the folder of the input\n");
+  CHECK(uri("apart/out.gltf").rfind("data:", 0) == 0);
+  CHECK(run("apart/out.gltf" + stay + "apart.off").exit_code == 0);
+  CHECK(read_points("apart.off").size() == 4);
+
   test_case() = "glTF to other formats and back";
-  const std::string stay = " --handle x:-99.. --move 0,0,0 --quiet -o ";
   CHECK(run("out.glb" + stay + "out.gltf").exit_code == 0);
   CHECK(run("out.gltf" + stay + "out2.glb").exit_code == 0);
   CHECK(content(folder / "out2.glb") == content(folder / "out.glb"));
