@@ -155,6 +155,19 @@ private:
   bool m_is_kept = false; // the text is written with other coordinates
 };
 
+// Reads a .mesh, .msh, .vtk or .vtu file.
+inline std::unique_ptr<Tetrahedra_text> read_tetrahedra(const std::string& file)
+{
+  const std::string format = lower_case_extension(file);
+  if(format == ".msh")
+    return std::make_unique<Gmsh_file>(file);
+  if(format == ".vtk")
+    return std::make_unique<Vtk_file>(file);
+  if(format == ".vtu")
+    return std::make_unique<Vtu_file>(file);
+  return std::make_unique<Medit_file>(file);
+}
+
 // Tetrahedra in a .mesh, .msh, .vtk or .vtu file, the rest of which is kept.
 class Tetrahedra_file
 {
@@ -165,7 +178,7 @@ public:
   static constexpr const char* simplices = "tetrahedra";
 
   Tetrahedra_file(const std::string& file, const std::string&)
-    : m_format(lower_case_extension(file)), m_file(read(file)), m_mesh(m_file->mesh())
+    : m_format(lower_case_extension(file)), m_file(read_tetrahedra(file)), m_mesh(m_file->mesh())
   {}
 
   const Tetrahedral_mesh& mesh() const { return m_mesh; }
@@ -191,18 +204,6 @@ public:
   }
 
 private:
-  static std::unique_ptr<Tetrahedra_text> read(const std::string& file)
-  {
-    const std::string format = lower_case_extension(file);
-    if(format == ".msh")
-      return std::make_unique<Gmsh_file>(file);
-    if(format == ".vtk")
-      return std::make_unique<Vtk_file>(file);
-    if(format == ".vtu")
-      return std::make_unique<Vtu_file>(file);
-    return std::make_unique<Medit_file>(file);
-  }
-
   std::string m_format;
   std::unique_ptr<Tetrahedra_text> m_file;
   Tetrahedral_mesh m_mesh; // deformed

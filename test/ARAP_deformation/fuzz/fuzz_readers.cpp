@@ -15,7 +15,7 @@
 // script/fuzz builds it and runs it for each format.
 
 #include "../../../demo/ARAP_deformation/Command_line.h"
-#include "../../../demo/ARAP_deformation/Medit_file.h"
+#include "../../../demo/ARAP_deformation/Shape_file.h"
 #include "../../../demo/ARAP_deformation/read_mesh.h"
 #include "../../../demo/ARAP_deformation/shape_files.h"
 
@@ -69,11 +69,22 @@ void read(const std::string& file)
     read_selection(file, 4);
   else if(format == "def")
     read_transforms(file);
-  else if(format == "mesh")
+  else if(is_gltf_format('.' + format))
   {
-    Medit_file tetrahedra(file);
+    const Gltf_file gltf(file, "");
+    require(gltf.mesh().is_valid(false), "a valid mesh");
+    const std::string copy = (folder / ("out." + format)).string();
+    Output_file out(copy);
+    gltf.write(out, '.' + format);
+    out.commit();
+    require(Gltf_file(copy, "").number_of_simplices() == gltf.number_of_simplices(),
+            "the same faces if no point has moved");
+  }
+  else if(is_tetrahedra_format('.' + format))
+  {
+    const auto tetrahedra = read_tetrahedra(file);
     std::ostringstream out;
-    tetrahedra.write(out, tetrahedra.mesh().points);
+    tetrahedra->write(out, tetrahedra->mesh().points);
     const std::ifstream in = open_for_reading(file);
     std::ostringstream text;
     text << in.rdbuf();
