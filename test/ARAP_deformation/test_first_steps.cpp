@@ -270,6 +270,22 @@ void test_parts()
   });
 }
 
+// A triangle whose corners are all fixed, and two parts, each at another corner. It is turned, so
+// that the part between it and another fixed vertex is not at rest, and stays as the run leaves it.
+void test_fixed_simplex()
+{
+  test_case() = "a fixed simplex with two parts at it";
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {3, 0, 0},
+                                               {2, -1, 0}, {2, 1, 0}, {-1, -1, 0}, {-1, 1, 0}};
+  Surface s(points, {{0, 1, 2}, {1, 4, 5}, {3, 5, 4}, {0, 7, 6}}, {0, 1, 2, 3},
+            std::numeric_limits<double>::infinity(), Minimizer::quasi_newton);
+  const Affine_map turn = rigid_motion(1, {1, 2, 0}, {0.2, 0, 0.3});
+  const auto motion = [&](std::size_t v) { return v == 0 || v == 2 ? turn : identity; };
+  const Report first = s.run(motion), second = s.run(motion);
+  CHECK(first.final_energy() > 0.01 * first.energy_scale);
+  CHECK_AT_MOST(second.energy[0], (1 + 1e-9) * first.final_energy());
+}
+
 // From a deformed state back to rest, or to where a rigid motion takes it.
 void test_deformed()
 {
@@ -1223,6 +1239,7 @@ int main()
   rigid::test_motions();
   rigid::test_returns();
   rigid::test_parts();
+  rigid::test_fixed_simplex();
   rigid::test_deformed();
   rigid::test_twist();
   rigid::test_laplacian();
