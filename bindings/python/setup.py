@@ -23,7 +23,7 @@ class CMakeBuild(build_ext):
             check=True)
         subprocess.run(["cmake", "--build", folder, "--parallel"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
-        self.copy_file(str(next(folder.rglob("_core.*" + target.suffix))), str(target))
+        self.copy_file(str(next(folder.rglob(target.name))), str(target))
 
 
 setup(

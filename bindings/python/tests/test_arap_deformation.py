@@ -194,6 +194,8 @@ def test_options():
     with pytest.raises(arap.DeformationError, match="bending_length needs cells at vertices"):
         d.cells = "elements"
     assert d.cells == "k_ring:2"
+    with pytest.raises(AttributeError):
+        d.itarations = 5
 
 
 def test_states():

@@ -163,6 +163,8 @@ class Deformation:
     raise ``DeformationError`` with the status ``in_a_run``; only ``vertices`` can be had.
     """
 
+    __slots__ = ("_session", "__weakref__")  # other names are likely misspelled options
+
     cells = _option("cells", str, "'spokes', 'spokes_and_rims', 'elements' or 'k_ring:K'")
     minimizer = _option("minimizer", str, "'automatic', 'local_global' or 'quasi_newton'")
     initial_guess = _option("initial_guess", str,
