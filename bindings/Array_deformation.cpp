@@ -88,7 +88,6 @@ public:
 
   std::size_t number_of_vertices() const override { return m_points.size(); }
   std::size_t number_of_simplices() const override { return m_simplices.size(); }
-  bool is_volume() const override { return Dimension == 3; }
   const double* points() const override { return m_points.data()->data(); }
   const double* rest_points() const override { return m_rest.data()->data(); }
 

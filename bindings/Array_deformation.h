@@ -76,7 +76,6 @@ public:
 
   virtual std::size_t number_of_vertices() const = 0;
   virtual std::size_t number_of_simplices() const = 0;
-  virtual bool is_volume() const = 0;
 
   // n x 3: where the vertices are. The memory stays the same as long as this object lives.
   virtual const double* points() const = 0;

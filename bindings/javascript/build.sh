@@ -30,7 +30,7 @@ for pid in $pids; do wait "$pid"; done
 # shellcheck disable=SC2086
 em++ $flags $objects -o "$out/arap.js" --no-entry -sMODULARIZE=1 -sEXPORT_NAME=createArap \
   -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sFILESYSTEM=0 \
-  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,stringToUTF8,lengthBytesUTF8
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString
 # a module, but without what emscripten would add to find the file of the machine code: index.js does
 { sed 's/document\.currentScript/undefined/; /^if (typeof exports/,$d' "$out/arap.js"; echo 'export default createArap;'; } >"$out/arap.mjs"
 rm "$out/arap.js"
