@@ -176,7 +176,8 @@ export interface Session {
   setTargets(handles: Indices | number, targets: Numbers): void;
   target(handle: number): Float64Array;
   /**
-   * moves targets by a matrix of 3 x 4 or 4 x 4; those of the rest shape, or else the present ones
+   * moves targets by a matrix of 3 x 4 or 4 x 4: by default the matrix is applied to the present
+   * targets, so that repeated calls add up; fromRest applies it to the rest shape
    */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
   /** Infinity: a hard target, which is met exactly */

@@ -215,7 +215,7 @@ export async function load({ wasmBinary } = {}) {
     target(handle) {
       return this.#call('target', this.#indices(handle)[0]);
     }
-    transform(handles, matrix, { fromRest = true } = {}) {
+    transform(handles, matrix, { fromRest = false } = {}) {
       const h = this.#indices(handles, 'handles'),
         m = numbersOf(matrix, 'the matrix', Float64Array);
       const rows = rowsOf(m, 4, 'the matrix');

@@ -52,8 +52,8 @@ function hold(next, handles) {
   status = next;
   const fixed = listOf(status, 0);
   session.setWeight(fixed, Infinity);
-  session.transform(fixed, identity);
-  session.eraseHandles(pointHandles.filter((h) => h >= 0));
+  session.transform(fixed, identity, { fromRest: true });
+  session.eraseHandles(pointHandles);
   pointHandles = [];
   vertices = handles.map((handle, k) => {
     if (!handle.point) return listOf(status, k + 2);
@@ -67,7 +67,7 @@ function hold(next, handles) {
 function move(handles) {
   handles.forEach((handle, k) => {
     if (!vertices[k].length) return;
-    session.transform(vertices[k], handle.matrix);
+    session.transform(vertices[k], handle.matrix, { fromRest: true });
     if (handle.point) return;
     if (handle.turns) session.setRotation(vertices[k], rotationOf(handle.matrix));
     else session.eraseRotations(vertices[k]);
