@@ -89,7 +89,9 @@ void add(const Report& report)
     double(report.inverted_simplices), double(stages.region), double(stages.weights),
     double(stages.order), double(stages.factor), double(stages.border), seconds.preprocess,
     seconds.transfer, seconds.initial_guess, seconds.local_steps, seconds.global_steps,
-    seconds.visitor, seconds.total, double(report.unconstrained_components.size())});
+    seconds.visitor, seconds.total, double(report.end), double(report.saddles_left),
+    double(report.plateaus_left), double(report.looking_iterations),
+    double(report.unconstrained_components.size())});
   add(report.unconstrained_components);
   add(report.energy);
 }

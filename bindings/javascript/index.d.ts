@@ -76,8 +76,8 @@ export interface Run {
    */
   tolerance?: number;
   /**
-   * called after each iteration; may end the run, or cancel it, which leaves all as it was. What it
-   * throws is thrown.
+   * called with the initial guess, as iteration 0, and after each iteration; may end the run, or
+   * cancel it, which leaves all as it was. What it throws is thrown.
    */
   visitor?: (iteration: number, energy: number) => 'stop' | 'cancel' | void;
 }
@@ -95,6 +95,13 @@ export interface Report {
   freeVertices: number;
   simplices: number;
   invertedSimplices: number;
+  /** what the second derivative of the energy tells of where the run ended */
+  end: 'unknown' | 'minimum' | 'flat' | 'undecided';
+  /** how many saddle points, and plateaus, the run would have ended at, and has left */
+  saddlesLeft: number;
+  plateausLeft: number;
+  /** how many iterations looked at the second derivative, and moved nothing */
+  lookingIterations: number;
   /** the smallest vertex of each part that nothing holds; these stay where they are */
   unconstrainedComponents: Int32Array;
   /** what had to be done again since the last run, before the iterations */

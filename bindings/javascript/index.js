@@ -11,6 +11,16 @@ export class ArapError extends Error {
 }
 
 const measures = ['edge_length_error', 'size_change', 'angle_change', 'spike'];
+const ends = ['unknown', 'minimum', 'flat', 'undecided'];
+// what has no outcome, and in a visitor would be left undone without a word
+const silent = [
+  'set_region',
+  'insert_handles',
+  'erase_handles',
+  'clear_handles',
+  'reset',
+  'make_rest_shape',
+];
 
 async function machineCode() {
   const url = new URL('./arap.wasm', import.meta.url);
@@ -141,6 +151,8 @@ export async function load({ wasmBinary } = {}) {
       );
     }
     #call(name, ...rest) {
+      if (this.#runs && silent.includes(name))
+        throw new ArapError('in_a_run', 'a visitor must not change the session that it visits');
       return module[`_arap_${name}`](this.#this(), ...rest) ? answer() : fail();
     }
     // arrays of indices, or of one of them
@@ -193,8 +205,9 @@ export async function load({ wasmBinary } = {}) {
     }
 
     locate(point) {
-      const [x, y, z] = numbersOf(point, 'the point', Float64Array);
-      const [simplex, distance, ...coordinates] = this.#call('locate', x, y, z);
+      const p = numbersOf(point, 'the point', Float64Array);
+      if (p.length !== 3) throw new RangeError(`a point has 3 coordinates, not ${p.length}`);
+      const [simplex, distance, ...coordinates] = this.#call('locate', ...p);
       return simplex === undefined ? null : { simplex, distance, coordinates };
     }
     insertPoint(simplex, coordinates) {
@@ -271,8 +284,7 @@ export async function load({ wasmBinary } = {}) {
         if (visitor) visitors.pop();
       }
       if (thrown) throw thrown.error;
-      const components = a[19],
-        firstEnergy = 20 + components;
+      const firstEnergy = 24 + a[23];
       return {
         status: text(module._arap_status()),
         message: text(module._arap_message()),
@@ -283,6 +295,10 @@ export async function load({ wasmBinary } = {}) {
         freeVertices: a[4],
         simplices: a[5],
         invertedSimplices: a[6],
+        end: ends[a[19]],
+        saddlesLeft: a[20],
+        plateausLeft: a[21],
+        lookingIterations: a[22],
         stages: {
           region: !!a[7],
           weights: !!a[8],
@@ -299,7 +315,7 @@ export async function load({ wasmBinary } = {}) {
           visitor: a[17],
           total: a[18],
         },
-        unconstrainedComponents: Int32Array.from(a.subarray(20, firstEnergy)),
+        unconstrainedComponents: Int32Array.from(a.subarray(24, firstEnergy)),
         energy: a.slice(firstEnergy),
         finalEnergy: a.length > firstEnergy ? a.at(-1) : NaN,
       };

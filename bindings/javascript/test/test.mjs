@@ -196,7 +196,19 @@ refuses(
   /visit/,
   'in_a_run',
 );
-assert.equal(session.deform({ tolerance: 0, visitor: () => 'stop' }).status, 'stopped');
+for (const change of [
+  () => session.insertHandles([3]),
+  () => session.eraseHandles([0]),
+  () => session.clearHandles(),
+  () => session.setRegion([0, 1]),
+  () => session.reset(),
+  () => session.makeRestShape(),
+])
+  refuses(() => session.deform({ tolerance: 0, visitor: change }), ArapError, /visit/, 'in_a_run');
+assert.deepEqual([...session.handles()], [0, 1, 2]);
+let firstIterate = NaN;
+const stopped = session.deform({ tolerance: 0, visitor: (k) => ((firstIterate = k), 'stop') });
+assert.deepEqual([stopped.status, firstIterate], ['stopped', 0]);
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'cancel' }).status, 'cancelled');
 
 // what was prepared is reported once

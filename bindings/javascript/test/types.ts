@@ -12,9 +12,10 @@ const report: Report = session.deform({
   visitor: (_, energy) => (energy > 1 ? 'stop' : undefined),
 });
 const status: Status = report.status;
+const end: 'unknown' | 'minimum' | 'flat' | 'undecided' = report.end;
 const points: Float32Array = session.points(new Float32Array(9));
 // @ts-expect-error there are no such cells
 session.setOptions({ cells: 'rims' });
 // @ts-expect-error indices are numbers
 session.insertHandles('all');
-export { status, points, ArapError };
+export { status, end, points, ArapError };
