@@ -247,6 +247,13 @@ ARAP_EXPORT bool arap_set_groups(Array_deformation* d, const std::int32_t* group
   return answer_of([&] { d->set_groups({groups, n}); });
 }
 
+// the iterations and the tolerance of the options
+ARAP_EXPORT bool arap_run(const Array_deformation* d)
+{
+  return answer_of([&] {
+    add(std::vector<double>{double(d->options().iterations), d->options().tolerance});
+  });
+}
 ARAP_EXPORT bool arap_preprocess(Array_deformation* d)
 {
   return answer_of([&] { d->preprocess(); });

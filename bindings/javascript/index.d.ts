@@ -57,6 +57,17 @@ export interface Options {
   bending_length?: number;
   /** the length over which rotations are made smooth */
   smoothing_length?: number;
+  /** a run has at most so many; default 1000 */
+  iterations?: number;
+  /**
+   * a run stops where the estimated relative gap to the minimum is at most this; default 0.001; 0
+   * runs all iterations
+   */
+  tolerance?: number;
+  /** whether a run that converges looks whether it is at a saddle point; default true */
+  verify_minimum?: boolean;
+  /** whether runs of large shapes have a coarse metric, for fewer iterations; default true */
+  coarse_metric?: boolean;
 }
 
 export interface Shape {
@@ -68,12 +79,8 @@ export interface Shape {
 }
 
 export interface Run {
-  /** at most so many; default 1000 */
+  /** instead of those of the options */
   iterations?: number;
-  /**
-   * stop where the estimated relative gap to the minimum is at most this; default 0.001; 0 runs all
-   * iterations
-   */
   tolerance?: number;
   /**
    * called with the initial guess, as iteration 0, and after each iteration; may end the run, or
@@ -158,10 +165,8 @@ export interface Session {
   restPoints(): Float64Array;
   restPoints<T extends Float64Array | Float32Array>(out: T): T;
 
-  setOption(
-    name: keyof Options | 'iterations' | 'tolerance' | 'threads',
-    value: string | number,
-  ): void;
+  setOption(name: keyof Options, value: string | number | boolean): void;
+  /** What is undefined stays as it is. */
   setOptions(options: Options): void;
 
   /** All vertices are in the region of interest at first. */
@@ -225,7 +230,7 @@ export interface Arap {
     simplices: Indices,
     handles: Indices,
     targets: Numbers,
-    options?: Shape & Options & Omit<Run, 'visitor'>,
+    options?: Shape & Options,
   ): { points: Float64Array; report: Report };
   /** the memory of the engine, which never shrinks */
   heapBytes(): number;

@@ -181,7 +181,8 @@ export async function load({ wasmBinary } = {}) {
       withText([name, value], (n, v) => this.#call('set_option', n, v));
     }
     setOptions(options) {
-      for (const [name, value] of Object.entries(options)) this.setOption(name, value);
+      for (const [name, value] of Object.entries(options))
+        if (value !== undefined) this.setOption(name, value);
     }
 
     setRegion(vertices) {
@@ -260,11 +261,16 @@ export async function load({ wasmBinary } = {}) {
     preprocess() {
       this.#call('preprocess');
     }
-    deform({ iterations = 1000, tolerance = 1e-3, visitor } = {}) {
-      if (!(Number.isInteger(iterations) && iterations >= 0))
+    deform({ iterations, tolerance, visitor } = {}) {
+      const run = this.#call('run');
+      iterations ??= run[0];
+      tolerance ??= run[1];
+      if (iterations >>> 0 !== iterations)
         throw new TypeError(
-          `iterations is ${iterations}; it must be an integer that is not negative`,
+          `iterations is ${iterations}; it must be a whole number from 0 to 4294967295`,
         );
+      if (typeof tolerance !== 'number')
+        throw new TypeError(`tolerance is ${tolerance}; it must be a number`);
       let thrown = null;
       if (visitor)
         visitors.push((iteration, energy) => {
@@ -366,19 +372,13 @@ export async function load({ wasmBinary } = {}) {
 
   return {
     session: (points, simplices, options) => new Session(points, simplices, options),
-    deform(
-      points,
-      simplices,
-      handles,
-      targets,
-      { corners, volume, weights, iterations, tolerance, ...options } = {},
-    ) {
+    deform(points, simplices, handles, targets, { corners, volume, weights, ...options } = {}) {
       const session = new Session(points, simplices, { corners, volume, weights });
       try {
         session.setOptions(options);
         session.insertHandles(handles);
         session.setTargets(handles, targets);
-        const report = session.deform({ iterations, tolerance });
+        const report = session.deform();
         return { points: session.points(), report };
       } finally {
         session.dispose();

@@ -157,7 +157,16 @@ refuses(() => session.setStiffness([1]), ArapError, /1 values/);
 refuses(() => session.transform([], [1, 2, 3]), RangeError, /rows of 4/);
 refuses(() => session.restore({}), TypeError, /state\(\)/);
 refuses(() => session.qualityAtVertices('beauty'), RangeError, /beauty/);
-refuses(() => session.deform({ iterations: -1 }), TypeError, /-1/);
+for (const iterations of [-1, NaN, 1.5, 2 ** 32])
+  refuses(() => session.deform({ iterations }), TypeError, new RegExp(iterations));
+refuses(() => session.deform({ tolerance: '1' }), TypeError, /tolerance/);
+for (const tolerance of [-1, NaN])
+  for (const f of [
+    () => session.deform({ tolerance }),
+    () => session.setOption('tolerance', tolerance),
+  ])
+    refuses(f, ArapError, /tolerance/, 'invalid_option');
+refuses(() => session.locate([0, 0]), RangeError, /3 coordinates, not 2/);
 refuses(() => arap.session([1, 2], faces), RangeError, /rows of 3/);
 refuses(() => arap.session(new BigInt64Array(3), faces), TypeError, /bigint/);
 refuses(() => arap.session(points, faces, { corners: 2 }), ArapError, /three corners/);
@@ -211,6 +220,29 @@ const stopped = session.deform({ tolerance: 0, visitor: (k) => ((firstIterate = 
 assert.deepEqual([stopped.status, firstIterate], ['stopped', 0]);
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'cancel' }).status, 'cancelled');
 
+// a run has the options of the session, unless it is given others
+session.setOptions({ iterations: 2, tolerance: 0, verify_minimum: false, cells: undefined });
+assert.equal(session.deform().iterations, 2);
+assert.equal(session.deform({ iterations: 3 }).iterations, 3);
+session.setOptions({ iterations: 1000, tolerance: 1e-3, verify_minimum: true });
+session.setTargets([0], [0, 0, 0.55]);
+const looked = session.deform();
+assert.equal(looked.status, 'converged');
+assert.equal(looked.end, 'minimum');
+for (const count of ['saddlesLeft', 'plateausLeft', 'lookingIterations'])
+  assert(Number.isInteger(looked[count]), count);
+assert.equal(session.deform({ iterations: 0 }).end, 'unknown');
+
+// motions of the targets add up, those of the rest shape do not
+const up = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.25];
+session.setTargets([0], [0, 0, 0]);
+for (const height of [0.25, 0.5]) {
+  session.transform([0], up);
+  assert.equal(session.target(0)[2], height);
+}
+session.transform([0], up, { fromRest: true });
+assert.equal(session.target(0)[2], 0.25);
+
 // what was prepared is reported once
 session.setTargets([0], [0, 0, 0.6]);
 session.setOption('cells', 'spokes');
@@ -253,4 +285,9 @@ const { points: moved, report } = arap.deform(
 );
 assert.equal(moved.length, 12);
 assert.equal(report.freeVertices, 1);
+const bent = [0, 0, 0.5, 1, 0, 0, 1, 1, 0.2],
+  one = (options) => arap.deform(points, faces, [0, 1, 2], bent, options).report;
+assert.equal(one({ iterations: 2, tolerance: 0 }).iterations, 2);
+assert.equal(one({ verify_minimum: false, coarse_metric: false }).end, 'unknown');
+refuses(() => one({ iterations: -1 }), ArapError, /iterations '-1'/, 'invalid_option');
 console.log(`JavaScript: all is well; the heap is ${sizes.at(-1) / 2 ** 20} MB`);

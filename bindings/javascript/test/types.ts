@@ -16,6 +16,8 @@ const end: 'unknown' | 'minimum' | 'flat' | 'undecided' = report.end;
 const points: Float32Array = session.points(new Float32Array(9));
 // @ts-expect-error there are no such cells
 session.setOptions({ cells: 'rims' });
+// @ts-expect-error there is no such option
+session.setOption('itarations', 5);
 // @ts-expect-error indices are numbers
 session.insertHandles('all');
 export { status, end, points, ArapError };
