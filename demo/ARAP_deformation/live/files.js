@@ -1,6 +1,5 @@
 // Mesh files, and those that arap_deform reads: text or bytes to arrays and back. What is wrong
 // with a file is an Error with a sentence.
-import { PLYLoader } from 'three/examples/jsm/loaders/PLYLoader.js';
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
@@ -104,6 +103,7 @@ function readObj(text) {
   const points = [],
     polygons = [];
   text
+    .replace(/#[^\n]*/g, '')
     .replace(/\\\r?\n/g, ' ')
     .split('\n')
     .forEach((line, number) => {
@@ -116,12 +116,10 @@ function readObj(text) {
       }
       if (key === 'f')
         polygons.push(
-          words
-            .filter((w) => !w.startsWith('#'))
-            .map((word) => {
-              const v = parseInt(word, 10);
-              return v < 0 ? points.length / 3 + v : v - 1;
-            }),
+          words.map((word) => {
+            const v = parseInt(word, 10);
+            return v < 0 ? points.length / 3 + v : v - 1;
+          }),
         );
     });
   return surface(points, polygons);
@@ -165,25 +163,74 @@ function readMedit(text) {
   };
 }
 
-// STL has no vertices in common; PLY may have normals, at which vertices differ
-function readGeometry(geometry, merges) {
-  if (!geometry.attributes.position?.count) fail('it has no vertices');
-  let note = '';
-  if (merges) {
-    for (const name of Object.keys(geometry.attributes))
-      if (name !== 'position') geometry.deleteAttribute(name);
-    geometry.computeBoundingSphere();
-    const before = geometry.attributes.position.count;
-    geometry = mergeVertices(geometry, 1e-7 * geometry.boundingSphere.radius);
-    note = `${before} corners were merged to ${geometry.attributes.position.count} vertices.`;
+// what the types of PLY files are also called
+const namesInPly = {
+  char: 'int8',
+  uchar: 'uint8',
+  short: 'int16',
+  ushort: 'uint16',
+  int: 'int32',
+  uint: 'uint32',
+  float: 'float32',
+  double: 'float64',
+};
+
+function readPly(bytes) {
+  const text = new TextDecoder('latin1').decode(bytes),
+    [header] =
+      text.match(/^ply[^]*?[\r\n]end_header *(\r\n|\r|\n|$)/) ?? fail('it has no header'),
+    words = /^format +ascii/m.test(header) && new Words(text.slice(header.length)),
+    isLittle = /^format +binary_little/m.test(header),
+    view = new DataView(bytes, header.length),
+    elements = [],
+    points = [],
+    polygons = [];
+  let at = 0;
+  const readerOf = (type) => {
+    if (words) return () => Number(words.word());
+    const name = namesInPly[type] ?? type,
+      get = view[`get${name[0].toUpperCase()}${name.slice(1)}`],
+      size = parseInt(name.replace(/\D+/, ''), 10) / 8;
+    if (!get) fail(`the type ${type} is not known`);
+    return () => get.call(view, (at += size) - size, isLittle);
+  };
+  for (const line of header.split(/[\r\n]+/)) {
+    const [key, ...rest] = line.trim().split(/\s+/);
+    if (key === 'element') elements.push({ name: rest[0], count: Number(rest[1]), properties: [] });
+    if (key === 'property')
+      elements.at(-1)?.properties.push({
+        name: rest.at(-1),
+        isList: rest[0] === 'list',
+        readers: rest.slice(rest[0] === 'list' ? 1 : 0, -1).map(readerOf),
+      });
   }
-  if (!geometry.index) fail('it has no faces');
+  for (const { name, count, properties } of elements)
+    for (let i = 0; i < count; ++i) {
+      const row = {};
+      for (const { name: key, isList, readers } of properties)
+        row[key] = isList ? Array.from({ length: readers[0]() }, readers[1]) : readers[0]();
+      if (name === 'vertex') points.push(row.x, row.y, row.z);
+      if (name === 'face') polygons.push(row.vertex_indices ?? row.vertex_index ?? []);
+    }
+  return surface(points, polygons);
+}
+
+// STL has no vertices in common
+function readStl(bytes) {
+  let geometry = new STLLoader().parse(bytes);
+  if (!geometry.attributes.position?.count) fail('it has no vertices');
+  for (const name of Object.keys(geometry.attributes))
+    if (name !== 'position') geometry.deleteAttribute(name);
+  geometry.computeBoundingSphere();
+  const before = geometry.attributes.position.count;
+  geometry = mergeVertices(geometry, 1e-7 * geometry.boundingSphere.radius);
   const index = geometry.index.array,
     polygons = [];
   for (let f = 0; f < index.length; f += 3) {
     const triangle = [index[f], index[f + 1], index[f + 2]];
-    if (!merges || new Set(triangle).size === 3) polygons.push(triangle);
+    if (new Set(triangle).size === 3) polygons.push(triangle);
   }
+  const note = `${before} corners were merged to ${geometry.attributes.position.count} vertices.`;
   return { ...surface(geometry.attributes.position.array, polygons), note };
 }
 
@@ -194,8 +241,8 @@ export function readMesh(name, bytes) {
     off: () => readOff(text()),
     obj: () => readObj(text()),
     mesh: () => readMedit(text()),
-    ply: () => readGeometry(new PLYLoader().parse(bytes), false),
-    stl: () => readGeometry(new STLLoader().parse(bytes), true),
+    ply: () => readPly(bytes),
+    stl: () => readStl(bytes),
   };
   if (!readers[ending]) fail(`${name}: only .off, .obj, .ply, .stl and .mesh files are read.`);
   let mesh;
@@ -224,10 +271,9 @@ function rows(array, columns, line) {
 // indices that count from 1
 const from1 = (row) => Array.from(row, (v) => v + 1).join(' ');
 
-export function writeMesh(ending, { points, simplices, corners, volume }) {
+export function writeMesh(ending, { points, simplices, corners, volume, faces }) {
   const n = points.length / 3,
-    m = simplices.length / corners,
-    faces = volume ? boundary(simplices) : simplices;
+    m = simplices.length / corners;
   if (ending === 'obj')
     return (
       `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n` +
@@ -255,7 +301,7 @@ export function boundary(tetrahedra, points) {
     }
   const result = [];
   for (const { face, t } of faces.values()) {
-    const flipped = points && volumeOf(points, tetrahedra, t) < 0;
+    const flipped = volumeOf(points, tetrahedra, t) < 0;
     result.push(...(flipped ? face.reverse() : face));
   }
   return Int32Array.from(result);
@@ -290,7 +336,8 @@ export function facesOfInverted({ points, simplices }, positions) {
   return corners;
 }
 
-export const writeSelection = (status, comment) => `# ${comment}\n${status.join('\n')}\n`;
+export const writeSelection = (status, comment) =>
+  `${comment.replace(/^/gm, '# ')}\n${status.join('\n')}\n`;
 
 // a matrix of four rows for each handle
 export const writeTransforms = (matrices) =>

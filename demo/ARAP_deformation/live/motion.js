@@ -40,19 +40,21 @@ export function fittedMotion(list, p, q) {
         size += Math.abs(product);
       }
   const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = s,
-    shift = 2 * size || 1;
-  const n = [
-    [xx + yy + zz, yz - zy, zx - xz, xy - yx],
-    [yz - zy, xx - yy - zz, xy + yx, zx + xz],
-    [zx - xz, xy + yx, yy - xx - zz, yz + zy],
-    [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+    shift = 2 * size || 1; // no eigenvalue is negative
+  let n = [
+    [shift + xx + yy + zz, yz - zy, zx - xz, xy - yx],
+    [yz - zy, shift + xx - yy - zz, xy + yx, zx + xz],
+    [zx - xz, xy + yx, shift + yy - xx - zz, yz + zy],
+    [xy - yx, zx + xz, yz + zy, shift + zz - xx - yy],
   ];
-  let e = [1, 0.01, 0.02, 0.03];
-  for (let k = 0; k < 300; ++k) {
-    const f = n.map((row, i) => row.reduce((sum, x, j) => sum + x * e[j], shift * e[i])),
-      l = Math.hypot(...f);
-    e = f.map((x) => x / l);
+  const dot = (u, v) => u.reduce((sum, x, i) => sum + x * v[i], 0);
+  for (let k = 0; k < 30; ++k) {
+    // squared: half as many steps are left
+    const l = Math.hypot(...n.flat());
+    n = n.map((row) => n.map((column) => dot(row, column) / l / l));
   }
+  const f = n.map((row) => dot(row, [1, 0.01, 0.017, 0.029])),
+    e = f.map((x) => x / Math.hypot(...f));
   const turn =
     list.length > 2 ? new THREE.Quaternion(e[1], e[2], e[3], e[0]) : new THREE.Quaternion();
   return matrixOf(a, turn, new THREE.Vector3(...b));

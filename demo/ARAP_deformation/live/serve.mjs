@@ -13,10 +13,10 @@ const types = {
 
 export function serve(folder, port = 0) {
   const server = createServer(async (request, response) => {
-    const path = normalize(
-      decodeURIComponent(new URL(request.url, 'http://here').pathname),
-    ).replace(/\/$/, '/index.html');
     try {
+      const path = normalize(
+        decodeURIComponent(new URL(request.url, 'http://here').pathname),
+      ).replace(/\/$/, '/index.html');
       const content = await readFile(join(folder, path));
       response
         .writeHead(200, {

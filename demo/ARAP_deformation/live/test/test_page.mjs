@@ -29,6 +29,17 @@ for (const folder of [shots, files]) {
   mkdirSync(folder, { recursive: true });
 }
 const pattern = new RegExp(process.argv[2] ?? '.');
+// a file of the page, with what it imports
+async function bundled(name) {
+  const out = join(live, `${name}.mjs`),
+    file = fileURLToPath(new URL(`../${name}.js`, import.meta.url));
+  execFileSync(
+    join(live, 'node_modules/.bin/esbuild'),
+    [file, '--bundle', '--format=esm', '--log-level=warning', `--outfile=${out}`],
+    { env: { ...process.env, NODE_PATH: join(live, 'node_modules') } },
+  );
+  return import(pathToFileURL(out).href);
+}
 const { server, address } = await serve(join(live, 'page'));
 const browser = await puppeteer.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -136,6 +147,94 @@ const heaps = (sizes) =>
   `engine ${sizes.map((s) => (s.engine / 1e6).toFixed(1)).join(' to ')} MB`;
 
 const steps = {
+  async 'without a browser'() {
+    const { boundary, readMesh, writeMesh } = await bundled('files'),
+      { fittedMotion } = await bundled('motion');
+    const read = (name, text) => readMesh(name, new TextEncoder().encode(text).buffer);
+    // comments are no corners, and end with their line
+    const vertices = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n';
+    const { simplices, note } = read(
+      'a.obj',
+      `${vertices}f 1 2 3 # 4\nf 1 2 3 # a triangle\n# to be continued \\\nf 1 3 4\nf 1 \\\n3 4\n`,
+    );
+    assert.deepEqual([...simplices, note], [0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 2, 3, '']);
+    // polygons of PLY files
+    const header = (format) =>
+      `ply\nformat ${format} 1.0\ncomment end_header\nelement vertex 5\nproperty float x\n` +
+      `property double y\nproperty float z\nelement face 2\nproperty uchar color\n` +
+      `property list uint8 int vertex_index\nend_header\n`;
+    const pentagon = [0, 0, 2, 0, 3, 1, 1, 2, 0, 1],
+      faces = [
+        [0, 1, 2, 3, 4],
+        [0, 1, 2],
+      ];
+    const plys = [
+      new TextEncoder().encode(
+        `${header('ascii')}${rows(pentagon, 2, (p) => `${p.join(' ')} 0`)}\n` +
+          `${faces.map((f) => `10 ${f.length} ${f.join(' ')}`).join('\n')}\n`,
+      ).buffer,
+    ];
+    for (const little of [true, false]) {
+      const data = new DataView(new ArrayBuffer(1000));
+      let at = 0;
+      const write = (size, kind, x) => data[`set${kind}`]((at += size) - size, x, little);
+      for (const c of header(`binary_${little ? 'little' : 'big'}_endian`))
+        write(1, 'Uint8', c.charCodeAt(0));
+      for (let v = 0; v < 5; ++v) {
+        write(4, 'Float32', pentagon[2 * v]);
+        write(8, 'Float64', pentagon[2 * v + 1]);
+        write(4, 'Float32', 0);
+      }
+      for (const f of faces) {
+        write(1, 'Uint8', 10);
+        write(1, 'Uint8', f.length);
+        for (const v of f) write(4, 'Int32', v);
+      }
+      plys.push(data.buffer.slice(0, at));
+      assert.throws(() => readMesh('a.ply', data.buffer.slice(0, at - 1)), /ends too early/);
+    }
+    for (const bytes of plys) {
+      const mesh = readMesh('a.ply', bytes);
+      assert.deepEqual(
+        [...mesh.points],
+        pentagon.flatMap((x, i) => (i % 2 ? [x, 0] : [x])),
+      );
+      assert.deepEqual([...mesh.simplices], [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 1, 2]);
+      assert.match(mesh.note, /1 polygons/);
+    }
+    // tetrahedra of either orientation are seen from outside
+    const solid = models.volume[1]();
+    for (let t = 0; t < 2; ++t) {
+      const off = writeMesh('off', { ...solid, faces: boundary(solid.simplices, solid.points) }),
+        { points: p, simplices: s } = read('a.off', off);
+      let volume = 0;
+      for (let f = 0; f < s.length; f += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => p.slice(3 * s[f + k], 3 * s[f + k] + 3));
+        volume += a[0] * (b[1] * c[2] - b[2] * c[1]);
+        volume += a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+      }
+      assert(volume > 0, 'the boundary is not inside out');
+      for (let i = 0; i < solid.simplices.length; i += 4)
+        solid.simplices.subarray(i, i + 2).reverse();
+    }
+    // the motion of an elongated handle
+    const strip = Array.from({ length: 105 }, (_, v) => [v % 21, ((v / 21) | 0) / 4, 0]).flat(),
+      list = Array.from({ length: 105 }, (_, v) => v);
+    for (const degrees of [0, 60, 180]) {
+      const c = Math.cos((degrees * Math.PI) / 180),
+        s = Math.sin((degrees * Math.PI) / 180),
+        wanted = [1, 0, 0, 3, 0, c, -s, 2, 0, s, c, 1, 0, 0, 0, 1];
+      const moved = list.flatMap((v) => {
+        const [x, y] = strip.slice(3 * v);
+        return [3 + x, 2 + c * y, 1 + s * y];
+      });
+      assert(largestDifference(fittedMotion(list, strip, moved), wanted) < 1e-9, `${degrees}`);
+    }
+    // the server goes on after a path that is none
+    assert.equal((await fetch(`${address}%E0%A4%A`)).status, 404);
+    assert.equal((await fetch(address)).status, 200);
+  },
+
   async 'first visit'() {
     assert(await page.$eval('#help', (help) => !help.hidden));
     await settled();
