@@ -123,6 +123,9 @@ const messageOfHandles = () =>
     point,
   }));
 
+const hold = () =>
+  engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() });
+
 // after painting: which handles there are, and where they turn about
 function recountHandles(fits) {
   const sizes = new Map();
@@ -310,6 +313,22 @@ async function commit() {
   await kept.state;
 }
 
+// Runs what changes the shape, which then follows. What fails is undone.
+async function changing(f) {
+  try {
+    await f();
+    failed = '';
+    isSettled = false;
+    hasNewTargets = shape.handles.length > 0;
+    draw();
+    await commit();
+    pump();
+  } catch (error) {
+    complain(error);
+    await goTo(now);
+  }
+}
+
 async function goTo(index) {
   if (index < 0 || index >= past.length || dragging || stroke) return;
   stopPlaying();
@@ -322,7 +341,7 @@ async function goTo(index) {
     Object.assign(shape, {
       status: kept.status.slice(),
       handles: structuredClone(kept.handles),
-      stiffness: kept.stiffness,
+      stiffness: kept.stiffness?.slice() ?? null,
     });
     keys = kept.keys.slice();
     isSettled = true;
@@ -331,10 +350,10 @@ async function goTo(index) {
     shape.points = rest;
     if (JSON.stringify(kept.options) !== JSON.stringify(before.options)) {
       showOptions(kept.options);
-      await engine.call('options', { options: kept.options });
+      await sendOptions(kept.options);
     }
     if (kept.stiffness !== before.stiffness)
-      await engine.call('stiffness', { values: kept.stiffness ?? [] });
+      await engine.call('stiffness', { values: cellStiffness() });
     spare = view.setPositions(points);
     chosen = kept.chosen;
     recountHandles(false);
@@ -355,9 +374,10 @@ async function open(mesh, name, note) {
   stopPlaying();
   return busy('Opening…', async () => {
     const { points, simplices, corners, volume } = mesh,
-      n = points.length / 3;
+      n = points.length / 3,
+      weights = $('weights').value;
     if (!n || !simplices.length) throw new Error(`${name} has no faces`);
-    await engine.call('open', { points, simplices, corners, volume, weights: $('weights').value });
+    await engine.call('open', { points, simplices, corners, volume, weights });
     const box = new THREE.Box3().setFromArray(points);
     shape = {
       name,
@@ -365,6 +385,7 @@ async function open(mesh, name, note) {
       simplices,
       corners,
       volume,
+      weights,
       faces: volume ? boundary(simplices, points) : simplices,
       handles: [],
       status: mesh.status?.slice() ?? new Int32Array(n).fill(FREE),
@@ -383,8 +404,8 @@ async function open(mesh, name, note) {
     view.fit();
     if ($('measure').value) $('measure').value = '';
     recountHandles(false);
-    await engine.call('options', { options: options() });
-    await engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() });
+    await sendOptions(options());
+    await hold();
     if (shape.handles.length) chosen = shape.handles.findIndex(isThere);
     paints = shape.fixed ? HANDLE : FIXED;
     setTool(shape.handles.length ? 'grab' : 'brush');
@@ -431,6 +452,11 @@ const options = () => ({
   minimizer: $('minimizer').value,
   bending_length: String(($('bending').value / 100) * (shape?.diagonal ?? 1)),
 });
+// in an order in which none refuses the other
+async function sendOptions({ cells, minimizer, bending_length }) {
+  for (const some of [{ bending_length: '0' }, { cells, minimizer }, { bending_length }])
+    await engine.call('options', { options: some });
+}
 function showOptions(kept) {
   $('cells').value = kept.cells;
   $('minimizer').value = kept.minimizer;
@@ -439,52 +465,40 @@ function showOptions(kept) {
 }
 
 async function optionsChanged() {
-  const before = past[now].options,
-    wanted = options();
-  if (wanted.cells === 'elements') {
-    $('bending').value = 0;
-    wanted.bending_length = '0';
-  }
+  const before = past[now].options;
+  if ($('cells').value === 'elements') $('bending').value = 0;
+  const wanted = options();
   try {
-    // in an order in which none refuses the other
-    await engine.call('options', { options: { bending_length: '0' } });
     if ((wanted.cells === 'elements') !== (before.cells === 'elements') && shape.stiffness) {
       shape.stiffness = null;
       await engine.call('stiffness', { values: [] });
       say('The painted stiffness was of other cells, and is cleared.');
     }
-    await engine.call('options', { options: { cells: wanted.cells, minimizer: wanted.minimizer } });
-    await engine.call('options', { options: { bending_length: wanted.bending_length } });
+    await sendOptions(wanted);
     isSettled = false;
     await commit();
     pump();
   } catch (error) {
     complain(error);
     showOptions(before);
-    await engine.call('options', { options: before }).catch(complain);
+    await sendOptions(before).catch(complain);
   }
   showPanel();
 }
 
 async function weightsChanged() {
-  try {
+  const weights = $('weights').value,
+    handles = messageOfHandles(),
+    stiffness = cellStiffness();
+  await changing(async () => {
     await busy('Weights…', () =>
-      engine.call('weights', {
-        weights: $('weights').value,
-        handles: messageOfHandles(),
-        options: options(),
-      }),
+      engine.call('weights', { weights, handles, options: options(), stiffness }),
     );
-    if (shape.stiffness) await engine.call('stiffness', { values: shape.stiffness });
-    past = [];
+    shape.weights = weights;
+    past = []; // of another session
     now = -1;
-    isSettled = false;
-    hasNewTargets = true;
-    await commit();
-    pump();
-  } catch (error) {
-    complain(error);
-  }
+  });
+  $('weights').value = shape.weights;
 }
 
 // ---- painting
@@ -493,6 +507,12 @@ function stiffnessOfVertices() {
   if (!shape.stiffness) shape.stiffness = new Float64Array(shape.status.length).fill(1);
   return shape.stiffness;
 }
+
+// what the session wants: of its cells, and nothing where nothing is painted
+const cellStiffness = () =>
+  !shape.stiffness || $('cells').value !== 'elements'
+    ? (shape.stiffness ?? [])
+    : ofSimplices(shape, shape.stiffness);
 
 function paint(vertices) {
   if (tool === 'stiffness') {
@@ -531,29 +551,18 @@ function paintArea() {
 
 async function painted() {
   const fits = isDeformed();
-  try {
+  await changing(async () => {
     if (tool === 'stiffness') {
-      let values = shape.stiffness;
-      if ($('cells').value === 'elements') values = ofSimplices(shape, values);
       $('measure').value = 'stiffness';
-      await engine.call('stiffness', { values });
+      await engine.call('stiffness', { values: cellStiffness() });
     } else {
       recountHandles(fits);
       if (paints >= HANDLE && shape.handles[paints - HANDLE]) chosen = paints - HANDLE;
-      await engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() });
+      await hold();
     }
-    failed = '';
-    isSettled = false;
-    hasNewTargets = shape.handles.length > 0;
-    draw();
-    await commit();
     if (!shape.fixed && shape.handles.length === 1)
       say('Now paint what stays: choose Fixed. Else the whole shape moves with its handle.');
-    pump();
-  } catch (error) {
-    complain(error);
-    await goTo(now);
-  }
+  });
 }
 
 // a handle in a face, or at a vertex if that is clicked
@@ -569,25 +578,17 @@ async function placePoint(x, y) {
   const pivot = [0, 1, 2].map((i) =>
     face.reduce((sum, v, k) => sum + b[k] * shape.points[3 * v + i], 0),
   );
-  try {
+  await changing(async () => {
     let place = { simplex: hit.faceIndex, coordinates: b };
     if (shape.volume) ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
     if (!place) throw new Error('there is no tetrahedron at this place');
     const matrix = matrixOf(pivot, new THREE.Quaternion(), hit.point);
     shape.handles.push(newHandle({ pivot, matrix, point: place }));
-    await engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() });
+    await hold();
     isHeld = true;
-    isSettled = false;
-    hasNewTargets = true;
     setTool('grab');
     choose(shape.handles.length - 1);
-    draw();
-    await commit();
-    pump();
-  } catch (error) {
-    complain(error);
-    await goTo(now);
-  }
+  });
 }
 
 // ---- pointers
@@ -935,19 +936,30 @@ function filed() {
   return { numbers, status: shape.status.map((s) => place.get(s) ?? s) };
 }
 
+// for a shell; where it cannot tell all, a second line has what is left out
 function commandLine() {
-  const { name, volume } = shape,
+  const { name, volume, weights } = shape,
     { cells, minimizer } = options(),
     ending = volume ? 'mesh' : 'off',
-    { numbers } = filed();
-  const soft = numbers.map((k) => shape.handles[k].weight).find((w) => w !== null);
+    held = filed().numbers.map((k) => shape.handles[k]);
+  const file = (end) =>
+    /^[\w.-]+$/.test(name) ? name + end : `'${(name + end).replaceAll("'", "'\\''")}'`;
+  const differ = (what) => held.some((handle) => handle[what] !== held[0][what]);
+  const ofAll = (what) => (held.length && !differ(what) ? held[0][what] : null);
+  const untold = [
+    differ('weight') && 'weights that differ between handles',
+    differ('turns') && 'which handles turn the cells around them',
+    shape.stiffness?.some((k) => k !== 1) && 'painted stiffness',
+    shape.handles.some((handle) => handle.point) && 'handles that are points in a face',
+  ].filter(Boolean);
   return (
-    `arap_deform ${name}_rest.${ending} -o out.${ending} --selection ${name}.sel` +
-    (numbers.length ? ` --transform ${name}.def` : '') +
-    ` --cells ${cells} --weights ${$('weights').value}` +
+    `arap_deform ${file(`_rest.${ending}`)} -o out.${ending} --selection ${file('.sel')}` +
+    (held.length ? ` --transform ${file('.def')}` : '') +
+    ` --cells ${cells} --weights ${weights}` +
     ` --minimizer ${minimizer} --bending ${$('bending').value / 100}` +
-    (soft === undefined ? '' : ` --soft ${soft}`) +
-    (numbers.length && numbers.every((k) => shape.handles[k].turns) ? ' --turn' : '')
+    (ofAll('weight') === null ? '' : ` --soft ${ofAll('weight')}`) +
+    (ofAll('turns') ? ' --turn' : '') +
+    (untold.length ? `\nThis line leaves out: ${untold.join(', ')}.` : '')
   );
 }
 
@@ -1101,17 +1113,7 @@ function changeHandle(change) {
   const handle = shape?.handles[chosen];
   if (!handle) return;
   change(handle);
-  engine
-    .call('hold', { status: shape.status.slice(), handles: messageOfHandles() })
-    .then(() => {
-      handlesMoved();
-      placeGizmo();
-      return commit();
-    })
-    .catch((error) => {
-      complain(error);
-      goTo(now);
-    });
+  changing(hold);
 }
 
 async function removeHandle() {
@@ -1127,25 +1129,18 @@ async function removeHandle() {
 
 async function reset() {
   stopPlaying();
-  try {
+  await changing(async () => {
     shape.handles.forEach((h) => {
       h.matrix = identity();
     });
     const { points } = await engine.call('reset');
     spare = view.setPositions(points);
-    isSettled = false;
-    hasNewTargets = shape.handles.length > 0;
-    draw();
-    await commit();
-    pump();
-  } catch (error) {
-    complain(error);
-  }
+  });
 }
 
 async function restFromNow() {
   stopPlaying();
-  try {
+  await changing(async () => {
     const { rest } = await engine.call('rest');
     shape.points = rest;
     shape.handles.forEach((handle, k) => {
@@ -1154,16 +1149,10 @@ async function restFromNow() {
       handle.matrix = identity();
     });
     keys = [];
-    hasNewTargets = true;
-    isSettled = false;
-    await engine.call('hold', { status: shape.status.slice(), handles: messageOfHandles() });
-    draw();
-    await commit();
+    await hold();
     showMeasure();
     say('This is the rest shape from now on.');
-  } catch (error) {
-    complain(error);
-  }
+  });
 }
 
 function closeHelp() {

@@ -90,11 +90,12 @@ const operations = {
       throw error;
     }
   },
-  weights({ weights, handles, options }) {
+  weights({ weights, handles, options, stiffness }) {
     const kept = status,
       rest = session.restPoints();
     newSession(rest, weights);
     session.setOptions(options);
+    session.setStiffness(stiffness);
     hold(kept, handles);
   },
   options({ options }) {

@@ -106,6 +106,32 @@ async function dragHandle(dx, dy, number = 1) {
   } = (await state()).handles[number - 1];
   await drag([x, y], [x + dx, y + dy]);
 }
+// where the middle of a bar is
+const middle = () =>
+  page.evaluate(() => {
+    const p = window.arap.positions(),
+      box = window.arap.view.canvas.getBoundingClientRect(),
+      n = (p.length / 6) | 0;
+    const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
+    return [x + box.left, y + box.top];
+  });
+async function paintMiddle() {
+  const [x, y] = await middle();
+  await drag([x - 30, y + 30], [x + 30, y - 30]);
+  await page.mouse.up();
+}
+async function bend(share) {
+  await page.$eval(
+    '#bending',
+    (b, value) => {
+      b.value = value;
+      b.dispatchEvent(new Event('input'));
+      b.dispatchEvent(new Event('change'));
+    },
+    share,
+  );
+  return settled();
+}
 async function openFile(path, p = page) {
   const before = (await state(p)).name;
   await (await p.$('#file')).uploadFile(path);
@@ -413,12 +439,7 @@ const steps = {
       true,
       JSON.stringify(energies),
     );
-    await page.$eval('#bending', (b) => {
-      b.value = 5;
-      b.dispatchEvent(new Event('input'));
-      b.dispatchEvent(new Event('change'));
-    });
-    assert((await settled()).energy > energies.safe_cotangent, 'bending adds to the energy');
+    assert((await bend(5)).energy > energies.safe_cotangent, 'bending adds to the energy');
     await page.select('#measure', 'edge_length_error');
     await rest(800);
     await settled();
@@ -426,11 +447,7 @@ const steps = {
     assert(await page.$eval('#legend', (legend) => !legend.hidden));
     assert.match(await page.$eval('#quality', (q) => q.textContent), /Edges/);
     await page.select('#measure', '');
-    await page.$eval('#bending', (b) => {
-      b.value = 0;
-      b.dispatchEvent(new Event('change'));
-    });
-    await settled();
+    await bend(0);
     await page.click('#soft');
     await page.$eval('#weight', (w) => {
       w.value = -3;
@@ -445,19 +462,113 @@ const steps = {
     await page.mouse.up();
     const soft = (await settled()).energy;
     await page.keyboard.press('s');
-    const middle = await page.evaluate(() => {
-      const p = window.arap.positions(),
-        box = window.arap.view.canvas.getBoundingClientRect(),
-        n = (p.length / 6) | 0;
-      const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
-      return [x + box.left, y + box.top];
-    });
-    await drag([middle[0] - 30, middle[1] + 30], [middle[0] + 30, middle[1] - 30]);
-    await page.mouse.up();
+    await paintMiddle();
     assert((await settled()).energy > soft, 'stiff parts cost energy');
     await shot('09_stiffness');
     await page.click('#undo');
     assert(Math.abs((await settled()).energy / soft - 1) < 1e-2, 'undo of stiffness');
+  },
+
+  async 'options, undone and done again'() {
+    const isWell = async () => assert.equal((await state()).message, '');
+    const twoSteps = async (press) => {
+      await page.click(press);
+      await settled();
+      await isWell();
+    };
+    await openModel('volume'); // elements of a surface have many minima
+    await dragHandle(80, 40);
+    await page.mouse.up();
+    await settled();
+    // cells without bending, after bending
+    await bend(5);
+    await page.select('#cells', 'elements');
+    const { energy } = await settled();
+    await twoSteps('#undo');
+    await twoSteps('#redo');
+    assert(Math.abs((await state()).energy / energy - 1) < 1e-2, 'redo of elements');
+    // stiffness of elements
+    await page.keyboard.press('s');
+    await paintMiddle();
+    const stiff = (await settled()).energy;
+    assert(stiff > energy);
+    await twoSteps('#undo');
+    await twoSteps('#redo');
+    assert(Math.abs((await state()).energy / stiff - 1) < 1e-2, 'redo of stiffness');
+    await page.select('#weights', 'uniform');
+    assert.equal((await settled()).undo, 0, 'states of other weights are gone');
+    await isWell();
+    await page.select('#weights', 'safe_cotangent');
+    assert(Math.abs((await settled()).energy / stiff - 1) < 1e-2, 'stiffness with other weights');
+    // painting does not change what undo keeps
+    await page.keyboard.press('s');
+    await paintMiddle();
+    await settled();
+    await twoSteps('#undo');
+    await page.$eval('#stiffness', (s) => {
+      s.value = Number(s.value) + 1;
+    });
+    await paintMiddle();
+    await settled();
+    await twoSteps('#undo');
+    assert(Math.abs((await state()).energy / stiff - 1) < 1e-2, 'undo after undo');
+    // weights that fail
+    await page.evaluate(() => {
+      const { engine } = window.arap,
+        call = engine.call.bind(engine);
+      engine.call = (name, ...rest) =>
+        name === 'weights' ? Promise.reject(new Error('no weights')) : call(name, ...rest);
+    });
+    await page.select('#weights', 'uniform');
+    await settled();
+    assert.match(await message(), /No weights/);
+    assert.equal(await page.$eval('#weights', (w) => w.value), 'safe_cotangent');
+    await page.evaluate(() => {
+      delete window.arap.engine.call;
+    });
+    await page.select('#cells', 'spokes_and_rims');
+    await settled();
+    await page.select('#measure', '');
+    await page.keyboard.press('g');
+  },
+
+  async 'the command line'() {
+    await page.evaluate(
+      (points, simplices, status) =>
+        window.arap.open(
+          {
+            points: Float64Array.from(points),
+            simplices: Int32Array.from(simplices),
+            corners: 3,
+            volume: false,
+            status: Int32Array.from(status),
+          },
+          "it's a bar",
+        ),
+      [...models.bar[1]().points],
+      [...models.bar[1]().simplices],
+      [...models.bar[1]().status].map((s, v) => (s === 2 && v % 2 ? 3 : s)),
+    );
+    const line = () => page.evaluate(() => window.arap.commandLine());
+    const soften = async (k) => {
+      await page.evaluate((handle) => window.arap.choose(handle), k);
+      await page.click('#soft');
+      await settled();
+    };
+    assert((await line()).includes(" --selection 'it'\\''s a bar.sel' "), await line());
+    assert(!/soft|leaves out/.test(await line()));
+    await soften(0);
+    assert.doesNotMatch(await line(), / --soft/);
+    assert.match(await line(), /\nThis line leaves out: weights/);
+    await soften(1);
+    assert.match(await line(), / --soft [\d.]+$/);
+    await page.keyboard.press('s');
+    await paintMiddle();
+    await settled();
+    assert.match(await line(), /\nThis line leaves out: painted stiffness\.$/);
+    assert.match(String(await saved('Selection', "it's a bar.sel")), /^# arap.*\n# This.*\n\d/);
+    await page.select('#measure', '');
+    await page.keyboard.press('g');
   },
 
   async points() {
@@ -588,14 +699,7 @@ const steps = {
     const before = await positions();
     await page.keyboard.press('b');
     await page.keyboard.press('3');
-    const middle = await page.evaluate(() => {
-      const p = window.arap.positions(),
-        box = window.arap.view.canvas.getBoundingClientRect(),
-        n = (p.length / 6) | 0;
-      const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
-      return [x + box.left, y + box.top];
-    });
-    await page.mouse.click(...middle);
+    await page.mouse.click(...(await middle()));
     const now = await settled();
     assert.equal(now.handles.length, 2);
     const moved = largestDifference(before, await positions());
