@@ -53,7 +53,6 @@ const measured = {
   perIteration: 1,
   frames: 0,
   steps: 0,
-  message: '',
 };
 const history = { energy: [], milliseconds: [] };
 
@@ -202,7 +201,6 @@ function choose(k) {
 
 // ---- the shape follows
 
-let stepStart = 0;
 function pump() {
   if (!shape || !engine.isIdle || isSettled) return;
   if (!isHeld) return void (isSettled = true);
@@ -213,7 +211,6 @@ function pump() {
     ? Math.max(1, Math.min(3, Math.round(50 / share)))
     : Math.max(5, Math.min(200, Math.round(60 / share)));
   hasNewTargets = false;
-  stepStart = performance.now();
   const of = shape,
     buffer = spare && spare.length === shape.points.length ? spare : null;
   spare = null;
@@ -238,9 +235,6 @@ function pump() {
           energy: step.energy,
           milliseconds: step.milliseconds,
           iterations: step.iterations,
-          message: step.message,
-          gap: step.gap,
-          roundtrip: performance.now() - stepStart,
         });
         if (step.iterations)
           measured.perIteration =
@@ -863,7 +857,7 @@ function stopPlaying() {
   }
 }
 
-function play(recorder) {
+function play(record) {
   if (playing) return stopPlaying();
   const usable = keys.filter((key) => key.length === shape.handles.length);
   if (!usable.length) return say('There is no key frame: move a handle, and choose Add.', true);
@@ -872,10 +866,8 @@ function play(recorder) {
     path,
     start: performance.now(),
     seconds: 1.5,
-    recorder,
-    last: shape.handles.map((h) => h.matrix),
+    recorder: record?.(),
   };
-  recorder?.start();
   placeGizmo();
   showPanel();
 }
@@ -907,15 +899,18 @@ function film() {
     window.MediaRecorder?.isTypeSupported(t),
   );
   if (!type) return say('This browser cannot record films.', true);
-  const recorder = new MediaRecorder(view.canvas.captureStream(30), {
-      mimeType: type,
-      videoBitsPerSecond: 6e6,
-    }),
-    parts = [];
-  recorder.ondataavailable = ({ data }) => parts.push(data);
-  recorder.onstop = () =>
-    save(`${shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`, new Blob(parts, { type }));
-  play(recorder);
+  play(() => {
+    const stream = view.canvas.captureStream(30),
+      recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6e6 }),
+      parts = [];
+    recorder.ondataavailable = ({ data }) => parts.push(data);
+    recorder.onstop = () => {
+      stream.getTracks().forEach((track) => track.stop());
+      save(`${shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`, new Blob(parts, { type }));
+    };
+    recorder.start();
+    return recorder;
+  });
 }
 
 // ---- saving

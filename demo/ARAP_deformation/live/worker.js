@@ -114,25 +114,19 @@ const operations = {
       status: result,
       energy,
       finalEnergy,
-      estimatedRelativeGap,
-      message,
       iterations: done,
       unconstrainedComponents,
-      freeVertices,
     } = session.deform({ iterations, tolerance });
     const milliseconds = performance.now() - start;
     const points = session.points(buffer ?? new Float32Array(3 * session.numberOfVertices));
     return {
       points,
       result,
-      message,
       milliseconds,
       iterations: done,
       energy: finalEnergy,
-      gap: estimatedRelativeGap,
       firstEnergy: energy[0],
       unconstrained: unconstrainedComponents.length,
-      freeVertices,
     };
   },
   reset() {

@@ -654,6 +654,17 @@ const steps = {
 
   async 'key frames and a film'() {
     await openModel('cactus');
+    await page.evaluate(() => {
+      const { canvas } = window.arap.view;
+      window.streams = [];
+      canvas.captureStream = (...rate) => {
+        window.streams.push(HTMLCanvasElement.prototype.captureStream.apply(canvas, rate));
+        return window.streams.at(-1);
+      };
+    });
+    await page.click('#film');
+    assert.match(await message(), /no key frame/);
+    assert.equal(await page.evaluate(() => window.streams.length), 0);
     await dragHandle(100, 30);
     await page.mouse.up();
     await page.keyboard.press('k');
@@ -671,6 +682,12 @@ const steps = {
     await rest(200);
     console.log(`  a film of ${statSync(path).size} bytes`);
     assert(statSync(path).size > 5000);
+    assert.deepEqual(
+      await page.evaluate(() =>
+        window.streams.flatMap((s) => s.getTracks()).map((track) => track.readyState),
+      ),
+      ['ended'],
+    );
     await settled();
     await clickText('Key frames');
     for (let k = 0; k < 100 && !existsSync(join(files, 'cactus-2.def')); ++k) await rest(50);
