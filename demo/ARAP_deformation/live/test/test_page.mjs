@@ -506,7 +506,7 @@ const steps = {
     await settled();
     await twoSteps('#undo');
     await page.$eval('#stiffness', (s) => {
-      s.value = Number(s.value) + 1;
+      s.value = -1;
     });
     await paintMiddle();
     await settled();
