@@ -237,7 +237,7 @@ void test_text_files()
   const auto refuse_option = [](const std::string& option, const std::string& phrase) {
     check_refused("good.off " + option + rest, 2, phrase);
   };
-  refuse_option("--iterations %value%", "--iterations '%value%' is not a whole number from 0 to 2");
+  refuse_option("--iterations %value%", "--iterations '%value%' is not a whole number from 0 to 4");
   refuse_option("--tolerance 1%", "--tolerance '1%' is not a number");
   refuse_option("--iterations 9999999999", "--iterations '9999999999' is not a whole number from");
   for(const std::string option : {"--%canonical_option%", "-%option%", "--x%=3"})
