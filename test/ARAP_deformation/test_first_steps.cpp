@@ -116,7 +116,7 @@ void test_shape(const std::string& name, const Domain& domain, std::vector<Point
 
 void test_motions()
 {
-  for(double weight : {std::numeric_limits<double>::infinity(), 1.0, 1e-3})
+  for(double weight : {infinity, 1.0, 1e-3})
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
     {
       for(int n : is_long_run() ? std::vector<int>{20, 60, 200, 400} : std::vector<int>{20, 60})
@@ -240,7 +240,7 @@ using Volume =
 template <typename Function>
 void for_each_kind(const Function& f)
 {
-  for(double weight : {std::numeric_limits<double>::infinity(), 1.0})
+  for(double weight : {infinity, 1.0})
     for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
       f(weight, minimizer);
 }
@@ -278,7 +278,7 @@ void test_fixed_simplex()
   const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {3, 0, 0},
                                                {2, -1, 0}, {2, 1, 0}, {-1, -1, 0}, {-1, 1, 0}};
   Surface s(points, {{0, 1, 2}, {1, 4, 5}, {3, 5, 4}, {0, 7, 6}}, {0, 1, 2, 3},
-            std::numeric_limits<double>::infinity(), Minimizer::quasi_newton);
+            infinity, Minimizer::quasi_newton);
   const Affine_map turn = rigid_motion(1, {1, 2, 0}, {0.2, 0, 0.3});
   const auto motion = [&](std::size_t v) { return v == 0 || v == 2 ? turn : identity; };
   const Report first = s.run(motion), second = s.run(motion);

@@ -64,17 +64,8 @@ public:
 
   Outcome preprocess()
   {
-    if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    Outcome prepared = m_options.check();
-    if(!prepared)
-      return prepared;
-    double seconds = 0;
-    prepared = take_points_of_others(seconds);
-    if(!prepared)
-      return prepared;
-    m_prepared.set_inertia(0); // of the last time step
-    prepared = prepare();
+    Phase_seconds unused;
+    Outcome prepared = prepare(m_options, 0, unused);
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
@@ -189,9 +180,18 @@ private:
     bool& m_flag;
   };
 
-  Outcome prepare()
+  // brings everything up to date for a run with these options and this inertia
+  Outcome prepare(const Options& options, double inertia, Phase_seconds& seconds)
   {
-    return m_prepared.prepare(m_vertices, this->m_cell_values, m_options, m_stages);
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    if(Outcome checked = options.check(); !checked)
+      return checked;
+    if(Outcome taken = take_points_of_others(seconds.transfer); !taken)
+      return taken;
+    Scoped_seconds preprocessing(seconds.preprocess);
+    m_prepared.set_inertia(inertia);
+    return m_prepared.prepare(m_vertices, this->m_cell_values, options, m_stages);
   }
 
   // A run, or a time step with these forces.
@@ -199,8 +199,10 @@ private:
                   const Visitor& visitor, Report& report)
   {
     const double inertia = step ? step->inertia() : 0;
-    if(Outcome begun = begin(options, inertia, report); !begun)
-      return begun;
+    const Outcome prepared = prepare(options, inertia, report.seconds);
+    report.stages = std::exchange(m_stages, {});
+    if(!prepared)
+      return prepared;
     Run run = [&] {
       Scoped_seconds seconds(report.seconds.transfer);
       return Run(m_prepared.built(), m_prepared.rows(), report);
@@ -226,22 +228,6 @@ private:
              report);
     }
     return result;
-  }
-
-  // brings everything up to date for a run with these options and this inertia
-  Outcome begin(const Options& options, double inertia, Report& report)
-  {
-    if(refuse_in_a_run())
-      return outcome(Status::in_a_run);
-    if(Outcome checked = options.check(); !checked)
-      return checked;
-    if(Outcome taken = take_points_of_others(report.seconds.transfer); !taken)
-      return taken;
-    Scoped_seconds seconds(report.seconds.preprocess);
-    m_prepared.set_inertia(inertia);
-    Outcome prepared = prepare();
-    report.stages = std::exchange(m_stages, {});
-    return prepared;
   }
 
   Outcome execute(Run& run, const Options& options, const Visitor& visitor, Report& report)
