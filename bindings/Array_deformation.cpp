@@ -101,6 +101,7 @@ public:
 
   void set_region(Indices vertices) override
   {
+    refuse_in_a_run();
     const auto chosen = vertices_of(vertices);
     std::vector<char> is_chosen(number_of_vertices(), 0);
     for(std::size_t v : chosen)
@@ -115,10 +116,12 @@ public:
 
   void insert_handles(Indices vertices) override
   {
+    refuse_in_a_run();
     m_deformation.insert_control_vertices(vertices_of(vertices));
   }
   void erase_handles(Indices handles) override
   {
+    refuse_in_a_run();
     for_each(handles, [&](auto handle) {
       if constexpr(is_point<decltype(handle)>)
         m_deformation.erase_control_point(handle);
@@ -127,7 +130,11 @@ public:
       return Outcome(Status::success, "");
     });
   }
-  void clear_handles() override { m_deformation.clear_control_vertices(); }
+  void clear_handles() override
+  {
+    refuse_in_a_run();
+    m_deformation.clear_control_vertices();
+  }
   std::vector<std::int32_t> handles() const override
   {
     std::vector<std::int32_t> result = numbers_of(m_deformation.control_vertices());
@@ -244,9 +251,14 @@ public:
     return checked(m_deformation.advance(dynamics, force_at, visitor_of(visitor)));
   }
 
-  void reset() override { m_deformation.reset(); }
+  void reset() override
+  {
+    refuse_in_a_run();
+    m_deformation.reset();
+  }
   void make_rest_shape() override
   {
+    refuse_in_a_run();
     m_deformation.overwrite_initial_geometry();
     m_rest = m_points;
   }
@@ -375,6 +387,9 @@ private:
     const std::vector<Number> map(values.data, values[values.rows]);
     require(at_vertices ? f(map) : f(of_simplices(map)));
   }
+
+  // for what has no outcome, and in a visitor would be left undone without a word
+  void refuse_in_a_run() { require(m_deformation.set_options(options())); }
 
   template <typename Report_>
   static Report_ checked(Report_ report)
