@@ -9,7 +9,6 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 // Wrong models do not compile. WRONG_MODEL is the number of the one that is tried; that of none, 0,
 // compiles. The sentences that must come first are in CMakeLists.txt.
 

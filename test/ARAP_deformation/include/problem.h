@@ -82,7 +82,7 @@ struct Problem
   Options options;
   Observer observe = [](unsigned int, double) { return CGAL::ARAP::Visitor_action::proceed; };
   Array<Coordinates> x;
-  std::vector<Matrix_3x3> rotations;
+  Array<Matrix_3x3> rotations;
   std::unique_ptr<Coarse_metric> coarse_metric;
   Report report;
 

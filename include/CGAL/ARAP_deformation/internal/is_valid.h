@@ -9,7 +9,6 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-
 #ifndef CGAL_ARAP_DEFORMATION_INTERNAL_IS_VALID_H
 #define CGAL_ARAP_DEFORMATION_INTERNAL_IS_VALID_H
 

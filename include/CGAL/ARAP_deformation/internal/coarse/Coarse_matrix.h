@@ -58,7 +58,7 @@ public:
   // Computes C at the positions of `transfer` and factorizes it. `matrix` is L with the rows of the
   // constraints.
   bool build(const Coarse_transfer& transfer, const Deformation_energy& energy,
-             const Sparse_matrix& matrix, const std::vector<Matrix_3x3>& rotations)
+             const Sparse_matrix& matrix, const Array<Matrix_3x3>& rotations)
   {
     const Array<char> is_fitted = energy.fitted_cells();
     std::fill_n(m_matrix.valuePtr(), m_matrix.nonZeros(), 0.0);
@@ -128,7 +128,7 @@ private:
   }
 
   void subtract_cells(int group, const Deformation_energy& energy, const Array<char>& is_fitted,
-                      const std::vector<Matrix_3x3>& rotations, const Coarse_transfer& transfer,
+                      const Array<Matrix_3x3>& rotations, const Coarse_transfer& transfer,
                       Coarse_blocks& blocks) const
   {
     Covariance_coefficients coefficients;
@@ -138,7 +138,7 @@ private:
       if(!is_fitted[c])
         continue;
       energy.coefficients(c, coefficients);
-      const Matrix_3x3& rotation = rotations[static_cast<std::size_t>(c)];
+      const Matrix_3x3& rotation = rotations[c];
       const Matrix_3x3 inverse = inverse_stiffness(energy.rest_covariance(coefficients), rotation);
       if(is_finite(inverse[0]))
         blocks.subtract_cell(transfer.view(), coefficients, rotation, inverse);

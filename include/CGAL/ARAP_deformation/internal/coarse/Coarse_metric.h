@@ -21,8 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 
-#include <vector>
-
 namespace CGAL {
 namespace ARAP {
 namespace internal {
@@ -45,7 +43,7 @@ public:
   // the rows of the constraints.
   bool build(const Deformation_energy& energy, const Sparse_matrix& matrix,
              const Array<char>& is_fixed, const Array<Coordinates>& x,
-             const std::vector<Matrix_3x3>& rotations)
+             const Array<Matrix_3x3>& rotations)
   {
     if(m_transfer.space().number_of_nodes() == 0)
       return false;

@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -32,7 +31,7 @@ namespace internal {
 // For each vertex the rotation closest to the weighted mean of those of its nodes, but for nodes
 // whose rotation is not known; the identity if none is. Empty if no node has one.
 inline Array<Matrix_3x3> blended_rotations(const Coarse_space& space,
-                                           const std::vector<Matrix_3x3>& rotations,
+                                           const Array<Matrix_3x3>& rotations,
                                            const Array<char>& is_known)
 {
   if(std::find(is_known.begin(), is_known.end(), 1) == is_known.end())
@@ -46,7 +45,7 @@ inline Array<Matrix_3x3> blended_rotations(const Coarse_space& space,
       Matrix_3x3 sum = {};
       for(int k = 0; k < Coarse_space::most_nodes && weights[k] > 0; ++k)
         if(is_known[nodes[k]])
-          add(sum, weights[k], rotations[static_cast<std::size_t>(nodes[k])]);
+          add(sum, weights[k], rotations[nodes[k]]);
       result[v] = Svd_rotation::closest(sum);
     }
   });

@@ -83,13 +83,13 @@ public:
   }
 
   // rotations that there are not yet become identities
-  void complete(std::vector<Matrix_3x3>& rotations) const
+  void complete(Array<Matrix_3x3>& rotations) const
   {
     rotations.resize(static_cast<std::size_t>(number_of_cells()), identity_matrix());
   }
 
   // What does not count has the identity.
-  void clear_others(std::vector<Matrix_3x3>& rotations) const
+  void clear_others(Array<Matrix_3x3>& rotations) const
   {
     for(std::size_t c = 0; c < m_is_chosen.size(); ++c)
       if(!m_is_chosen[c])
@@ -206,7 +206,7 @@ public:
   // `force` becomes minus half the gradient for each free vertex, and anything for a fixed one.
   // Without `is_smooth` rotations are fitted as if they need not be smooth.
   double fit_and_evaluate(const Closest_rotations& closest_rotations,
-                          const Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                          const Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
                           Array<Coordinates>& force, bool is_smooth = true)
   {
     complete(rotations);
@@ -225,7 +225,7 @@ public:
       Matrix_3x3 covariance;
       compute_covariances(c, c + 1, &covariance);
       m_sequential_fit.add_covariance(c, rotations, covariance);
-      closest_rotations(1, &covariance, &rotations[static_cast<std::size_t>(c)]);
+      closest_rotations(1, &covariance, &rotations[c]);
     }
     if(m_sequential_fit.is_none())
       m_batches.for_each([&](int begin, int end) {
@@ -242,8 +242,8 @@ public:
       if(!m_is_chosen[*begin])
         return;
       const Matrix_3x3 sum = sum_of_covariances(begin, end, compute_covariances);
-      closest_rotations(1, &sum, &rotations[static_cast<std::size_t>(*begin)]);
-      m_groups.set(*begin, rotations[static_cast<std::size_t>(*begin)], rotations);
+      closest_rotations(1, &sum, &rotations[*begin]);
+      m_groups.set(*begin, rotations[*begin], rotations);
     });
     for(const auto& [c, rotation] : m_groups.given())
       if(m_is_chosen[c])
@@ -288,7 +288,7 @@ public:
   // about by how much a step of all rotations together would lower the energy at the positions x;
   // 0 if none is prepared
   double gain_of_rotation_step(const Array<Coordinates>& x,
-                               const std::vector<Matrix_3x3>& rotations)
+                               const Array<Matrix_3x3>& rotations)
   {
     if(!m_rotation_steps)
       return 0;
@@ -297,7 +297,7 @@ public:
   }
 
   // The energy and the force with the rotations given.
-  double evaluate(const Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+  double evaluate(const Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
                   Array<Coordinates>& force)
   {
     complete(rotations);
@@ -308,19 +308,19 @@ public:
   // Prepares change_of_force() at positions x that the rotations are fitted to. Not where these are
   // state: they depend on each other.
   void prepare_second_derivative(const Array<Coordinates>& x,
-                                 const std::vector<Matrix_3x3>& rotations)
+                                 const Array<Matrix_3x3>& rotations)
   {
     m_derivatives.assign(rotations.size(), Rotation_derivative());
     m_changes.assign(rotations.size(), Matrix_3x3{}); // where rotations do not change it stays zero
     for_each_fitted_cell(x, [&](int c, const Matrix_3x3& covariance) {
-      m_derivatives[c] = Rotation_derivative(covariance, rotations[static_cast<std::size_t>(c)]);
+      m_derivatives[c] = Rotation_derivative(covariance, rotations[c]);
     });
   }
 
   // How the force changes with the positions, to first order; for free vertices. `step` is zero at
   // all others. The force is linear in positions and rotations together.
   void change_of_force(const Array<Coordinates>& step,
-                       const std::vector<Matrix_3x3>& rotations, Array<Coordinates>& change)
+                       const Array<Matrix_3x3>& rotations, Array<Coordinates>& change)
   {
     for_each_fitted_cell(step, [&](int c, const Matrix_3x3& covariance) {
       const auto k = static_cast<std::size_t>(c);
@@ -332,7 +332,7 @@ public:
   void clear_second_derivative()
   {
     m_derivatives = Array<Rotation_derivative>();
-    m_changes = std::vector<Matrix_3x3>();
+    m_changes = Array<Matrix_3x3>();
   }
 
   // For each cell whether its rotation is fitted, to its own covariance or, for the first cell of a
@@ -441,7 +441,7 @@ private:
   }
 
   // at positions that the bending is prepared for
-  double evaluate_prepared(const Points& x, const std::vector<Matrix_3x3>& rotations,
+  double evaluate_prepared(const Points& x, const Array<Matrix_3x3>& rotations,
                            Array<Coordinates>& force)
   {
     force.resize(static_cast<std::size_t>(m_number_of_movable_vertices));
@@ -483,7 +483,7 @@ private:
   std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
   Array<Matrix_3x3> m_covariances;                // for these
   Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
-  std::vector<Matrix_3x3> m_changes;              // of the rotations
+  Array<Matrix_3x3> m_changes;                    // of the rotations
   int m_number_of_rotation_steps = 0;             // of each fit
 };
 

@@ -21,7 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -87,10 +86,10 @@ public:
   }
 
   // gives c and all cells that share its rotation this one
-  void set(int c, const Matrix_3x3& rotation, std::vector<Matrix_3x3>& rotations) const
+  void set(int c, const Matrix_3x3& rotation, Array<Matrix_3x3>& rotations) const
   {
     const Matrix_3x3 copy = rotation; // it may be one of them
-    for_each_of_group(c, [&](int cell) { rotations[static_cast<std::size_t>(cell)] = copy; });
+    for_each_of_group(c, [&](int cell) { rotations[cell] = copy; });
   }
 
   // Of the cells that are chosen, those whose rotations are fitted: of each group the leader.

@@ -27,7 +27,6 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -90,7 +89,7 @@ public:
   // By how much a step from the rotations would lower the energy, by its model. The covariances
   // are those of the positions.
   double gain(const Smooth_rotations& smooth, const Array<Matrix_3x3>& covariances,
-              const std::vector<Matrix_3x3>& rotations)
+              const Array<Matrix_3x3>& rotations)
   {
     const std::size_t n = rotations.size();
     m_step.resize(n);
@@ -117,7 +116,7 @@ public:
 
   // Takes a step, or a share of it, if that lowers the energy; false if it does not.
   bool take(const Smooth_rotations& smooth, const Array<Matrix_3x3>& covariances,
-            std::vector<Matrix_3x3>& rotations)
+            Array<Matrix_3x3>& rotations)
   {
     const std::size_t n = rotations.size();
     if(!(gain(smooth, covariances, rotations) > 0))
@@ -151,10 +150,10 @@ public:
 private:
   // f_c, by which the rotation R_c is pulled: the axis of (S_c + sum over d of s_cd R_d) R_c^T
   static Coordinates force(const Smooth_rotations& smooth, int c, Matrix_3x3 s,
-                           const std::vector<Matrix_3x3>& rotations)
+                           const Array<Matrix_3x3>& rotations)
   {
     smooth.add_neighbors(c, rotations, s);
-    const Matrix_3x3& r = rotations[static_cast<std::size_t>(c)];
+    const Matrix_3x3& r = rotations[c];
     const auto m = [&](std::size_t i, std::size_t j) { // S R^T
       return s[3 * i] * r[3 * j] + s[3 * i + 1] * r[3 * j + 1] + s[3 * i + 2] * r[3 * j + 2];
     };
@@ -165,7 +164,7 @@ private:
   Array<int> m_leader;
   Array<char> m_is_fixed;
   Array<Coordinates> m_force, m_step;
-  std::vector<Matrix_3x3> m_trial;
+  Array<Matrix_3x3> m_trial;
 };
 
 } // namespace internal

@@ -19,9 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -43,11 +41,11 @@ public:
   bool is_none() const { return m_order.empty(); }
   const Array<int>& order() const { return m_order; }
 
-  void add_covariance(int c, const std::vector<Matrix_3x3>& rotations,
+  void add_covariance(int c, const Array<Matrix_3x3>& rotations,
                       Matrix_3x3& covariance) const
   {
     for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
-      add(covariance, m_factors[c], rotations[static_cast<std::size_t>(m_neighbors.items[k])]);
+      add(covariance, m_factors[c], rotations[m_neighbors.items[k]]);
   }
 
 private:

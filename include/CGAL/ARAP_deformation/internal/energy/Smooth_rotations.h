@@ -24,7 +24,6 @@
 #include <limits>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -58,7 +57,7 @@ public:
   }
 
   // to be called before the rotations are fitted
-  void keep(const std::vector<Matrix_3x3>& rotations)
+  void keep(const Array<Matrix_3x3>& rotations)
   {
     if(!is_none())
       m_before = rotations;
@@ -81,10 +80,10 @@ public:
   }
 
   // adds to a matrix the sum over d of s_cd R_d
-  void add_neighbors(int c, const std::vector<Matrix_3x3>& rotations, Matrix_3x3& sum) const
+  void add_neighbors(int c, const Array<Matrix_3x3>& rotations, Matrix_3x3& sum) const
   {
     for(int k = m_neighbors.begin[c]; k < m_neighbors.begin[c + 1]; ++k)
-      add(sum, m_weights[k], rotations[static_cast<std::size_t>(m_neighbors.items[k])]);
+      add(sum, m_weights[k], rotations[m_neighbors.items[k]]);
   }
 
   // calls f(c, d, s_cd) for each pair of neighbors c < d
@@ -97,7 +96,7 @@ public:
           f(c, m_neighbors.items[k], m_weights[k]);
   }
 
-  double evaluate(const std::vector<Matrix_3x3>& rotations) const
+  double evaluate(const Array<Matrix_3x3>& rotations) const
   {
     if(is_none())
       return 0;
@@ -124,7 +123,7 @@ private:
   Index_lists m_neighbors;
   Array<double> m_weights;
   double m_sum_of_weights = 0;
-  std::vector<Matrix_3x3> m_before;
+  Array<Matrix_3x3> m_before;
 };
 
 } // namespace internal

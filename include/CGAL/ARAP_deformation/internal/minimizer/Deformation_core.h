@@ -119,7 +119,7 @@ public:
   // rotations but for those that frames give. Targets that are sets become the projections of the
   // final positions. What it prepares for guesses and coarse metrics is kept for the next run.
   Diagnosis run(const Options& options, const Observer& observe, Targets& targets,
-                Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations, Report& report);
+                Array<Coordinates>& x, Array<Matrix_3x3>& rotations, Report& report);
 
   // the number of tetrahedra that are inside out at the positions x; 0 on a surface
   std::size_t number_of_inverted_simplices(const Array<Coordinates>& x) const;
@@ -131,13 +131,13 @@ private:
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
   Diagnosis run_in_arena(const Options& options, const Observer& observe, Targets& targets,
-                         Array<Coordinates>& x, std::vector<Matrix_3x3>& rotations,
+                         Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
                          Report& report);
   template <typename Function>
   std::optional<Matrix_3x3> mean_at_corners(int s, const Function& rotation_at) const;
   template <typename Function>
   void set_rotations_of_cells(const Function& rotation_at,
-                              std::vector<Matrix_3x3>& rotations) const;
+                              Array<Matrix_3x3>& rotations) const;
   bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
   bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                           Array<Coordinates>& x);

@@ -219,7 +219,7 @@ int Deformation_core::number_of_cells() const
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
                                 Targets& targets, Array<Coordinates>& x,
-                                std::vector<Matrix_3x3>& rotations, Report& report)
+                                Array<Matrix_3x3>& rotations, Report& report)
 {
   Diagnosis diagnosis;
   run_with_threads(threads(options.threads), [&] {
@@ -273,7 +273,7 @@ Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
 // sets the rotations of cells, from rotation_at(v) of vertices
 template <typename Function>
 void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
-                                              std::vector<Matrix_3x3>& rotations) const
+                                              Array<Matrix_3x3>& rotations) const
 {
   if(m_energy_model.cells.has_vertex_cells())
   {
@@ -286,8 +286,7 @@ void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
   for(std::size_t v = 0; v < m_region.rest.size(); ++v)
     of_vertices.push_back(rotation_at(v));
   for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-    rotations[static_cast<std::size_t>(s)] =
-      *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
+    rotations[s] = *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
 }
 
 // Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
@@ -344,7 +343,7 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   // it need not converge: the rest depends on the finer surface
   coarse_options.tolerance = (std::max)(3e-3, options.tolerance);
   Targets targets;
-  std::vector<Matrix_3x3> rotations;
+  Array<Matrix_3x3> rotations;
   Report report;
   const Status status =
     core.run(coarse_options, [](unsigned int, double) { return Visitor_action::proceed; }, targets,
@@ -390,7 +389,7 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
                                          Targets& targets, Array<Coordinates>& x,
-                                         std::vector<Matrix_3x3>& rotations, Report& report)
+                                         Array<Matrix_3x3>& rotations, Report& report)
 {
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
@@ -462,7 +461,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   using Start = Minimization::Start;
   // starts with the rotations that rotation_of() makes of these, one for each vertex
   const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {
-    return minimization.start_with([&](std::vector<Matrix_3x3>& to_set) {
+    return minimization.start_with([&](Array<Matrix_3x3>& to_set) {
       m_state->energy.complete(to_set);
       set_rotations_of_cells([&](std::size_t v) { return rotation_of(values[v]); }, to_set);
       decltype(values)().swap(values); // memory is at its peak from now on

@@ -58,7 +58,7 @@ public:
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
                const Observer& observe, const Array<Coordinates>& rest, Targets& targets,
-               Array<Coordinates>& x_, std::vector<Matrix_3x3>& rotations,
+               Array<Coordinates>& x_, Array<Matrix_3x3>& rotations,
                std::unique_ptr<Coarse_metric>& coarse_metric, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
@@ -104,7 +104,7 @@ public:
   {
     Array<Coordinates> step;
     const double energy = is_tried ? evaluate() : 0;
-    const std::vector<Matrix_3x3> last_rotations = m_last_rotations;
+    const Array<Matrix_3x3> last_rotations = m_last_rotations;
     set_rotations(m_rotations); // others are fitted anew
     m_energy.clear_others(m_rotations);
     evaluate_without_fit();
@@ -136,7 +136,7 @@ public:
   bool try_positions(Array<Coordinates> other)
   {
     const double energy = evaluate();
-    std::vector<Matrix_3x3> fitted = m_rotations;
+    Array<Matrix_3x3> fitted = m_rotations;
     x.swap(other);
     m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force, false);
     keep_rotations();
@@ -394,9 +394,9 @@ private:
   const Observer& m_observe;
   const Array<Coordinates>& m_rest;
   Targets& m_targets;
-  std::vector<Matrix_3x3>& m_rotations;
+  Array<Matrix_3x3>& m_rotations;
   std::unique_ptr<Coarse_metric>& m_coarse_metric;
-  std::vector<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
+  Array<Matrix_3x3> m_last_rotations; // of the last iterate, if the fit depends on them
   Array<Coordinates> m_force;
   double m_value = 0;
   Gap_estimate m_gap;

@@ -18,7 +18,6 @@
 #include <CGAL/ARAP_deformation/internal/simd/Double8.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
-
 namespace CGAL {
 namespace ARAP {
 namespace internal {

@@ -24,7 +24,6 @@
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 
-
 namespace CGAL {
 namespace ARAP {
 namespace internal {
