@@ -112,7 +112,7 @@ struct Problem
     energy.set_fixed(constraints.is_fixed, false);
     system.set_laplacian(laplacian_of(energy));
     CGAL::ARAP::Stages stages;
-    CHECK(system.prepare(constraints, stages));
+    CHECK(system.prepare(constraints, stages).status == CGAL::ARAP::Status::success);
     CHECK(system.meet(targets.hard, x));
     return Minimization(energy, models.closest_rotations, system, constraints, options, observe,
                         region.rest, targets, x, rotations, coarse_metric, report);

@@ -61,9 +61,8 @@ public:
   // the change of R that a change of the covariance makes
   Matrix_3x3 operator()(const Matrix_3x3& change, const Matrix_3x3& rotation) const
   {
-    const Matrix_3x3 m = product_with_transpose(change, rotation);
-    const Coordinates axis = {m[7] - m[5], m[2] - m[6], m[3] - m[1]};
-    const Coordinates w = product(m_inverse, axis);
+    const Coordinates w =
+      product(m_inverse, axial_vector(product_with_transpose(change, rotation)));
     Matrix_3x3 result;
     for(std::size_t c = 0; c < 3; ++c)
     {

@@ -83,7 +83,8 @@ public:
       constraints.is_fixed[m_leader[c]] = true;
     m_is_fixed = constraints.is_fixed;
     Stages stages;
-    return constraints.number_of_free_vertices() > 0 && m_system.prepare(constraints, stages);
+    return constraints.number_of_free_vertices() > 0 &&
+           m_system.prepare(constraints, stages).status == Status::success;
   }
 
   // By how much a step from the rotations would lower the energy, by its model. The covariances
@@ -153,11 +154,7 @@ private:
                            const Array<Matrix_3x3>& rotations)
   {
     smooth.add_neighbors(c, rotations, s);
-    const Matrix_3x3& r = rotations[c];
-    const auto m = [&](std::size_t i, std::size_t j) { // S R^T
-      return s[3 * i] * r[3 * j] + s[3 * i + 1] * r[3 * j + 1] + s[3 * i + 2] * r[3 * j + 2];
-    };
-    return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+    return axial_vector(product_with_transpose(s, rotations[c]));
   }
 
   Constrained_system m_system;

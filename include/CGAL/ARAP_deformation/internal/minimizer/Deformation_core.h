@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/Diagnosis.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
@@ -36,15 +37,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-// a status with the vertex, simplex or hard row that it is about, where there is one
-struct Diagnosis
-{
-  Status status = Status::success;
-  int vertex = -1;
-  int simplex = -1;
-  int hard_row = -1;
-};
 
 // The models that a traits class hands out.
 struct Core_models

@@ -177,14 +177,9 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
                              largest_length * std::sqrt(m_squared_size))
     return {Status::invalid_option};
 
-  if(constraints.hard_rows.size() > Hard_rows::most_rows)
-    return {Status::too_many_control_points};
-  if(const int r = Hard_rows(constraints).find_dependent(); r >= 0)
-    return {Status::dependent_target, -1, -1, r};
-  if(const int v = m_state->system.find_singular_vertex(constraints); v >= 0)
-    return {Status::singular_matrix, v};
-  if(!m_state->system.prepare(constraints, stages))
-    return {Status::singular_matrix};
+  if(const Diagnosis prepared = m_state->system.prepare(constraints, stages);
+     prepared.status != Status::success)
+    return prepared;
   m_state->parts = components.component;
   for(int v = 0; v < n; ++v)
     if(constraints.is_fixed[v])

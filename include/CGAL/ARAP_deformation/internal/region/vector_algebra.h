@@ -89,6 +89,12 @@ inline Matrix_3x3 product_with_transpose(const Matrix_3x3& a, const Matrix_3x3& 
   return c;
 }
 
+// a with m b - m^T b = a x b for all b
+inline Coordinates axial_vector(const Matrix_3x3& m)
+{
+  return {m[7] - m[5], m[2] - m[6], m[3] - m[1]};
+}
+
 constexpr Matrix_3x3 identity_matrix()
 {
   return {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -27,7 +27,7 @@ namespace internal {
 // the axis of a rotation times its angle, which is at most pi
 inline Coordinates rotation_vector(const Matrix_3x3& m)
 {
-  const Coordinates axis = {m[7] - m[5], m[2] - m[6], m[3] - m[1]}; // times 2 sin of the angle
+  const Coordinates axis = axial_vector(m); // times 2 sin of the angle
   const double sine = 0.5 * std::sqrt(dot(axis, axis)), cosine = 0.5 * (m[0] + m[4] + m[8] - 1);
   const double angle = std::atan2(sine, cosine);
   if(sine > 1e-6)

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Quasidefinite_factor.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/region/Diagnosis.h>
 #include <CGAL/ARAP_deformation/internal/solver/Hard_rows.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
@@ -72,13 +73,10 @@ public:
     m_has_factor = false;
   }
 
-  // Whether the solver could factorize the system with these constraints, or can do without; if
-  // not there is no factor. Adds what it did: the order, the factor, the border. A vertex that
-  // makes the system singular by itself is found before, by find_singular_vertex().
-  bool prepare(const Constraints& constraints, Stages& stages);
-
-  // A free vertex whose diagonal entry is not a positive finite number, or -1.
-  int find_singular_vertex(const Constraints& constraints) const;
+  // Makes the factor serve for these constraints. Returns what makes the system singular, if
+  // anything: where only the solver finds that, there is no factor afterwards. Adds what it did:
+  // the order, the factor, the border.
+  Diagnosis prepare(const Constraints& constraints, Stages& stages);
 
   // Replaces the right-hand side x, one row for each movable vertex, zero where it is fixed, by the
   // solution, which has these values of the hard rows, or zero.
@@ -94,6 +92,7 @@ public:
   const Hard_rows& hard_rows() const { return m_hard_rows; }
 
 private:
+  int find_singular_vertex(const Constraints& constraints) const;
   Constraints without_hard_rows(const Constraints& constraints) const;
   bool border_or_eliminate(const Constraints& constraints);
   bool set_border(const Constraints& constraints, bool are_hard_rows_bordered);

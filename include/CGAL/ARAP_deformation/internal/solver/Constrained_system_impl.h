@@ -62,6 +62,7 @@ Sparse_matrix Constrained_system::with_rows(const Weighted_rows& rows) const
   return matrix;
 }
 
+// a free vertex whose diagonal entry is not a positive finite number, or -1
 CGAL_ARAP_INLINE_FUNCTION
 int Constrained_system::find_singular_vertex(const Constraints& constraints) const
 {
@@ -69,13 +70,9 @@ int Constrained_system::find_singular_vertex(const Constraints& constraints) con
   Array<double> diagonal(n);
   for(int v = 0; v < n; ++v)
     diagonal[v] = diagonal_entry(m_laplacian.matrix, v);
-  const auto add = [&](int i, int j, double entry) {
+  constraints.rows.for_each_entry([&](int i, int j, double entry) {
     if(i == j) diagonal[i] += entry;
-  };
-  if(constraints.hard_rows.size() == 0)
-    constraints.rows.for_each_entry(add);
-  else
-    without_hard_rows(constraints).rows.for_each_entry(add);
+  });
   for(int v = 0; v < n; ++v)
     if(!constraints.is_fixed[v] && (!(diagonal[v] > 0) || !std::isfinite(diagonal[v])))
       return v;
@@ -108,26 +105,33 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-bool Constrained_system::prepare(const Constraints& constraints, Stages& stages)
+Diagnosis Constrained_system::prepare(const Constraints& constraints, Stages& stages)
 {
-  m_hard_rows = Hard_rows(constraints);
-  if(constraints.number_of_free_vertices() == 0)
-    return true;
-  const bool has_hard_rows = !m_hard_rows.is_empty();
+  if(constraints.hard_rows.size() > Hard_rows::most_rows)
+    return {Status::too_many_control_points};
+  Hard_rows hard_rows(constraints);
+  if(const int r = hard_rows.find_dependent(); r >= 0)
+    return {Status::dependent_target, -1, -1, r};
+  const bool has_hard_rows = !hard_rows.is_empty();
   const Constraints copy = has_hard_rows ? without_hard_rows(constraints) : Constraints();
   const Constraints& of_matrix = has_hard_rows ? copy : constraints;
+  if(const int v = find_singular_vertex(of_matrix); v >= 0)
+    return {Status::singular_matrix, v};
+  m_hard_rows = std::move(hard_rows);
+  if(constraints.number_of_free_vertices() == 0)
+    return {};
   if(!m_has_factor || !border_or_eliminate(of_matrix))
   {
     if(!factorize(of_matrix, stages))
-      return false;
+      return {Status::singular_matrix};
     if(has_hard_rows && !border_or_eliminate(of_matrix))
     {
       release_factor();
-      return false;
+      return {Status::singular_matrix};
     }
   }
   stages.border |= !m_further_unknowns.empty() || !m_multipliers.empty() || has_hard_rows;
-  return true;
+  return {};
 }
 
 CGAL_ARAP_INLINE_FUNCTION
