@@ -550,12 +550,14 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.selection = values["selection"].as<std::string>();
     if(values.count("transform"))
       line.transforms = values["transform"].as<std::vector<std::string>>();
-    std::vector<std::string> names = line.transforms;
-    names.insert(names.end(), {line.mesh, line.output});
-    if(!values["selection"].defaulted())
-      names.push_back(line.selection);
-    if(std::count(names.begin(), names.end(), std::string()) > 0)
-      throw Usage_error("the name of a file is empty");
+    for(const char* name : {"output", "selection", "report", "image", "animation", "color",
+                            "save-selection", "save-transform"})
+      if(!values[name].defaulted() && values[name].as<std::string>().empty())
+        throw Usage_error("the value of --" + std::string(name) + " is empty");
+    if(std::count(line.transforms.begin(), line.transforms.end(), std::string()) > 0)
+      throw Usage_error("the value of --transform is empty");
+    if(line.mesh.empty())
+      throw Usage_error("the name of the mesh is empty");
     line.report = values["report"].as<std::string>();
     line.image = values["image"].as<std::string>();
     line.animation = values["animation"].as<std::string>();

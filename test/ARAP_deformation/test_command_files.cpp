@@ -244,7 +244,10 @@ void test_text_files()
     refuse_option(option, "the option '" + option + "' is not known");
   refuse_option("--quiet=%canonical_option%", "option '--quiet' does not take any arguments");
   refuse_option("--output=50%.off", "'--output' cannot be specified more than once");
-  check_refused("'' --selection in.sel --transform in.def -o new.off", 2, "a file is empty");
+  check_refused("'' --selection in.sel --transform in.def -o new.off", 2, "the mesh is empty");
+  for(const std::string option : {"report", "image", "animation", "color", "save-selection",
+                                  "save-transform", "transform"}) // a variable that is not set
+    refuse_option("--" + option + " ''", "the value of --" + option + " is empty");
 }
 
 // Editors put a byte order mark at the start of a text, shells of Windows write UTF-16.

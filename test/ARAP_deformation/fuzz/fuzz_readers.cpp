@@ -59,7 +59,8 @@ void read_arguments(const std::string& text)
     argv.push_back(argument.data());
   argv.push_back(nullptr);
   const Command_line line = parse_command_line(static_cast<int>(arguments.size()), argv.data());
-  require(line.is_help || (!line.mesh.empty() && !line.output.empty() && line.options.check()),
+  require(line.is_help || line.is_version ||
+          (!line.mesh.empty() && !line.output.empty() && line.options.check()),
           "complete arguments");
 }
 
