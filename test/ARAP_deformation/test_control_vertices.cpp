@@ -1153,7 +1153,7 @@ void test_all()
       constraints.rows.append(v, weights[2 + k]);
     }
     CGAL::ARAP::Stages stages;
-    CHECK(system.prepare(constraints, stages).status == Status::success);
+    CHECK(system.prepare(constraints, stages).status == CGAL::ARAP::Status::success);
     was_border |= stages.border;
     was_order |= stages.order && step > 0;
 
