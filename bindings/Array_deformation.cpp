@@ -388,7 +388,8 @@ private:
     require(at_vertices ? f(map) : f(of_simplices(map)));
   }
 
-  // for what has no outcome, and in a visitor would be left undone without a word
+  // For what has no outcome, and in a visitor would be left undone without a word. The options stay
+  // as they are: setting them only tells.
   void refuse_in_a_run() { require(m_deformation.set_options(options())); }
 
   template <typename Report_>

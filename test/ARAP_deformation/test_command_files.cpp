@@ -244,7 +244,8 @@ void test_text_files()
     refuse_option(option, "the option '" + option + "' is not known");
   refuse_option("--quiet=%canonical_option%", "option '--quiet' does not take any arguments");
   refuse_option("--output=50%.off", "'--output' cannot be specified more than once");
-  check_refused("'' --selection in.sel --transform in.def -o new.off", 2, "the mesh is empty");
+  check_refused("'' --selection in.sel --transform in.def -o new.off", 2,
+                "the name of the mesh is empty");
   for(const std::string option : {"report", "image", "animation", "color", "save-selection",
                                   "save-transform", "transform"}) // a variable that is not set
     refuse_option("--" + option + " ''", "the value of --" + option + " is empty");

@@ -721,6 +721,11 @@ void test_changes()
     CHECK_AT_MOST(std::abs(changed.final_energy() - expected.final_energy()),
                   1e-6 * expected.final_energy());
     CHECK(!d.deform(1, 0).stages.weights);
+    weight.set_weight(60, 61, 3);
+    CHECK(d.preprocess());
+    const Report refused = d.deform(1, -1); // did nothing: the next one tells what came before
+    CHECK(refused.status == Status::invalid_option && !refused.stages.weights);
+    CHECK(d.deform(1, 0).stages.weights);
 
     const std::vector<Point> before = points_of(mesh);
     const CGAL::ARAP::Matrix_3x3 rotation = d.rotation(Vertex(60));

@@ -64,8 +64,10 @@ public:
 
   Outcome preprocess()
   {
-    Phase_seconds unused;
-    Outcome prepared = prepare(m_options, 0, unused);
+    double unused = 0;
+    Outcome prepared = begin(m_options, unused);
+    if(prepared)
+      prepared = prepare(m_options, 0, unused);
     if(prepared)
       prepared.message +=
         about_unconstrained_components(m_prepared.core().unconstrained_components());
@@ -180,16 +182,19 @@ private:
     bool& m_flag;
   };
 
-  // brings everything up to date for a run with these options and this inertia
-  Outcome prepare(const Options& options, double inertia, Phase_seconds& seconds)
+  // what comes before all stages
+  Outcome begin(const Options& options, double& transfer)
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
-    if(Outcome checked = options.check(); !checked)
-      return checked;
-    if(Outcome taken = take_points_of_others(seconds.transfer); !taken)
-      return taken;
-    Scoped_seconds preprocessing(seconds.preprocess);
+    const Outcome checked = options.check();
+    return checked ? take_points_of_others(transfer) : checked;
+  }
+
+  // brings all stages up to date for a run with these options and this inertia
+  Outcome prepare(const Options& options, double inertia, double& preprocess)
+  {
+    Scoped_seconds seconds(preprocess);
     m_prepared.set_inertia(inertia);
     return m_prepared.prepare(m_vertices, this->m_cell_values, options, m_stages);
   }
@@ -199,7 +204,9 @@ private:
                   const Visitor& visitor, Report& report)
   {
     const double inertia = step ? step->inertia() : 0;
-    const Outcome prepared = prepare(options, inertia, report.seconds);
+    if(Outcome begun = begin(options, report.seconds.transfer); !begun)
+      return begun;
+    const Outcome prepared = prepare(options, inertia, report.seconds.preprocess);
     report.stages = std::exchange(m_stages, {});
     if(!prepared)
       return prepared;
