@@ -11,6 +11,7 @@
 
 #include "include/dense_algebra.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -25,9 +26,9 @@ bool is_invertible(const Eigen::MatrixXd& a)
   return pivots.minCoeff() > 1e-14 * pivots.maxCoeff();
 }
 
-double smallest_eigenvalue(const Eigen::MatrixXd& a)
+bool is_positive_definite(const Eigen::MatrixXd& a)
 {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return Eigen::LLT<Eigen::MatrixXd>(a).info() == Eigen::Success;
 }
 
 Matrix_of_long_doubles least_squares(const Matrix_of_long_doubles& a,

@@ -419,9 +419,12 @@ Eigen::MatrixXd eliminated(Eigen::MatrixXd front, int width, unsigned int thread
 // supernodes of all sizes that are divided, and not divided, into blocks
 void test_supernodes()
 {
+  Every_nth is_run(7);
   for(int width : {1, 3, 4, 62, 64, 67, 128, 131, 194, 330})
     for(int below : {0, 1, 6, 61, 192, 193, 251, 390, 579})
     {
+      if(!is_run())
+        continue;
       test_case() = "supernode " + std::to_string(width) + ", " + std::to_string(below);
       const int height = width + below;
       const Eigen::MatrixXd random = Eigen::MatrixXd::Random(height, height);
@@ -430,19 +433,13 @@ void test_supernodes()
       const Eigen::MatrixXd result = eliminated(front, width, 1);
       CHECK(result == eliminated(front, width, 2) && result == eliminated(front, width, 8));
 
-      Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(height, height);
-      const Eigen::LLT<Eigen::MatrixXd> llt(front.topLeftCorner(width, width));
-      const Eigen::MatrixXd factor = llt.matrixL();
-      Eigen::MatrixXd rows = front.topRightCorner(width, below);
-      if(below > 0) // without columns, Eigen binds a reference to a null pointer
-        llt.matrixL().solveInPlace(rows);
-      expected.topLeftCorner(width, width) = factor;
-      expected.diagonal().head(width) = factor.diagonal().cwiseInverse();
-      expected.bottomLeftCorner(below, width) = rows.transpose();
-      expected.bottomRightCorner(below, below) =
-        (front.bottomRightCorner(below, below) - rows.transpose() * rows)
-          .triangularView<Eigen::Lower>();
-      CHECK_AT_MOST(largest_entry(result - expected) / height, 1e-13);
+      // the columns times their transposes, and what is left, are the matrix
+      Eigen::MatrixXd columns = result.leftCols(width);
+      columns.diagonal() = columns.diagonal().cwiseInverse().eval(); // the factor has the inverses
+      Eigen::MatrixXd difference = columns * columns.transpose() - front;
+      difference.bottomRightCorner(below, below) += result.bottomRightCorner(below, below);
+      difference.triangularView<Eigen::StrictlyUpper>().setZero();
+      CHECK_AT_MOST(largest_entry(difference) / height, 1e-13);
 
       for(int wrong : {0, width / 2, width - 1})
       {

@@ -1220,7 +1220,7 @@ int main(int argc, char** argv)
 #else
   std::cout << "NOTICE: pipes, devices and signals are tested on Linux only." << std::endl;
 #endif
-  const int runs = argc > 2 ? std::stoi(argv[2]) : short_or_long(150, 300);
+  const int runs = argc > 2 ? std::stoi(argv[2]) : short_or_long(100, 300);
   const unsigned int seed = argc > 3 ? static_cast<unsigned int>(std::stoul(argv[3])) : 1;
   tests.push_back([&] { mutations::test_all(runs, seed); });
   return test_command(argc, argv, tests);

@@ -28,8 +28,8 @@ Eigen::MatrixXd dense_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& 
 // whether a is far from singular
 bool is_invertible(const Eigen::MatrixXd& a);
 
-// of a symmetric matrix
-double smallest_eigenvalue(const Eigen::MatrixXd& a);
+// whether a symmetric matrix is
+bool is_positive_definite(const Eigen::MatrixXd& a);
 
 // x with the smallest || a x - b ||, column by column
 Matrix_of_long_doubles least_squares(const Matrix_of_long_doubles& a,
