@@ -9,7 +9,9 @@ if(NOT TARGET CGAL::Petsc_support)
   find_library(PETSC_LIBRARY NAMES petsc_real petsc
                HINTS ${PETSC_CONF_INCLUDE_DIR}/../lib ${PETSC_INCLUDE_DIR}/../lib)
   mark_as_advanced(PETSC_INCLUDE_DIR PETSC_CONF_INCLUDE_DIR PETSC_LIBRARY)
-  if(PETSC_INCLUDE_DIR AND PETSC_CONF_INCLUDE_DIR AND PETSC_LIBRARY)
+  # these may be of a PETSc that was removed since
+  if(EXISTS "${PETSC_INCLUDE_DIR}/petscksp.h" AND EXISTS "${PETSC_CONF_INCLUDE_DIR}/petscconf.h" AND
+     EXISTS "${PETSC_LIBRARY}")
     file(STRINGS ${PETSC_CONF_INCLUDE_DIR}/petscconf.h petsc_is_another
          REGEX "define PETSC_USE_(COMPLEX|64BIT_INDICES|REAL_SINGLE|REAL___FLOAT128)")
     file(STRINGS ${PETSC_CONF_INCLUDE_DIR}/petscconf.h petsc_has_mumps

@@ -1,0 +1,157 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_OPTION_TEXT_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_OPTION_TEXT_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/Status.h>
+
+#include <boost/lexical_cast.hpp>
+
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename Value>
+using Choices = std::initializer_list<std::pair<const char*, Value>>;
+
+// Calls f with an option, and with what its values are called if they have names.
+template <typename Options_, typename Function>
+Outcome with_option(Options_& options, const std::string& name, const Function& f)
+{
+  if(name == "cells")
+    return f(options.cells,
+             Choices<Cell_scheme>{{"spokes", Cell_scheme::spokes()},
+                                  {"spokes_and_rims", Cell_scheme::spokes_and_rims()},
+                                  {"elements", Cell_scheme::elements()},
+                                  {"k_ring:K", Cell_scheme::spokes()}});
+  if(name == "minimizer")
+    return f(options.minimizer, Choices<Minimizer>{{"automatic", Minimizer::automatic},
+                                                   {"local_global", Minimizer::local_global},
+                                                   {"quasi_newton", Minimizer::quasi_newton}});
+  if(name == "initial_guess")
+    return f(options.initial_guess,
+             Choices<Initial_guess>{{"automatic", Initial_guess::automatic},
+                                    {"previous", Initial_guess::previous},
+                                    {"rotations", Initial_guess::rotations},
+                                    {"laplacian", Initial_guess::laplacian}});
+  if(name == "iterations")
+    return f(options.iterations);
+  if(name == "threads")
+    return f(options.threads);
+  if(name == "tolerance")
+    return f(options.tolerance);
+  if(name == "verify_minimum")
+    return f(options.verify_minimum, Choices<bool>{{"true", true}, {"false", false}});
+  if(name == "coarse_metric")
+    return f(options.coarse_metric, Choices<bool>{{"true", true}, {"false", false}});
+  if(name == "bending_length")
+    return f(options.bending_length);
+  if(name == "smoothing_length")
+    return f(options.smoothing_length);
+  return Outcome(Status::invalid_option,
+                 "the option '" + name + "' is not known; use one of cells, minimizer, "
+                 "initial_guess, iterations, threads, tolerance, verify_minimum, coarse_metric, "
+                 "bending_length, smoothing_length");
+}
+
+// Reads a value, or tells which there are; Options::check() sees whether it is in its range.
+struct Read_option
+{
+  const std::string& name;
+  const std::string& text;
+
+  template <typename Value>
+  Outcome operator()(Value& value, Choices<Value> choices) const
+  {
+    const std::string ring = "k_ring:";
+    if constexpr(std::is_same_v<Value, Cell_scheme>)
+      if(text.compare(0, ring.size(), ring) == 0)
+      {
+        unsigned int k = 0;
+        const std::string number = text.substr(ring.size());
+        const Outcome outcome = Read_option{"cells k_ring", number}(k);
+        if(outcome)
+          value = Cell_scheme::k_ring(k);
+        return outcome;
+      }
+    std::string names;
+    for(const auto& choice : choices)
+    {
+      if(choice.first == text)
+      {
+        value = choice.second;
+        return Outcome(Status::success, std::string());
+      }
+      names += (names.empty() ? "" : ", ") + std::string(choice.first);
+    }
+    return Outcome(Status::invalid_option,
+                   name + " '" + text + "' is not known; use one of " + names);
+  }
+
+  Outcome operator()(unsigned int& value) const
+  {
+    constexpr unsigned int most = (std::numeric_limits<unsigned int>::max)();
+    long long number = -1;
+    if(!boost::conversion::try_lexical_convert(text, number) || number < 0 || number > most)
+      return Outcome(Status::invalid_option, name + " '" + text + "' is not a whole number from 0 "
+                     "to " + std::to_string(most));
+    value = static_cast<unsigned int>(number);
+    return Outcome(Status::success, std::string());
+  }
+
+  Outcome operator()(double& value) const
+  {
+    if(!boost::conversion::try_lexical_convert(text, value))
+      return Outcome(Status::invalid_option, name + " '" + text + "' is not a number");
+    return Outcome(Status::success, std::string());
+  }
+};
+
+// Writes a value as Read_option reads it.
+struct Write_option
+{
+  std::string& text;
+
+  template <typename Value>
+  Outcome operator()(const Value& value, Choices<Value> choices) const
+  {
+    for(const auto& choice : choices)
+      if(choice.second == value && text.empty())
+        text = choice.first;
+    if constexpr(std::is_same_v<Value, Cell_scheme>)
+      if(value.rings() > 0)
+        text = "k_ring:" + std::to_string(value.rings());
+    return Outcome(Status::success, std::string());
+  }
+
+  template <typename Number>
+  Outcome operator()(const Number& value) const
+  {
+    text = boost::lexical_cast<std::string>(value); // all digits
+    return Outcome(Status::success, std::string());
+  }
+};
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_SESSION_OPTION_TEXT_H
