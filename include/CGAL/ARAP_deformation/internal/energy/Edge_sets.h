@@ -109,6 +109,10 @@ struct Simplices
   template <typename Function>
   void for_each_edge(const Function& f) { visit_edges(*this, f); }
 
+  // calls f(i, j, w) for each edge of simplex s
+  template <typename Function>
+  void for_each_edge_of(int s, const Function& f) const { visit_edges_of(*this, s, f); }
+
 private:
   // Whether the matrix of a simplex has no negative eigenvalue up to rounding: raised by that much
   // its pivots are positive. NaN are found elsewhere.
@@ -142,12 +146,16 @@ private:
   static void visit_edges(Self& self, const Function& f)
   {
     for(int s = 0; s < self.size(); ++s)
-    {
-      auto* w = self.weights.data() + self.first_weight[s];
-      for(int a = self.corners.begin[s]; a < self.corners.begin[s + 1]; ++a)
-        for(int b = a + 1; b < self.corners.begin[s + 1]; ++b, ++w)
-          f(s, self.corners.items[a], self.corners.items[b], *w);
-    }
+      visit_edges_of(self, s, [&f, s](int i, int j, auto& w) { f(s, i, j, w); });
+  }
+
+  template <typename Self, typename Function>
+  static void visit_edges_of(Self& self, int s, const Function& f)
+  {
+    auto* w = self.weights.data() + self.first_weight[s];
+    for(int a = self.corners.begin[s]; a < self.corners.begin[s + 1]; ++a)
+      for(int b = a + 1; b < self.corners.begin[s + 1]; ++b, ++w)
+        f(self.corners.items[a], self.corners.items[b], *w);
   }
 };
 

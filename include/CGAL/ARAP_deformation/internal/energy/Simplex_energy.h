@@ -190,11 +190,9 @@ public:
       for(int s = begin; s < end; ++s)
       {
         const double stiffness = total_stiffness(s, m_stiffness);
-        const double* w = m_simplices.weights.data() + m_simplices.first_weight[s];
-        for(int a = m_simplices.corners.begin[s]; a < m_simplices.corners.begin[s + 1]; ++a)
-          for(int b = a + 1; b < m_simplices.corners.begin[s + 1]; ++b, ++w)
-            sums.add(stiffness * *w, rest[m_simplices.corners.items[a]] -
-                                       rest[m_simplices.corners.items[b]]);
+        m_simplices.for_each_edge_of(s, [&](int i, int j, double w) {
+          sums.add(stiffness * w, rest[i] - rest[j]);
+        });
       }
       return sums;
     });
@@ -279,18 +277,10 @@ public:
   // adds what the covariance of cell c consists of
   void add_coefficients(int c, const Points& rest, Covariance_coefficients& sum) const
   {
-    const auto& corners = m_simplices.corners;
     for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
-    {
-      const int s = m_cells.sets.items[k];
-      const double* w = m_simplices.weights.data() + m_simplices.first_weight[s];
-      for(int a = corners.begin[s]; a < corners.begin[s + 1]; ++a)
-        for(int b = a + 1; b < corners.begin[s + 1]; ++b, ++w)
-        {
-          const int i = corners.items[a], j = corners.items[b];
-          sum.add_edge(i, j, Double4::all(m_cells.stiffness[c] * *w) * (rest[i] - rest[j]));
-        }
-    }
+      m_simplices.for_each_edge_of(m_cells.sets.items[k], [&](int i, int j, double w) {
+        sum.add_edge(i, j, Double4::all(m_cells.stiffness[c] * w) * (rest[i] - rest[j]));
+      });
   }
 
   // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
