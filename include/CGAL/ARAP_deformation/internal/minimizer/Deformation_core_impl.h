@@ -186,8 +186,6 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
       m_state->parts[v] = components.is_unconstrained(v) || m_is_isolated[v] ? -2 : -1;
   m_state->rigid_start.reset();
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first);
-  if(!m_rotations.empty())
-    m_state->energy.clear_others(m_rotations);
   m_constraints = std::move(constraints);
   m_unconstrained_components.clear();
   for(const auto& component : smallest_index)
@@ -386,6 +384,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
                                          Targets& targets, Array<Coordinates>& x,
                                          Array<Matrix_3x3>& rotations, Report& report)
 {
+  if(!rotations.empty()) // a cell that no longer counts leaves nothing to a later run
+    m_state->energy.clear_others(rotations);
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
   // where cells depend on others that are far away, a part is not all that its energy depends on
