@@ -96,6 +96,11 @@ public:
   {
     Options options = m_deformation.options();
     require(ARAP::set_option(options, name, value));
+    const bool at_vertices = m_deformation.options().cells.has_vertex_cells();
+    require(options.cells.has_vertex_cells() == at_vertices || !(m_has_stiffness || m_has_groups),
+            std::string("cells: there is a stiffness or a group of each ") +
+            (at_vertices ? "vertex" : "simplex") +
+            ", which is not that of other cells; clear it first");
     require(m_deformation.set_options(options));
   }
 
@@ -178,6 +183,7 @@ public:
   }
   void target(std::int32_t handle, double* point) const override
   {
+    require_handle(handle);
     visit_handle(handle, [&](auto known) {
       const Point p = m_deformation.target_position(known);
       std::copy(p.begin(), p.end(), point);
@@ -225,14 +231,18 @@ public:
   void set_stiffness(Numbers values) override
   {
     if(values.rows == 0)
-      return require(m_deformation.clear_stiffness());
-    with_cell_map(values, [&](const auto& map) { return m_deformation.set_stiffness(map); });
+      require(m_deformation.clear_stiffness());
+    else
+      with_cell_map(values, [&](const auto& map) { return m_deformation.set_stiffness(map); });
+    m_has_stiffness = values.rows > 0;
   }
   void set_groups(Indices groups) override
   {
     if(groups.rows == 0)
-      return require(m_deformation.clear_groups());
-    with_cell_map(groups, [&](const auto& map) { return m_deformation.set_groups(map); });
+      require(m_deformation.clear_groups());
+    else
+      with_cell_map(groups, [&](const auto& map) { return m_deformation.set_groups(map); });
+    m_has_groups = groups.rows > 0;
   }
 
   void preprocess() override { require(m_deformation.preprocess()); }
@@ -352,25 +362,30 @@ private:
     return result;
   }
 
+  bool is_vertex(std::int32_t handle) const
+  {
+    return handle >= 0 && static_cast<std::size_t>(handle) < number_of_vertices();
+  }
   template <typename Function>
   void visit_handle(std::int32_t handle, const Function& f) const
   {
-    const auto v = static_cast<std::size_t>(handle);
-    const bool is_vertex = handle >= 0 && v < number_of_vertices();
-    require(is_vertex ? m_deformation.is_control_vertex(v)
-                      : m_deformation.is_control_point(control_point(handle)),
-            name(handle) + " is neither a control vertex nor a control point");
-    if(is_vertex)
-      f(v);
+    if(is_vertex(handle))
+      f(static_cast<std::size_t>(handle));
     else
       f(control_point(handle));
+  }
+  void require_handle(std::int32_t handle) const
+  {
+    require(is_vertex(handle) ? m_deformation.is_control_vertex(static_cast<std::size_t>(handle))
+                              : m_deformation.is_control_point(control_point(handle)),
+            name(handle) + " is neither a control vertex nor a control point");
   }
   // All handles are known before the first one is changed.
   template <typename Function>
   void for_each(Indices handles, const Function& f) const
   {
     for(std::size_t k = 0; k < handles.rows; ++k)
-      visit_handle(*handles[k], [](auto) {});
+      require_handle(*handles[k]);
     for(std::size_t k = 0; k < handles.rows; ++k)
       visit_handle(*handles[k], [&](auto handle) { require(f(handle)); });
   }
@@ -409,6 +424,7 @@ private:
   Points m_points, m_rest;
   Simplices m_simplices;
   Deformation m_deformation;
+  bool m_has_stiffness = false, m_has_groups = false;
 };
 
 } // namespace

@@ -273,6 +273,32 @@ def test_stiffness_and_groups():
     assert np.ptp(rigid.rotations(), axis=0).max() == 0 < np.ptp(d.rotations(), axis=0).max()
 
 
+def test_values_of_cells_are_not_those_of_other_cells():
+    d = bent()
+    for set_values, cleared in ((d.set_stiffness, []), (d.set_groups, [])):
+        set_values(np.ones(len(d.vertices), dtype=int))
+        with pytest.raises(ValueError, match="cells: .* of each vertex, .*; clear it first"):
+            d.cells = "elements"
+        d.cells = "spokes"
+        assert d.deform()
+        set_values(cleared)
+    d.cells = "elements"
+    d.set_stiffness(np.ones(len(d.simplices)))
+    with pytest.raises(ValueError, match="of each simplex"):
+        d.cells = "spokes"
+    assert d.deform()
+
+
+def test_a_handle_twice():
+    d = bent()
+    handle, *others = d.handles
+    d.erase_handles([handle, handle])
+    assert list(d.handles) == others
+    with pytest.raises(ValueError, match="neither"):
+        d.erase_handles([others[0], handle])
+    assert list(d.handles) == others
+
+
 def test_a_free_fall():
     d = arap.Deformation(*SHAPES["solid"], tetrahedra=True)
     g, h = np.array([0, 0, -10.0]), 0.01
