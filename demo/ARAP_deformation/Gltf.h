@@ -76,6 +76,18 @@ public:
     }
   }
 
+  // An index or a size. Throws a Json::exception if it is a fraction, or too large a number, whose
+  // conversion is not defined.
+  static std::size_t whole(const Json& number)
+  {
+    return number.is_number_integer() ? number.get<std::size_t>()
+                                      : number.get_ref<const Json::number_unsigned_t&>();
+  }
+  static std::size_t whole(const Json& object, const char* key, std::size_t otherwise)
+  {
+    return object.contains(key) ? whole(object[key]) : otherwise;
+  }
+
   // Throws if the accessor is not in a buffer, or needs what is not supported.
   Array array(std::size_t index, const std::string& type) const
   {
@@ -84,20 +96,19 @@ public:
        !accessor.contains("bufferView"))
       throw std::runtime_error("has an accessor that is sparse, compressed, or not of the type " +
                                type);
-    const Json& view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+    const Json& view = json.at("bufferViews").at(whole(accessor["bufferView"]));
     Array result;
-    result.component = accessor.at("componentType");
+    result.component = static_cast<int>(whole(accessor.at("componentType")));
     const std::size_t bytes = (result.component == BYTE_INDEX    ? 1
                                : result.component == SHORT_INDEX ? 2
                                                                  : 4) *
                               (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
-    result.buffer = view.at("buffer");
+    result.buffer = whole(view.at("buffer"));
     if(result.buffer >= buffers.size())
       throw std::runtime_error("has an accessor in a buffer that does not exist");
-    result.begin = view.value("byteOffset", std::size_t(0)) +
-                   accessor.value("byteOffset", std::size_t(0));
-    result.stride = view.value("byteStride", bytes);
-    result.size = accessor.at("count");
+    result.begin = whole(view, "byteOffset", 0) + whole(accessor, "byteOffset", 0);
+    result.stride = whole(view, "byteStride", bytes);
+    result.size = whole(accessor.at("count"));
     const double end = double(result.begin) + double(result.stride) * (double(result.size) - 1) +
                        double(bytes);
     if(!(double(result.size) <= end && end <= double(buffers[result.buffer].size())))
@@ -236,7 +247,7 @@ private:
     });
     for(const Json& buffer : json.value("buffers", Json::array()))
     {
-      const std::size_t size = buffer.at("byteLength");
+      const std::size_t size = whole(buffer.at("byteLength"));
       const std::string uri = buffer.value("uri", "");
       const std::size_t comma = uri.find(";base64,");
       m_is_inside.push_back(uri.empty() || comma != std::string::npos);

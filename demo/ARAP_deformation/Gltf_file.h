@@ -151,15 +151,18 @@ private:
   // The first nodes of the scene; without a scene, those that are no child.
   std::vector<std::size_t> roots() const
   {
-    using Indices = std::vector<std::size_t>;
     const Gltf::Json& json = m_gltf.json;
+    std::vector<std::size_t> result;
     if(json.contains("scenes"))
-      return json["scenes"].at(json.value("scene", std::size_t(0))).at("nodes").get<Indices>();
+    {
+      for(const auto& node : json["scenes"].at(Gltf::whole(json, "scene", 0)).at("nodes"))
+        result.push_back(Gltf::whole(node));
+      return result;
+    }
     std::set<std::size_t> children;
     for(const auto& node : json.at("nodes"))
-      for(std::size_t child : node.value("children", Indices()))
-        children.insert(child);
-    Indices result;
+      for(const auto& child : node.value("children", Gltf::Json::array()))
+        children.insert(Gltf::whole(child));
     for(std::size_t node = 0; node < json["nodes"].size(); ++node)
       if(children.count(node) == 0)
         result.push_back(node);
@@ -176,7 +179,7 @@ private:
     const Eigen::Affine3d to_scene = parent * transform(node);
     if(node.contains("mesh"))
     {
-      const std::size_t mesh = node["mesh"];
+      const std::size_t mesh = Gltf::whole(node["mesh"]);
       if(node.contains("skin"))
         throw std::runtime_error("the node " + std::to_string(index) + " has a skin; only rigid "
                                  "nodes can be deformed");
@@ -188,20 +191,21 @@ private:
         read_primitive(primitive, to_scene);
     }
     for(const auto& child : node.value("children", Gltf::Json::array()))
-      read_node(child, to_scene, depth + 1);
+      read_node(Gltf::whole(child), to_scene, depth + 1);
   }
 
   void read_primitive(const Gltf::Json& primitive, const Eigen::Affine3d& to_scene)
   {
-    const int triangles = 4;
-    if(primitive.value("mode", triangles) != triangles)
+    const std::size_t triangles = 4;
+    if(Gltf::whole(primitive, "mode", triangles) != triangles)
       throw std::runtime_error("has a primitive that is no list of triangles");
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");
-    std::pair<std::size_t, std::optional<std::size_t>> accessors(attributes.at("POSITION"), {});
+    std::pair<std::size_t, std::optional<std::size_t>> accessors(
+      Gltf::whole(attributes.at("POSITION")), {});
     if(attributes.contains("NORMAL"))
-      accessors.second = attributes["NORMAL"].get<std::size_t>();
+      accessors.second = Gltf::whole(attributes["NORMAL"]);
     const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
     if(positions.component != Gltf::FLOAT ||
        (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT))
@@ -225,7 +229,7 @@ private:
     }
     std::optional<Gltf::Array> corners;
     if(primitive.contains("indices"))
-      corners = m_gltf.array(primitive["indices"], "SCALAR");
+      corners = m_gltf.array(Gltf::whole(primitive["indices"]), "SCALAR");
     const std::size_t size = corners ? corners->size : positions.size;
     for(std::size_t i = 0; i + 2 < size; i += 3)
     {

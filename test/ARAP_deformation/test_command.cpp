@@ -1006,6 +1006,10 @@ void test_gltf()
   refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
   refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
+  for(double number : {0.5, 1e308}) // where an index must be
+    for(const char* pointer : {"/nodes/0/children/0", "/meshes/0/primitives/0/attributes/POSITION",
+                               "/accessors/0/bufferView", "/bufferViews/0/buffer"})
+      refuse(pointer, number, "is no glTF that can be read");
   auto twice = json; // another mesh with these positions, in the node of the scene
   twice["meshes"].push_back(json["meshes"][0]);
   twice["nodes"][0]["mesh"] = 1;
