@@ -700,8 +700,9 @@ public:
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`; the identity
-  /// where `v` has no cell in the region, and after a change of the region of interest or the cells
-  /// until the next call. \pre `options().cells.has_vertex_cells()`
+  /// where `v` has no cell in the region and, until the next call, after `reset()`,
+  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells.
+  /// \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {
     CGAL_precondition_msg(options().cells.has_vertex_cells(),

@@ -1037,6 +1037,17 @@ void test(const Held_shape<Dimension>& shape)
   CHECK(!CGAL::ARAP::locate(domain, Point(nan, 0, 0)));
 }
 
+// a cell with five corners is no tetrahedron, and found by no point in it
+void test_cell_of_other_size()
+{
+  test_case() = "a cell with five corners";
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  const std::vector<std::vector<std::size_t>> cells = {{0, 1, 2, 3, 4}, {0, 1, 2, 3}};
+  const auto found = CGAL::ARAP::locate(CGAL::ARAP::make_tetrahedron_soup_domain(points, cells),
+                                        Point(0.2, 0.2, 0.2));
+  CHECK(found && found->simplex == 1 && found->coordinates.size() == 4);
+}
+
 void test_function()
 {
   test_case() = "arap_deform";
@@ -1172,6 +1183,7 @@ int main()
   sets::test_surface();
   sets::test_refusals();
   sets::test_frames_of_sets();
+  locations::test_cell_of_other_size();
   locations::test_function();
   guess::test_all();
   return checks_result();

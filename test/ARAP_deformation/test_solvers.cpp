@@ -34,6 +34,9 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseLU>
+#ifdef CGAL_ARAP_TEST_ALL // dear to compile
+#include <Eigen/SparseQR>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -415,6 +418,8 @@ void test_all()
     Eigen_sparse_solver<Eigen::SimplicialLDLT<Sparse_matrix, Eigen::Upper>>()));
   CHECK_CONFORMS(check_sparse_solver(
     Eigen_sparse_solver<Eigen::ConjugateGradient<Sparse_matrix, Eigen::Lower | Eigen::Upper>>()));
+  CHECK_CONFORMS(check_sparse_solver(
+    Eigen_sparse_solver<Eigen::SparseQR<Sparse_matrix, Eigen::COLAMDOrdering<int>>>()));
   CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<CGAL_cholesky>()));
 #endif
 

@@ -22,9 +22,9 @@ public:
   /// will have the same value in `CGAL::ARAP::Report::energy`.
   double energy() const;
 
-  /// writes the points of this iterate: calls `put(map, v, point)` for each free vertex and each
-  /// control vertex `v`. All other vertices are where they were before the run, and are not
-  /// written.
+  /// writes the points of this iterate: calls `put(map, v, point)` for each vertex `v` of the region
+  /// of interest and each control vertex. All other vertices are where they were before the run,
+  /// and are not written.
   ///
   /// Does not affect the run, unless `map` is the point map of the deformation itself. Linear time
   /// in the size of the region of interest.

@@ -30,6 +30,8 @@
 namespace Eigen {
 template <typename Matrix, typename Ordering>
 class SparseLU;
+template <typename Matrix, typename Ordering>
+class SparseQR;
 } // namespace Eigen
 
 namespace CGAL {
@@ -59,11 +61,13 @@ template <template <typename, int, typename...> class EigenSolver, typename Matr
 constexpr bool
   reads_lower_triangle_only<EigenSolver<Matrix, Eigen::Lower, Arguments...>> = true;
 
-// Eigen::SparseLU has no info() before it has a factor.
+// These have no info() before they have a factor.
 template <typename EigenSolver>
 constexpr bool reports_analysis = true;
 template <typename Matrix, typename Ordering>
 constexpr bool reports_analysis<Eigen::SparseLU<Matrix, Ordering>> = false;
+template <typename Matrix, typename Ordering>
+constexpr bool reports_analysis<Eigen::SparseQR<Matrix, Ordering>> = false;
 
 } // namespace internal
 

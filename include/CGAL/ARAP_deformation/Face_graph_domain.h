@@ -82,7 +82,8 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// \tparam VertexIndexMap a model of `ReadablePropertyMap` from the vertices to 0, 1, ..., default
 ///         the internal map of the mesh or, if there is none, one initialized at construction
 /// \tparam OutputPointMap a model of `WritablePropertyMap` from the vertices to points of the same
-///         type, default `VertexPointMap`
+///         type, which must be others than those that are read; default `VertexPointMap`, whose
+///         points are changed in place
 ///
 /// \cgalModels{ARAPDomain}
 template <typename PolygonMesh, typename VertexPointMap = Default,

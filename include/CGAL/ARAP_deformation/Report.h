@@ -28,7 +28,7 @@ namespace ARAP {
 /// the wall-clock time of each phase of a call, in seconds.
 struct Phase_seconds
 {
-  double preprocess = 0;    ///< region, weights, matrix and factorization; 0 if all was up to date
+  double preprocess = 0;    ///< region, weights, matrix, factorization; near 0 if up to date
   double transfer = 0;      ///< targets and points read, and points written
   double initial_guess = 0; ///< the initial guess
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations

@@ -66,8 +66,9 @@ namespace ARAP {
 /// Differences:
 ///
 /// - *Failure.* `preprocess()` returns `false`, and `outcome()` tells why and names the vertex.
-///   `deform()` returns a `CGAL::ARAP::Report`. A call that fails leaves the mesh and the object
-///   unchanged. Functions that set a target return an `Outcome`.
+///   `deform()` returns a `CGAL::ARAP::Report`. If one of them fails, the mesh and the object are
+///   as they were. Functions that set a target return an `Outcome`; those that take a range set
+///   all targets that they can.
 /// - *Targets.* All functions, not only `set_target_position()`, ignore vertices that are not
 ///   control vertices; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of

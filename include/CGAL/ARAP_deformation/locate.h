@@ -58,7 +58,7 @@ public:
       internal::Array<Coordinates> points;
       for(const auto& v : vertices)
         points.push_back(Domain::coordinates(domain.point(v)));
-      if(points.size() > Domain::dimension && internal::find_non_finite(points) < 0)
+      if(internal::find_non_finite(points) < 0)
         append(s, points, corners);
     });
     m_search = internal::make_simplex_search(corners);

@@ -33,17 +33,44 @@
 
 namespace CGAL {
 namespace ARAP {
+namespace internal {
+
+// The triangles with an area of a polygon that is cut from one of its corners: the one where there
+// are most, as what lies beside one without area has a side in common with several others.
+template <typename Point>
+std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>& polygon,
+                                                  const std::vector<Point>& points)
+{
+  const std::size_t n = polygon.size();
+  std::vector<std::vector<std::size_t>> most;
+  for(std::size_t first = 0; first < n && most.size() + 2 < n; ++first)
+  {
+    std::vector<std::vector<std::size_t>> triangles;
+    for(std::size_t k = 1; k + 1 < n; ++k)
+    {
+      const std::size_t a = polygon[first], b = polygon[(first + k) % n],
+                        c = polygon[(first + k + 1) % n];
+      if(!CGAL::collinear(points[a], points[b], points[c]))
+        triangles.push_back({a, b, c});
+    }
+    if(triangles.size() > most.size())
+      most = std::move(triangles);
+  }
+  return most;
+}
+
+} // namespace internal
 
 /// \ingroup PkgARAPDeformationQuality
 /// \brief returns how many pairs of triangles of a surface, or of the boundary of tetrahedra,
 /// intersect other than in a common corner or side, by the exact predicates of
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
-/// Polygons are cut from one of their corners. Triangles without area do not count. Where the
-/// surface is not an orientable manifold, as at an edge of three faces, the triangles that meet
-/// there may count. Takes \f$O(n \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of
-/// which have bounding boxes that intersect. No other header needs CGAL's package Polygon Mesh
-/// Processing.
+/// Polygons are cut from one of their corners, into triangles with an area if that is possible.
+/// Triangles without area do not count; those beside one may, and so may triangles where the
+/// surface is not an orientable manifold, as at an edge of three faces. Takes
+/// \f$O(n \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which have bounding boxes
+/// that intersect. No other header needs CGAL's package Polygon Mesh Processing.
 ///
 /// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,
 ///        with its own points, or a model of `ARAPDomain`, which may have others
@@ -64,9 +91,8 @@ std::size_t number_of_self_intersections(const Shape& shape)
       points[domain.index(v)] = Point(p[0], p[1], p[2]);
     }
     for(const auto& face : internal::Simplex_list<Domain>(domain).faces())
-      for(std::size_t k = 1; k + 1 < face.size(); ++k)
-        if(!CGAL::collinear(points[face[0]], points[face[k]], points[face[k + 1]]))
-          triangles.push_back({face[0], face[k], face[k + 1]});
+      for(auto& triangle : internal::cut_polygon(face, points))
+        triangles.push_back(std::move(triangle));
   });
   PMP::orient_polygon_soup(points, triangles); // so that there is a mesh of them
   CGAL::Surface_mesh<Point> mesh;

@@ -29,8 +29,8 @@ namespace ARAP {
 ///
 /// The names are those of the members of `Options` and of the enumerators; cells are `spokes`,
 /// `spokes_and_rims`, `elements` or `k_ring:K`. Returns `Status::invalid_option`, with a message
-/// that has the name and tells what is possible, and changes nothing, if there is no such option or
-/// the value is not one of it.
+/// that has the name and tells what is possible, and changes nothing, if there is no such option,
+/// the value is not one of it, or the options are not valid with it. They must be valid before.
 inline Outcome set_option(Options& options, const std::string& name, const std::string& value)
 {
   Options changed = options;

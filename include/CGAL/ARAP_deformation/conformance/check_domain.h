@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -93,7 +94,8 @@ private:
     bool is_isolated = true;
     m_domain.for_each_incident_simplex(v, [&](simplex_descriptor s, const auto& corners) {
       is_isolated = false;
-      const std::vector<std::size_t> sorted = sorted_indices(corners);
+      const std::vector<vertex_descriptor> own(std::begin(corners), std::end(corners));
+      const std::vector<std::size_t> sorted = sorted_indices(own); // corners end with the next call
       require(std::binary_search(sorted.begin(), sorted.end(), m_domain.index(v)),
               "for_each_incident_simplex() gives a simplex without the vertex itself", v);
       require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(),
@@ -102,7 +104,7 @@ private:
               "the number of corners of a simplex is not that of the dimension", v);
       require(sorted == sorted_indices(m_domain.simplex_vertices(s)),
               "simplex_vertices() and for_each_incident_simplex() give different corners", v);
-      for(vertex_descriptor w : corners)
+      for(vertex_descriptor w : own)
       {
         require(m_vertices.count(m_domain.index(w)) == 1,
                 "a corner of a simplex is not in vertices()", v);
@@ -154,9 +156,10 @@ private:
 /// \brief tests a model of `ARAPDomain` on a mesh: its functions must agree at each vertex and
 /// simplex.
 ///
-/// Moves each point and restores it: the mesh is unchanged afterwards if the domain conforms and
-/// does not throw. Takes time proportional to the sum of the squared numbers of simplices at the
-/// vertices.
+/// The mesh must have no cells that are not valid simplices: the concept allows them, but they get
+/// a message here. Moves each point and restores it: the mesh is unchanged afterwards if the domain
+/// conforms and does not throw; what is written to another place gets the points of the mesh. Takes
+/// time proportional to the sum of the squared numbers of simplices at the vertices.
 ///
 /// \returns a message for each requirement that the domain violates, with the first vertex where it
 /// does; none if the domain conforms.

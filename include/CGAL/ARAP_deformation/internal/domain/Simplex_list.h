@@ -33,15 +33,13 @@ class Simplex_list
 public:
   using Simplex = std::vector<std::size_t>;
 
-  // Leaves out what is no simplex: fewer corners than it needs, or tetrahedra with more than four.
   explicit Simplex_list(const Domain& domain)
   {
     for_each_simplex(domain, [&](const auto&, const auto& corners) {
       Simplex simplex;
       for(const auto& v : corners)
         simplex.push_back(domain.index(v));
-      if(Domain::dimension == 3 ? simplex.size() == 4 : simplex.size() >= 3)
-        m_simplices.push_back(std::move(simplex));
+      m_simplices.push_back(std::move(simplex));
     });
   }
 

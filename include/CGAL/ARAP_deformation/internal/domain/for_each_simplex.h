@@ -21,7 +21,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Calls f(s, corners) for each simplex of a whole domain: at the corner of smallest index.
+// Calls f(s, corners) for each simplex of a whole domain: at the corner of smallest index. Leaves
+// out cells that are none, as they have too few corners, or more than four among tetrahedra.
 template <typename Domain, typename Function>
 void for_each_simplex(const Domain& domain, const Function& f)
 {
@@ -30,7 +31,8 @@ void for_each_simplex(const Domain& domain, const Function& f)
       const bool is_first = std::none_of(
         std::begin(corners), std::end(corners),
         [&, index = domain.index(v)](const auto& w) { return domain.index(w) < index; });
-      if(is_first)
+      const auto n = std::distance(std::begin(corners), std::end(corners));
+      if(is_first && (Domain::dimension == 3 ? n == 4 : n >= 3))
         f(s, corners);
     });
 }

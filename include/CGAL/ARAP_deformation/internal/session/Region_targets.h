@@ -57,7 +57,7 @@ public:
       if(!entry.is_control)
         continue;
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
-      if(!is_finite(target) && !m_vertices.whole_target(entry).set)
+      if(m_vertices.weight(entry) > 0 && !is_finite(target) && !m_vertices.whole_target(entry).set)
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex),
                                  "the target of ");
       const int v = region.find_vertex(domain(), entry.vertex);
