@@ -283,7 +283,7 @@ def test_values_of_cells_are_not_those_of_other_cells():
         assert d.deform()
         set_values(cleared)
     d.cells = "elements"
-    d.set_stiffness(np.ones(len(d.simplices)))
+    d.set_stiffness(np.ones(len(SHAPES["bar"][1])))
     with pytest.raises(ValueError, match="of each simplex"):
         d.cells = "spokes"
     assert d.deform()
