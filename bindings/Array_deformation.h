@@ -110,7 +110,8 @@ public:
   virtual void set_rotations_of_motion(Indices vertices) = 0;
   virtual void erase_rotations(Indices vertices) = 0;
 
-  // a value for each cell: n, or one for each simplex if cells are simplices; none clears them
+  // A value for each cell: n, or one for each simplex if cells are simplices; none clears them. As
+  // long as there are values cells cannot be changed from vertices to simplices, or back.
   virtual void set_stiffness(Numbers values) = 0;
   virtual void set_groups(Indices groups) = 0;
 

@@ -199,7 +199,8 @@ export interface Session {
   setRotationsOfMotion(vertices: Indices | number): void;
   eraseRotations(vertices: Indices | number): void;
 
-  /** a value for each vertex, or for each simplex if cells are elements; none clears them */
+  /** a value for each vertex, or for each simplex if cells are elements; none clears them, as must
+   * be before cells become elements or are these no longer */
   setStiffness(values?: Numbers): void;
   setGroups(groups?: Indices): void;
 
