@@ -35,8 +35,8 @@
 #include <iostream>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <stdexcept>
