@@ -15,6 +15,7 @@
 #include "Output_file.h"
 #include "Pick.h"
 #include "arguments.h"
+#include "command_help.h"
 
 #include <CGAL/ARAP_deformation/Chosen_edge_weight.h>
 #include <CGAL/ARAP_deformation/Dynamics.h>
@@ -22,7 +23,6 @@
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/ARAP_deformation/set_option.h>
 
-#include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -30,7 +30,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <ostream>
 #include <regex>
 #include <stdexcept>
 #include <string>
@@ -89,163 +88,6 @@ struct Command_line
   Rotation_choice rotation = Rotation_choice::newton;
   Options options;
 };
-
-inline boost::program_options::options_description described_options()
-{
-  using boost::program_options::value;
-  const Options defaults;
-  boost::program_options::options_description task("What is held and moved"), output("Output"),
-    run("The deformation"), dynamics("Time steps with inertia, instead of a shape at rest"),
-    other("Other");
-  // an option that picks or moves vertices: what it says depends on those before it
-  const auto in_order = [] { return value<std::vector<std::string>>()->composing(); };
-  task.add_options()
-    ("fix", in_order()->value_name("WHAT"), "these vertices stay")
-    ("handle", in_order()->value_name("WHAT"),
-     "these are a handle, for the next five options; each --handle is a new one")
-    ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
-    ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
-     "turn it about x, y, z or a vector, by degrees; about a point or else its own center")
-    ("soft", in_order()->value_name("WEIGHT"),
-     "its targets pull with this weight, instead of being met; an edge weighs about 1 on a "
-     "surface, and about its length in a volume")
-    ("onto", in_order()->value_name("PLANE"),
-     "to this plane, plane:X,Y,Z,NX,NY,NZ, along which they glide; the plane moves as the handle")
-    ("turn",
-     "its rotation is prescribed to the cells at it: even one vertex turns its surroundings")
-    ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
-    ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")
-    ("rigid", in_order()->value_name("WHAT"),
-     "these cells share a rotation; each --rigid is a part of its own")
-    ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
-     "instead of --handle: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a "
-     "comment; what --fix picks is fixed, whatever the file says")
-    ("transform", value<std::vector<std::string>>()->composing()->value_name("T.def"),
-     "instead of moves: a 4 x 4 matrix, row by row, for each handle or one for all; given "
-     "several times: key frames, and without --frames and --animation OUT-0001 is written for the "
-     "first, OUT-0002 for the second and so on, and no OUT")
-    ("save-selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
-     "write the selection that was picked")
-    ("save-transform", value<std::string>()->default_value("", "")->value_name("T.def"),
-     "write the matrices of the handles at the end");
-  output.add_options()
-    ("output,o", value<std::string>()->value_name("OUT")->required(),
-     "the deformed mesh; for tetrahedra .mesh or the format of MESH")
-    ("frames", value<std::string>()->value_name("N"),
-     "write OUT-0001, OUT-0002 and so on, the number before the ending: the way to the end in N "
-     "frames, each from the one before")
-    ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
-     "of the frames: .gif, .mp4 or .webm (needs ffmpeg), .gltf or .glb")
-    ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
-     "write a report as JSON")
-    ("quality", "look for self-intersections, too, for the report")
-    ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
-     "color the picture, and add a property to a .ply file: edge_error, area or volume (two "
-     "names for one measure, of faces or of tetrahedra), angle, spike (how far a vertex is from "
-     "its neighbors)")
-    ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
-     "draw the shape before and after, fixed red, handles yellow; needs povray")
-    ("view", value<std::string>()->value_name("A,E"),
-     "of --image and of a film: azimuth and elevation of the eye in degrees, or its direction "
-     "X,Y,Z");
-  run.add_options()
-    ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
-     "which edges share a rotation: spokes, spokes_and_rims, elements, or k_ring:K, the spokes of "
-     "all vertices within K rings")
-    ("bending", value<std::string>()->default_value("0")->value_name("B"),
-     "the length over which a sharp bend is spread, as a share of the bounding box's diagonal; "
-     "0.02 to 0.1 keep a pulled vertex from being a spike, except on a border")
-    ("smoothing", value<std::string>()->default_value("0")->value_name("S"),
-     "the length over which rotations are made smooth, as a share of the bounding box's diagonal")
-    ("weights", value<std::string>()->default_value("safe_cotangent")->value_name("NAME"),
-     "cotangent (with spokes the energy can be negative), clamped_cotangent, uniform, or "
-     "safe_cotangent: clamped for stars (spokes, k_ring) only")
-    ("minimizer", value<std::string>()->default_value("automatic")->value_name("NAME"),
-     "local_global, that of the paper; quasi_newton, with fewer iterations; or automatic: "
-     "quasi_newton unless the tolerance is 0")
-    ("solver", value<std::string>()->default_value("default")->value_name("NAME"),
-     "of linear systems: default, single_precision (its factor takes half the memory), eigen, and "
-     "where the command is linked with them cholmod, petsc (its factor is distributed over the "
-     "processes that mpirun starts) or petsc_cg (without a factor, for the largest shapes)")
-    ("rotation", value<std::string>()->default_value("newton")->value_name("NAME"),
-     "how rotations are fitted: newton, or svd")
-    ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
-     "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
-     "laplacian, or automatic: previous, or rotations where a handle is torn away by over a "
-     "tenth of the diagonal and that is better, and on large surfaces then a run on a coarser one")
-    ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
-       ->value_name("N"), "run at most N iterations")
-    ("tolerance", value<std::string>()->value_name("T")
-       ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
-     "stop when the estimated relative gap to the minimum is at most T; 0: run all N")
-    ("verify_minimum", value<std::string>()->default_value("true")->value_name("true|false"),
-     "look at the second derivative before the end, and go on if that is not at a minimum")
-    ("coarse_metric", value<std::string>()->default_value("true")->value_name("true|false"),
-     "complete the metric of quasi-Newton runs where 30,000 vertices or more are free: fewer "
-     "iterations, more memory")
-    ("threads", value<std::string>()->default_value(std::to_string(defaults.threads))
-       ->value_name("N"),
-     "use at most N threads; 0: as many as processors");
-  dynamics.add_options()
-    ("gravity", value<std::string>()->value_name("X,Y,Z"),
-     "each of the --frames is a time step under this acceleration, in any consistent units")
-    ("time_step", value<std::string>()->value_name("H"), "the time of a step; default 1/60")
-    ("modulus", value<std::string>()->default_value("1")->value_name("M"),
-     "how stiff a body of density 1 is: its elastic energy is M times the energy")
-    ("damping", value<std::string>()->default_value("0")->value_name("D"),
-     "the rate at which velocities decay");
-  other.add_options()
-    ("quiet", "print only errors: no summary, no notes, no progress")
-    ("help,h", "print this and exit")
-    ("version", "print the version, and what it was built with, and exit");
-  return task.add(output).add(run).add(dynamics).add(other);
-}
-
-inline void print_help(std::ostream& out)
-{
-  out << "usage: arap_deform MESH -o OUT --handle WHAT --rotate AXIS ANGLE ... [options]\n\n"
-         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
-         "    --rotate x 60 50%,50%,40%\n\n"
-         "holds the lowest twentieth of the shape, turns the top by 60 degrees about a\n"
-         "point at two fifths of the height, and lets the rest follow so that every small\n"
-         "part of it turns and moves, but stretches as little as possible (Sorkine and\n"
-         "Alexa 2007).\n\n"
-         "MESH is a surface in an .off, .obj, .ply, .stl, .gltf or .glb file, or tetrahedra\n"
-         "in a .mesh (Medit), .msh (Gmsh, text or binary), .vtk (text) or .vtu file. OUT is\n"
-         "of the same kind; a pipe gets the format of MESH. A note says what OUT does not\n"
-         "keep of MESH.\n\n"
-         "WHAT picks vertices; later options win. It is one of\n"
-         "  z:90%..  y:..0.2  x:-1..1          between two x, y or z, or beyond one\n"
-         "  box:X0,Y0,Z0,X1,Y1,Z1  sphere:X,Y,Z,R  inside a box, inside a ball\n"
-         "  plane:X,Y,Z,NX,NY,NZ               the side to which the normal N points\n"
-         "  near:X,Y,Z                         the nearest vertex\n"
-         "  point:X,Y,Z                        for --fix and --handle: no vertex, but the\n"
-         "                                     nearest point in a face, or in a tetrahedron\n"
-         "  list:0,7,12  list:@FILE            numbers of vertices, from 0\n"
-         "A coordinate N% goes from 0% to 100% of the bounding box; a length N% is of its\n"
-         "diagonal. Cells are those of vertices, or with --cells elements of simplices all\n"
-         "of whose corners are picked.\n\n"
-      << described_options()
-      << "\nBetween key frames the center of a handle moves along a straight line, its\n"
-         "rotation turns at constant speed, and its stretch is interpolated linearly. This\n"
-         "makes two key frames, a way through them, and a film of a body under gravity:\n\n"
-         "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
-         "    --rotate x 60 50%,50%,40% --save-transform bent.def\n"
-         "  arap_deform cactus.off -o turned.off --fix z:..5% --handle z:90%.. \\\n"
-         "    --rotate z 90 --save-transform turned.def\n"
-         "  arap_deform cactus.off -o film.off --fix z:..5% --handle z:90%.. \\\n"
-         "    --transform bent.def --transform turned.def --frames 24\n"
-         "  arap_deform cactus.off -o hanging.off --fix z:..5% --gravity 1,0,0 \\\n"
-         "    --modulus 20 --frames 60 --animation hanging.gif\n\n"
-         "The report tells status, message, iterations, energy (initial, and after each),\n"
-         "estimated_relative_gap to the minimum, the kind of end (minimum, flat, undecided,\n"
-         "unknown), saddles_left, plateaus_left, edge_length_error (relative root mean\n"
-         "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
-         "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
-         "first vertex; nothing holds them, and they stay), seconds, and more.\n\n"
-         "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
-         "is written, and existing files are unchanged.\n";
-}
 
 // what --color measures
 inline Vertex_measure vertex_measure(const std::string& name)
@@ -454,6 +296,13 @@ inline void check_task(const Command_line& line)
                         pick.second.name());
 }
 
+// the value of an option that has a single one
+inline const std::string& value_of(const std::string& option,
+                                   const boost::program_options::variables_map& values)
+{
+  return values[option].as<std::string>();
+}
+
 // Reads the options of time steps.
 inline std::optional<Dynamics> read_dynamics(const boost::program_options::variables_map& values)
 {
@@ -465,13 +314,13 @@ inline std::optional<Dynamics> read_dynamics(const boost::program_options::varia
     {
       if(!values.count("gravity"))
         throw Usage_error("--" + std::string(name) + " is for time steps: give --gravity, too");
-      dynamics.*member = number<double>(name, values[name].as<std::string>());
+      dynamics.*member = number<double>(name, value_of(name, values));
     }
   if(!values.count("gravity"))
     return std::nullopt;
   if(!values.count("frames") && values["animation"].defaulted())
     throw Usage_error("--gravity: give --frames, how many time steps there are, or --animation");
-  const auto g = numbers("--gravity", values["gravity"].as<std::string>(), "x,y,z");
+  const auto g = numbers("--gravity", value_of("gravity", values), "x,y,z");
   dynamics.acceleration = {g[0], g[1], g[2]};
   if(const Outcome checked = dynamics.check(); !checked)
     throw Usage_error(with_options(checked.message));
@@ -482,7 +331,7 @@ inline std::optional<Dynamics> read_dynamics(const boost::program_options::varia
 inline void read_frames(const boost::program_options::variables_map& values, Command_line& line)
 {
   const int keys = static_cast<int>((std::max)(line.transforms.size(), std::size_t(1)));
-  line.frames = values.count("frames") ? number<int>("frames", values["frames"].as<std::string>())
+  line.frames = values.count("frames") ? number<int>("frames", value_of("frames", values))
                 : line.animation.empty() ? keys : 24 * keys;
   line.is_sequence = values.count("frames") || (keys > 1 && line.animation.empty());
   if(line.frames < keys || line.frames > 9999)
@@ -492,12 +341,79 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
     throw Usage_error("--output " + line.output + ": frames need a file each");
   if(values.count("view"))
   {
-    const std::string text = values["view"].as<std::string>();
+    const std::string text = value_of("view", values);
     const bool is_direction = split(text).size() == 3;
     line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
     if(is_direction && line.view == std::vector<double>(3, 0))
       throw Usage_error("--view 0,0,0 is no direction");
+    if(line.image.empty() && line.animation.empty())
+      throw Usage_error("--view is for pictures and films: give --image or --animation, too");
   }
+}
+
+// Reads the names of files.
+inline void read_files(const boost::program_options::variables_map& values, Command_line& line)
+{
+  line.mesh = value_of("mesh", values);
+  line.output = value_of("output", values);
+  line.selection = value_of("selection", values);
+  if(values.count("transform"))
+    line.transforms = values["transform"].as<std::vector<std::string>>();
+  for(const char* name : {"output", "selection", "report", "image", "animation", "color",
+                          "save-selection", "save-transform"})
+    if(!values[name].defaulted() && value_of(name, values).empty())
+      throw Usage_error("the value of --" + std::string(name) + " is empty");
+  if(std::count(line.transforms.begin(), line.transforms.end(), std::string()) > 0)
+    throw Usage_error("the value of --transform is empty");
+  if(line.mesh.empty())
+    throw Usage_error("the name of the mesh is empty");
+  line.report = value_of("report", values);
+  line.image = value_of("image", values);
+  line.animation = value_of("animation", values);
+  line.save_selection = value_of("save-selection", values);
+  line.save_transform = value_of("save-transform", values);
+  if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
+     !is_written_directly(line.image))
+    throw Usage_error("--image " + line.image + ": the picture must be a .png file");
+}
+
+// Reads the models of the traits: weights, solver and rotation.
+inline void read_models(const boost::program_options::variables_map& values, Command_line& line)
+{
+  line.weights = chosen_weight(value_of("weights", values));
+#ifndef CGAL_LINKED_WITH_PETSC
+  if(const std::string name = value_of("solver", values); name.rfind("petsc", 0) == 0)
+    throw Usage_error("--solver " + name + ": this arap_deform was built without PETSc");
+#endif
+  line.solver = chosen<Solver_choice>(
+    "solver", value_of("solver", values),
+    {{"default", Solver_choice::automatic},
+     {"single_precision", Solver_choice::single_precision},
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+     {"cholmod", Solver_choice::cholmod},
+#endif
+#ifdef CGAL_LINKED_WITH_PETSC
+     {"petsc", Solver_choice::petsc},
+     {"petsc_cg", Solver_choice::petsc_cg},
+#endif
+     {"eigen", Solver_choice::eigen}});
+  line.rotation = chosen<Rotation_choice>(
+    "rotation", value_of("rotation", values),
+    {{"newton", Rotation_choice::newton}, {"svd", Rotation_choice::svd}});
+}
+
+// Reads what are options of the library, too.
+inline void read_options(const boost::program_options::variables_map& values, Options& options)
+{
+  for(const char* name :
+      {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
+        "verify_minimum", "coarse_metric"})
+    if(const Outcome set = set_option(options, name, value_of(name, values)); !set)
+      throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
+  options.bending_length = number<double>("bending", value_of("bending", values));
+  options.smoothing_length = number<double>("smoothing", value_of("smoothing", values));
+  if(const Outcome checked = options.check(); !checked)
+    throw Usage_error(with_options(checked.message));
 }
 
 // The arguments of the command, where the names of options may be written with - for _.
@@ -545,64 +461,16 @@ inline Command_line parse_command_line(int argc, char** argv)
     po::notify(values);
 
     line.is_quiet = values.count("quiet") > 0;
-    line.mesh = values["mesh"].as<std::string>();
-    line.output = values["output"].as<std::string>();
-    line.selection = values["selection"].as<std::string>();
-    if(values.count("transform"))
-      line.transforms = values["transform"].as<std::vector<std::string>>();
-    for(const char* name : {"output", "selection", "report", "image", "animation", "color",
-                            "save-selection", "save-transform"})
-      if(!values[name].defaulted() && values[name].as<std::string>().empty())
-        throw Usage_error("the value of --" + std::string(name) + " is empty");
-    if(std::count(line.transforms.begin(), line.transforms.end(), std::string()) > 0)
-      throw Usage_error("the value of --transform is empty");
-    if(line.mesh.empty())
-      throw Usage_error("the name of the mesh is empty");
-    line.report = values["report"].as<std::string>();
-    line.image = values["image"].as<std::string>();
-    line.animation = values["animation"].as<std::string>();
-    line.save_selection = values["save-selection"].as<std::string>();
-    line.save_transform = values["save-transform"].as<std::string>();
+    read_files(values, line);
     line.dynamics = read_dynamics(values);
     read_picks(parsed.options, line);
     check_task(line);
     line.has_quality = values.count("quality") > 0;
-    line.color = values["color"].as<std::string>();
+    line.color = value_of("color", values);
     if(!line.color.empty())
       vertex_measure(line.color);
-    line.weights = chosen_weight(values["weights"].as<std::string>());
-#ifndef CGAL_LINKED_WITH_PETSC
-    if(const std::string name = values["solver"].as<std::string>(); name.rfind("petsc", 0) == 0)
-      throw Usage_error("--solver " + name + ": this arap_deform was built without PETSc");
-#endif
-    line.solver = chosen<Solver_choice>(
-      "solver", values["solver"].as<std::string>(),
-      {{"default", Solver_choice::automatic},
-       {"single_precision", Solver_choice::single_precision},
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-       {"cholmod", Solver_choice::cholmod},
-#endif
-#ifdef CGAL_LINKED_WITH_PETSC
-       {"petsc", Solver_choice::petsc},
-       {"petsc_cg", Solver_choice::petsc_cg},
-#endif
-       {"eigen", Solver_choice::eigen}});
-    line.rotation = chosen<Rotation_choice>(
-      "rotation", values["rotation"].as<std::string>(),
-      {{"newton", Rotation_choice::newton}, {"svd", Rotation_choice::svd}});
-    const auto text = [&values](const char* option) { return values[option].as<std::string>(); };
-    for(const char* name :
-        {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
-          "verify_minimum", "coarse_metric"})
-      if(const Outcome set = set_option(line.options, name, text(name)); !set)
-        throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
-    line.options.bending_length = number<double>("bending", text("bending"));
-    line.options.smoothing_length = number<double>("smoothing", text("smoothing"));
-    if(const Outcome checked = line.options.check(); !checked)
-      throw Usage_error(with_options(checked.message));
-    if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
-       !is_written_directly(line.image))
-      throw Usage_error("--image " + line.image + ": the picture must be a .png file");
+    read_models(values, line);
+    read_options(values, line.options);
     read_frames(values, line);
     check_outputs(line);
     return line;
