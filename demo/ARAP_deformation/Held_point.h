@@ -1,0 +1,74 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_DEMO_HELD_POINT_H
+#define CGAL_ARAP_DEFORMATION_DEMO_HELD_POINT_H
+
+#include "Command_line.h"
+#include "shape_files.h"
+
+#include <CGAL/ARAP_deformation/locate.h>
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace CGAL::ARAP::demo {
+
+// A point inside a simplex that is picked, with its status.
+template <typename Domain>
+struct Held_point
+{
+  int status;
+  Location<typename Domain::simplex_descriptor> location;
+};
+
+template <typename Domain>
+std::vector<Held_point<Domain>> held_points(const Command_line& line, const Domain& domain,
+                                            const std::vector<Kernel::Point_3>& points)
+{
+  std::vector<Held_point<Domain>> held;
+  std::optional<Locator<Domain>> locator;
+  for(const auto& [status, pick] : line.picks)
+    if(pick.is_point())
+    {
+      if(!locator)
+        locator.emplace(domain);
+      const auto location = locator->locate(pick.point(points));
+      if(!location)
+        throw std::runtime_error(pick.name() + ": there is no place for it in the mesh");
+      held.push_back({status, *location});
+    }
+  return held;
+}
+
+// with their places
+template <typename Domain>
+std::vector<std::pair<int, Kernel::Point_3>> places(const std::vector<Held_point<Domain>>& held,
+                                                    const Domain& domain)
+{
+  std::vector<std::pair<int, Kernel::Point_3>> result;
+  for(const auto& point : held)
+  {
+    Kernel::Vector_3 place(0, 0, 0);
+    std::size_t k = 0;
+    for(auto v : domain.simplex_vertices(point.location.simplex))
+      place += point.location.coordinates[k++] * (domain.point(v) - CGAL::ORIGIN);
+    result.emplace_back(point.status, CGAL::ORIGIN + place);
+  }
+  return result;
+}
+
+} // namespace CGAL::ARAP::demo
+
+#endif // CGAL_ARAP_DEFORMATION_DEMO_HELD_POINT_H
