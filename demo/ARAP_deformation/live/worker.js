@@ -20,24 +20,30 @@ function listOf(values, wanted) {
   return Int32Array.from(list);
 }
 
-function disposeOfSession() {
+// Takes the place of the session with a new one, which prepare() makes ready. If that fails, all is
+// as before.
+function newSession(next, points, weights, prepare = () => {}) {
+  const before = { shape, session, status, vertices, pointHandles };
+  try {
+    shape = next;
+    session = undefined; // not to be disposed of if there is no new one
+    session = arap.session(points, shape.simplices, {
+      corners: shape.corners,
+      volume: shape.volume,
+      weights,
+    });
+    status = new Int32Array(points.length / 3).fill(1);
+    vertices = [];
+    pointHandles = [];
+    prepare();
+  } catch (error) {
+    session?.dispose();
+    ({ shape, session, status, vertices, pointHandles } = before);
+    throw error;
+  }
   states.forEach((state) => state.dispose());
   states.clear();
-  session?.dispose();
-  session = undefined;
-}
-
-function newSession(points, weights) {
-  const next = arap.session(points, shape.simplices, {
-    corners: shape.corners,
-    volume: shape.volume,
-    weights,
-  });
-  disposeOfSession();
-  session = next;
-  status = new Int32Array(points.length / 3).fill(1);
-  vertices = [];
-  pointHandles = [];
+  before.session?.dispose();
 }
 
 // the control vertices and points of the painted regions; only what has changed is told to the
@@ -81,22 +87,15 @@ const operations = {
     arap = await load({ wasmBinary: wasm });
   },
   open({ points, simplices, corners, volume, weights }) {
-    const before = shape;
-    shape = { simplices, corners, volume };
-    try {
-      newSession(points, weights);
-    } catch (error) {
-      shape = before;
-      throw error;
-    }
+    newSession({ simplices, corners, volume }, points, weights);
   },
   weights({ weights, handles, options, stiffness }) {
-    const kept = status,
-      rest = session.restPoints();
-    newSession(rest, weights);
-    session.setOptions(options);
-    session.setStiffness(stiffness);
-    hold(kept, handles);
+    const kept = status;
+    newSession(shape, session.restPoints(), weights, () => {
+      session.setOptions(options);
+      session.setStiffness(stiffness);
+      hold(kept, handles);
+    });
   },
   options({ options }) {
     session.setOptions(options);

@@ -1,0 +1,117 @@
+// What buttons and keys do with the shape that is open.
+import { FREE, HANDLE } from './colors.js';
+import { placeGizmo, showMeasure } from './drawing.js';
+import { pump, stopPlaying } from './follow.js';
+import { handlesMoved, hold, membersOf, messageOfHandles } from './handles.js';
+import { busy, complain, say } from './messages.js';
+import { center, identity, matrixOf, rigidParts } from './motion.js';
+import { cellStiffness, options, sendOptions, showOptions } from './options.js';
+import { painted } from './painting.js';
+import { $, changed, engine, page, view } from './state.js';
+import { changing, commit, forgetPast, optionsOfLast } from './undo.js';
+import { THREE } from './view.js';
+
+export async function optionsChanged() {
+  const before = optionsOfLast();
+  if ($('cells').value === 'elements') $('bending').value = 0;
+  const wanted = options();
+  try {
+    if ((wanted.cells === 'elements') !== (before.cells === 'elements') && page.shape.stiffness) {
+      page.shape.stiffness = null;
+      await engine.call('stiffness', { values: [] });
+      say('The painted stiffness was of other cells, and is cleared.');
+    }
+    await sendOptions(wanted);
+    page.isSettled = false;
+    await commit();
+    pump();
+  } catch (error) {
+    complain(error);
+    showOptions(before);
+    await sendOptions(before).catch(complain);
+  }
+  changed();
+}
+
+export async function weightsChanged() {
+  const weights = $('weights').value,
+    handles = messageOfHandles(),
+    stiffness = cellStiffness();
+  await changing(async () => {
+    await busy('Weights…', () =>
+      engine.call('weights', { weights, handles, options: options(), stiffness }),
+    );
+    page.shape.weights = weights;
+    forgetPast();
+  });
+  $('weights').value = page.shape.weights;
+}
+
+export function changeHandle(change) {
+  const handle = page.shape?.handles[page.chosen];
+  if (!handle) return;
+  change(handle);
+  changing(hold);
+}
+
+export async function removeHandle() {
+  const handle = page.shape?.handles[page.chosen];
+  if (!handle) return;
+  for (let v = 0; v < page.shape.status.length; ++v)
+    if (page.shape.status[v] === page.chosen + HANDLE) page.shape.status[v] = FREE;
+  handle.point = null;
+  page.stroke = null;
+  page.tool = 'grab';
+  await painted();
+}
+
+export async function reset() {
+  stopPlaying();
+  await changing(async () => {
+    page.shape.handles.forEach((h) => {
+      h.matrix = identity();
+    });
+    const { points } = await engine.call('reset');
+    page.spare = view.setPositions(points);
+  });
+}
+
+export async function restFromNow() {
+  stopPlaying();
+  await changing(async () => {
+    const { rest } = await engine.call('rest');
+    page.shape.points = rest;
+    page.shape.handles.forEach((handle, k) => {
+      if (handle.point) handle.pivot = rigidParts(handle).place.toArray();
+      else if (handle.size) handle.pivot = center(rest, membersOf(k));
+      handle.matrix = identity();
+    });
+    page.keys = [];
+    await hold();
+    showMeasure();
+    say('This is the rest shape from now on.');
+  });
+}
+
+export function moveByKey(key, turns) {
+  const handle = page.shape?.handles[page.chosen],
+    direction = {
+      ArrowLeft: [-1, 0, 0],
+      ArrowRight: [1, 0, 0],
+      ArrowUp: [0, 1, 0],
+      ArrowDown: [0, -1, 0],
+      PageUp: [0, 0, -1],
+      PageDown: [0, 0, 1],
+    }[key];
+  if (!handle || !direction) return false;
+  const { q, place } = rigidParts(handle),
+    axis = new THREE.Vector3(...direction).transformDirection(view.camera.matrixWorld);
+  if (turns) q.premultiply(new THREE.Quaternion().setFromAxisAngle(axis, Math.PI / 36));
+  else place.addScaledVector(axis, 0.01 * page.shape.diagonal);
+  handle.matrix = matrixOf(handle.pivot, q, place);
+  handlesMoved();
+  placeGizmo();
+  clearTimeout(moveByKey.timer);
+  moveByKey.timer = setTimeout(commit, 400);
+  return true;
+}

@@ -1,0 +1,89 @@
+// A handle is what is painted with one color, or one point in a face: it moves with its matrix,
+// from the rest shape.
+import { FIXED, HANDLE } from './colors.js';
+import { drawMarks, placeGizmo } from './drawing.js';
+import { center, fittedMotion, identity } from './motion.js';
+import { changed, engine, page, view } from './state.js';
+
+export function membersOf(k) {
+  const list = [];
+  for (let v = 0; v < page.shape.status.length; ++v)
+    if (page.shape.status[v] === k + HANDLE) list.push(v);
+  return list;
+}
+
+export const isDeformed = () =>
+  page.shape.handles.some((h) => h.matrix.some((x, i) => Math.abs(x - identity()[i]) > 1e-12));
+
+export function newHandle(rest = {}) {
+  return {
+    matrix: identity(),
+    pivot: [0, 0, 0],
+    weight: null,
+    turns: false,
+    point: null,
+    size: 0,
+    ...rest,
+  };
+}
+
+export const messageOfHandles = () =>
+  page.shape.handles.map(({ matrix, weight, turns, point }) => ({
+    matrix,
+    weight: weight ?? Infinity,
+    turns,
+    point,
+  }));
+
+export const hold = () =>
+  engine.call('hold', { status: page.shape.status.slice(), handles: messageOfHandles() });
+
+export const isThere = (handle) => handle.size > 0 || !!handle.point;
+
+// after painting: which handles there are, and where they turn about
+export function recountHandles(fits) {
+  const { shape } = page;
+  const sizes = new Map();
+  let fixed = 0;
+  for (const s of shape.status) {
+    if (s >= HANDLE) sizes.set(s - HANDLE, (sizes.get(s - HANDLE) ?? 0) + 1);
+    fixed += s === FIXED;
+  }
+  while (shape.handles.length < Math.max(0, ...[...sizes.keys()].map((k) => k + 1)))
+    shape.handles.push(newHandle());
+  shape.handles.forEach((handle, k) => {
+    if (handle.point) return;
+    const size = sizes.get(k) ?? 0;
+    if (size && (size !== handle.size || fits)) {
+      const list = membersOf(k),
+        isNew = !handle.size;
+      if (isNew && fits) handle.matrix = fittedMotion(list, shape.points, view.positions);
+      if (isNew) handle.turns = size === 1;
+      handle.pivot = center(shape.points, list);
+    }
+    if (!size) handle.matrix = identity();
+    handle.size = size;
+  });
+  while (shape.handles.length && !shape.handles.at(-1).size && !shape.handles.at(-1).point)
+    shape.handles.pop();
+  shape.fixed = fixed;
+  page.isHeld = fixed > 0 || shape.handles.length > 0;
+  if (
+    page.chosen >= shape.handles.length ||
+    (page.chosen >= 0 && !isThere(shape.handles[page.chosen]))
+  )
+    page.chosen = -1;
+}
+
+export function handlesMoved() {
+  page.hasNewTargets = true;
+  page.isSettled = false;
+  drawMarks();
+}
+
+export function choose(k) {
+  page.chosen = k;
+  if (k >= 0) page.paints = k + HANDLE;
+  placeGizmo();
+  changed();
+}

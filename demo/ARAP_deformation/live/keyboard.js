@@ -1,0 +1,53 @@
+// The keys: those of tools and buttons, and those that move the chosen handle.
+import { moveByKey, removeHandle, reset } from './actions.js';
+import { FIXED, FREE } from './colors.js';
+import { stopPlaying } from './follow.js';
+import { closeHelp, say } from './messages.js';
+import { cancelStroke, setTool } from './painting.js';
+import { actions, tools } from './panel.js';
+import { addKey, play } from './playing.js';
+import { changed, page } from './state.js';
+import { redo, undo } from './undo.js';
+
+addEventListener('keydown', (event) => {
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  if (!page.shape || event.altKey || event.target.closest?.('input[type=text], select')) return;
+  if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
+  const found = Object.keys(tools).find((id) => tools[id][2] === key);
+  if (event.ctrlKey || event.metaKey) {
+    if (key === 'z') (event.shiftKey ? redo : undo)();
+    else if (key === 'y') redo();
+    else return;
+  } else if (found) setTool(found);
+  else if (/^\d$/.test(key)) {
+    page.paints = key === '0' ? FREE : key === '1' ? FIXED : Number(key);
+    if (page.tool === 'grab') setTool('brush');
+    changed();
+  } else if (key === 'Escape') {
+    cancelStroke();
+    stopPlaying();
+    say('');
+    closeHelp();
+  } else if (moveByKey(key, event.shiftKey)) closeHelp();
+  else if (key === ' ' && event.target.closest?.('button')) return;
+  else
+    (
+      ({
+        o: actions.open,
+        r: reset,
+        v: actions.fit,
+        u: actions.up,
+        w: actions.moves,
+        e: actions.turns,
+        k: addKey,
+        ' ': () => play(),
+        h: actions.more,
+        '?': actions.how,
+        Delete: removeHandle,
+      })[key] ??
+      (() => {
+        event.handled = true;
+      })
+    )();
+  if (!event.handled) event.preventDefault();
+});

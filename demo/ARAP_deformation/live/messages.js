@@ -1,0 +1,47 @@
+// What the page says: sentences at the foot of the view, what it is busy with, and the help.
+import { $ } from './state.js';
+
+let messageTimer = 0;
+
+export function say(sentence, isError = false) {
+  clearTimeout(messageTimer);
+  $('message').hidden = !sentence;
+  $('message').className = isError ? 'error' : '';
+  $('message').firstElementChild.textContent = sentence;
+  if (sentence && !isError) messageTimer = setTimeout(() => say(''), 6000);
+}
+
+$('message').lastElementChild.onclick = () => say('');
+
+const sentence = ({ message }) =>
+  // names of files keep their letters
+  (/^[a-z]+[ ,]/.test(message) ? message[0].toUpperCase() : message[0]) +
+  message.slice(1) +
+  (/[.!?]$/.test(message) ? '' : '.');
+
+export const complain = (error) => say(sentence(error), true);
+
+let work = 0;
+
+export async function busy(what, f) {
+  ++work;
+  $('busy').textContent = what;
+  const timer = setTimeout(() => {
+    $('busy').hidden = false;
+  }, 150);
+  try {
+    return await f();
+  } finally {
+    clearTimeout(timer);
+    if (!--work) $('busy').hidden = true;
+  }
+}
+
+export function closeHelp() {
+  $('help').hidden = true;
+  try {
+    localStorage.setItem('arap-help', 'seen');
+  } catch {
+    /* not allowed for files */
+  }
+}

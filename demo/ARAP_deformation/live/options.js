@@ -1,0 +1,34 @@
+// The options of the energy, as the panel has them, and the stiffness that is painted.
+import { ofSimplices } from './regions.js';
+import { $, changed, engine, page } from './state.js';
+
+export const options = () => ({
+  cells: $('cells').value,
+  minimizer: $('minimizer').value,
+  bending_length: String(($('bending').value / 100) * (page.shape?.diagonal ?? 1)),
+});
+
+// in an order in which none refuses the other
+export async function sendOptions({ cells, minimizer, bending_length }) {
+  for (const some of [{ bending_length: '0' }, { cells, minimizer }, { bending_length }])
+    await engine.call('options', { options: some });
+}
+
+export function showOptions(kept) {
+  $('cells').value = kept.cells;
+  $('minimizer').value = kept.minimizer;
+  $('bending').value = (kept.bending_length / page.shape.diagonal) * 100;
+  changed();
+}
+
+export function stiffnessOfVertices() {
+  if (!page.shape.stiffness)
+    page.shape.stiffness = new Float64Array(page.shape.status.length).fill(1);
+  return page.shape.stiffness;
+}
+
+// what the session wants: of its cells, and nothing where nothing is painted
+export const cellStiffness = () =>
+  !page.shape.stiffness || $('cells').value !== 'elements'
+    ? (page.shape.stiffness ?? [])
+    : ofSimplices(page.shape, page.shape.stiffness);

@@ -1,0 +1,142 @@
+// The tools: what they paint, and what they draw over the view.
+import { HANDLE, colorOf, css } from './colors.js';
+import { drawColors, placeGizmo } from './drawing.js';
+import { choose, hold, isDeformed, newHandle, recountHandles } from './handles.js';
+import { say } from './messages.js';
+import { matrixOf } from './motion.js';
+import { cellStiffness, stiffnessOfVertices } from './options.js';
+import { brushed, isInside, nearestSeen } from './regions.js';
+import { $, changed, engine, page, view } from './state.js';
+import { changing } from './undo.js';
+import { THREE } from './view.js';
+
+const drawing = $('drawing').getContext('2d');
+
+export function drawStroke(x, y) {
+  const { clientWidth: w, clientHeight: h } = $('view'),
+    canvas = drawing.canvas,
+    ratio = devicePixelRatio;
+  if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
+    canvas.width = Math.round(w * ratio);
+    canvas.height = Math.round(h * ratio);
+  }
+  drawing.setTransform(ratio, 0, 0, ratio, 0, 0);
+  drawing.clearRect(0, 0, w, h);
+  drawing.lineWidth = 1.5;
+  drawing.strokeStyle = '#222';
+  drawing.fillStyle = `${css(page.tool === 'stiffness' ? 0x444444 : colorOf(page.paints))}40`;
+  drawing.beginPath();
+  if (page.tool === 'brush' || page.tool === 'stiffness') {
+    if (x === undefined) return;
+    drawing.arc(x, y, Number($('brush').value), 0, 7);
+  } else if (page.stroke?.path && page.tool === 'box') {
+    const [[x0, y0], [x1, y1]] = [page.stroke.path[0], page.stroke.path.at(-1)];
+    drawing.rect(x0, y0, x1 - x0, y1 - y0);
+  } else if (page.stroke?.path)
+    page.stroke.path.forEach(([a, b], i) => (i ? drawing.lineTo(a, b) : drawing.moveTo(a, b)));
+  else return;
+  drawing.fill();
+  drawing.stroke();
+}
+
+export function cancelStroke() {
+  if (!page.stroke) return;
+  page.shape.status = page.stroke.before;
+  page.shape.stiffness = page.stroke.stiffness;
+  page.stroke = null;
+  drawStroke();
+  drawColors();
+}
+
+export function setTool(name) {
+  page.tool = name;
+  drawStroke();
+  placeGizmo();
+  view.canvas.style.cursor =
+    { grab: 'grab', brush: 'none', stiffness: 'none' }[name] ?? 'crosshair';
+  changed();
+}
+
+export function paint(vertices) {
+  if (page.tool === 'stiffness') {
+    const values = stiffnessOfVertices(),
+      k = 10 ** Number($('stiffness').value);
+    for (const v of vertices) values[v] = k;
+  } else for (const v of vertices) page.shape.status[v] = page.paints;
+  page.stroke.hasPainted ||= vertices.length > 0;
+  if (vertices.length) drawColors();
+}
+
+export function brushAt(x, y) {
+  const list = brushed(
+    page.stroke.screen,
+    page.stroke.last ?? [x, y],
+    [x, y],
+    Number($('brush').value),
+  );
+  if (!list.length && !page.stroke.last) {
+    // the shape is coarser than the brush
+    const v = nearestSeen(page.stroke.screen, x, y, 40);
+    if (v >= 0) list.push(v);
+  }
+  page.stroke.last = [x, y];
+  paint(list);
+}
+
+export function paintArea() {
+  const { screen, path } = page.stroke,
+    [[x0, y0], [x1, y1]] = [path[0], path.at(-1)],
+    list = [];
+  if (Math.hypot(x1 - x0, y1 - y0) < 3 && path.length < 4) return;
+  const hits =
+    page.tool === 'box'
+      ? (x, y) => (x - x0) * (x - x1) <= 0 && (y - y0) * (y - y1) <= 0
+      : (x, y) => isInside(path, x, y);
+  for (let v = 0; v < screen.xs.length; ++v)
+    if ((screen.seen[v] || $('through').checked) && hits(screen.xs[v], screen.ys[v])) list.push(v);
+  paint(list);
+}
+
+export async function painted() {
+  const fits = isDeformed();
+  await changing(async () => {
+    if (page.tool === 'stiffness') {
+      $('measure').value = 'stiffness';
+      await engine.call('stiffness', { values: cellStiffness() });
+    } else {
+      recountHandles(fits);
+      if (page.paints >= HANDLE && page.shape.handles[page.paints - HANDLE])
+        page.chosen = page.paints - HANDLE;
+      await hold();
+    }
+    if (!page.shape.fixed && page.shape.handles.length === 1)
+      say('Now paint what stays: choose Fixed. Else the whole shape moves with its handle.');
+  });
+}
+
+// a handle in a face, or at a vertex if that is clicked
+export async function placePoint(x, y) {
+  const hit = view.ray(x, y).intersectObject(view.mesh)[0];
+  if (!hit) return;
+  // the place in the rest shape: the same barycentric coordinates in the face that was hit
+  const face = [hit.face.a, hit.face.b, hit.face.c],
+    corners = face.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
+  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3())?.toArray() ?? [
+    1, 0, 0,
+  ];
+  const pivot = [0, 1, 2].map((i) =>
+    face.reduce((sum, v, k) => sum + b[k] * page.shape.points[3 * v + i], 0),
+  );
+  await changing(async () => {
+    let place = { simplex: hit.faceIndex, coordinates: b };
+    if (page.shape.volume)
+      ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
+    if (!place) throw new Error('there is no tetrahedron at this place');
+    const matrix = matrixOf(pivot, new THREE.Quaternion(), hit.point);
+    page.shape.handles.push(newHandle({ pivot, matrix, point: place }));
+    await hold();
+    page.isHeld = true;
+    setTool('grab');
+    choose(page.shape.handles.length - 1);
+  });
+}

@@ -1,0 +1,211 @@
+// The panel: its tools and buttons, and what they show.
+import {
+  changeHandle,
+  optionsChanged,
+  removeHandle,
+  reset,
+  restFromNow,
+  weightsChanged,
+} from './actions.js';
+import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
+import { measureChanged } from './drawing.js';
+import { choose, handlesMoved, isThere } from './handles.js';
+import { closeHelp, say } from './messages.js';
+import { models } from './models.js';
+import { identity } from './motion.js';
+import { openFile, openModel } from './opening.js';
+import { painted, setTool } from './painting.js';
+import { addKey, film, play } from './playing.js';
+import { saves } from './saving.js';
+import { $, page, view, whenChanged } from './state.js';
+import { commit, redo, steps, undo } from './undo.js';
+
+const icon = (path) =>
+  `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" ` +
+  `stroke-width="1.8" aria-hidden="true">${path}</svg>`;
+
+export const tools = {
+  grab: ['M12 3v18M3 12h18M9 6l3-3 3 3M9 18l3 3 3-3M6 9l-3 3 3 3M18 9l3 3-3 3', 'Grab', 'g'],
+  brush: ['M20 4l-9 9M11 12c-3-1-5 1-5 4 0 2-1 3-3 3 4 3 10 1 10-5z', 'Brush', 'b'],
+  box: ['M4 6h16v12H4z', 'Box', 'x'],
+  lasso: ['M7 15c-6-2-4-10 5-10s11 8 5 10c-4 1-7 0-10 0zm0 0c-2 1-2 4 1 5', 'Lasso', 'l'],
+  flood: ['M5 12l7-7 7 7-7 7zM5 12h14M20 15c2 3 2 5 0 5s-2-2 0-5', 'Flood', 'f'],
+  point: ['M12 2v6M12 16v6M2 12h6M16 12h6M12 10.5a1.5 1.5 0 100 3 1.5 1.5 0 100-3', 'Point', 'p'],
+  stiffness: ['M12 3l8 5v8l-8 5-8-5V8zM12 12l8-4M12 12v9M12 12L4 8', 'Stiff', 's'],
+};
+
+const button = (text, press, title = '') =>
+  Object.assign(document.createElement('button'), { textContent: text, onclick: press, title });
+
+function showPanel() {
+  for (const b of $('tools').children) b.classList.toggle('on', b.dataset.tool === page.tool);
+  const { shape } = page;
+  if (!shape) return;
+  const region = (status, text) => {
+    const b = button('', () => {
+      page.paints = status;
+      if (page.tool === 'grab' || page.tool === 'point' || page.tool === 'stiffness')
+        setTool('brush');
+      if (
+        status >= HANDLE &&
+        shape.handles[status - HANDLE] &&
+        isThere(shape.handles[status - HANDLE])
+      )
+        choose(status - HANDLE);
+      showPanel();
+    });
+    b.innerHTML = `<i style="background:${css(colorOf(status))}"></i>${text}`;
+    b.classList.toggle(
+      'on',
+      page.paints === status && !['grab', 'point', 'stiffness'].includes(page.tool),
+    );
+    return b;
+  };
+  const areas = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
+  const next = Array.from({ length: 99 }, (_, k) => k).find(
+    (k) => !shape.handles[k] || !isThere(shape.handles[k]),
+  );
+  $('regions').replaceChildren(
+    region(FREE, 'Free'),
+    region(FIXED, 'Fixed'),
+    ...areas.filter((k) => k !== next).map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
+    region(next + HANDLE, next ? 'New handle' : 'Handle 1'),
+  );
+  const handle = shape.handles[page.chosen];
+  $('handle').hidden = !handle;
+  if (handle) {
+    $('handle').querySelector('h2').textContent = handle.point
+      ? `Point ${page.chosen + 1}`
+      : `Handle ${page.chosen + 1}`;
+    $('soft').checked = handle.weight !== null;
+    $('weight').disabled = handle.weight === null;
+    if (handle.weight !== null) $('weight').value = Math.log10(handle.weight);
+    $('frame').checked = handle.turns;
+    $('frame').disabled = !!handle.point;
+  }
+  $('moves').classList.toggle('on', view.gizmo.mode === 'translate');
+  $('turns').classList.toggle('on', view.gizmo.mode === 'rotate');
+  $('undo').disabled = steps().undo <= 0;
+  $('redo').disabled = steps().redo <= 0;
+  $('name').textContent =
+    `${shape.name}: ${(shape.points.length / 3).toLocaleString('en')} vertices, ` +
+    `${(shape.simplices.length / shape.corners).toLocaleString('en')} ` +
+    (shape.volume ? 'tetrahedra' : 'triangles');
+  const shown = (id, text) => {
+    $(id).parentElement.querySelector('output').textContent = text;
+  };
+  shown('brush', `${$('brush').value} px`);
+  shown('weight', handle?.weight != null ? (10 ** $('weight').value).toPrecision(2) : 'hard');
+  shown('bending', $('bending').value === '0' ? 'none' : `${$('bending').value}%`);
+  shown('stiffness', `× ${10 ** $('stiffness').value}`);
+  $('bending').disabled = $('cells').value === 'elements';
+  $('up').textContent = `Up: ${view.up}`;
+  $('keys').replaceChildren(
+    ...page.keys.map((key, i) =>
+      button(
+        String(i + 1),
+        () => {
+          if (key.length !== shape.handles.length)
+            return say('This key frame is of other handles.', true);
+          shape.handles.forEach((h, k) => {
+            h.matrix = key[k].slice();
+          });
+          handlesMoved();
+          commit();
+        },
+        'Go there',
+      ),
+    ),
+  );
+  $('play').textContent = page.playing ? 'Stop' : 'Play';
+  view.isDirty = true;
+}
+
+for (const [id, [path, text, key]] of Object.entries(tools)) {
+  const b = button('', () => setTool(id), `${text} (${key.toUpperCase()})`);
+  b.innerHTML = `${icon(`<path d="${path}" stroke-linejoin="round"/>`)}${text}`;
+  b.dataset.tool = id;
+  $('tools').append(b);
+}
+
+for (const [id, [title]] of Object.entries(models)) $('model').append(new Option(title, id));
+$('model').append(new Option('from a file', '', false, false));
+$('model').lastChild.hidden = true;
+for (const [text, press] of Object.entries(saves)) $('saves').append(button(text, press));
+
+export const actions = {
+  open: () => $('file').click(),
+  undo,
+  redo,
+  reset,
+  rest: restFromNow,
+  begin: closeHelp,
+  addkey: addKey,
+  play: () => play(),
+  film,
+  fit: () => view.fit(),
+  remove: removeHandle,
+  home: () =>
+    changeHandle((h) => {
+      h.matrix = identity();
+    }),
+  moves: () => {
+    view.gizmo.setMode('translate');
+    showPanel();
+  },
+  turns: () => {
+    view.gizmo.setMode('rotate');
+    showPanel();
+  },
+  up: () => {
+    view.up = view.up === 'z' ? 'y' : 'z';
+    view.makeOrbit();
+    view.fit();
+    showPanel();
+  },
+  how: () => {
+    $('help').hidden = false;
+  },
+  clear: () => {
+    page.shape.status.fill(FREE);
+    page.shape.handles = [];
+    page.chosen = -1;
+    page.paints = FIXED;
+    page.tool = 'brush';
+    reset().then(painted);
+  },
+  more: () => {
+    const closed = document.querySelector('main').classList.toggle('closed');
+    $('more').setAttribute('aria-expanded', String(!closed));
+  },
+};
+
+for (const [id, act] of Object.entries(actions)) $(id).onclick = act;
+$('model').onchange = () => openModel($('model').value);
+$('file').onchange = () => {
+  if ($('file').files[0]) openFile($('file').files[0]);
+  $('file').value = '';
+};
+for (const id of ['cells', 'minimizer', 'bending']) $(id).onchange = optionsChanged;
+for (const id of ['bending', 'brush', 'stiffness']) $(id).oninput = showPanel;
+$('weights').onchange = weightsChanged;
+$('measure').onchange = measureChanged;
+$('soft').onchange = () =>
+  changeHandle((h) => {
+    h.weight = $('soft').checked ? 10 ** $('weight').value : null;
+  });
+$('weight').onchange = () =>
+  changeHandle((h) => {
+    h.weight = 10 ** $('weight').value;
+  });
+$('weight').oninput = () => {
+  $('weight').parentElement.querySelector('output').textContent = (
+    10 ** $('weight').value
+  ).toPrecision(2);
+};
+$('frame').onchange = () =>
+  changeHandle((h) => {
+    h.turns = $('frame').checked;
+  });
+
+whenChanged(showPanel);

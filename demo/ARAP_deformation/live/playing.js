@@ -1,0 +1,73 @@
+// Key frames, and films of them.
+import { placeGizmo } from './drawing.js';
+import { stopPlaying } from './follow.js';
+import { handlesMoved } from './handles.js';
+import { say } from './messages.js';
+import { identity, matrixOf, rigidParts } from './motion.js';
+import { save } from './saving.js';
+import { changed, page, view } from './state.js';
+import { commit } from './undo.js';
+
+export function addKey() {
+  page.keys.push(page.shape.handles.map((h) => h.matrix.slice()));
+  commit();
+}
+
+export function play(record) {
+  if (page.playing) return stopPlaying();
+  const usable = page.keys.filter((key) => key.length === page.shape.handles.length);
+  if (!usable.length) return say('There is no key frame: move a handle, and choose Add.', true);
+  const path = [page.shape.handles.map(identity), ...usable];
+  page.playing = {
+    path,
+    start: performance.now(),
+    seconds: 1.5,
+    recorder: record?.(),
+  };
+  placeGizmo();
+  changed();
+}
+
+export function playFrame(time) {
+  const { path, start, seconds } = page.playing,
+    t = (time - start) / 1000 / seconds,
+    i = Math.floor(t);
+  const isEnd = i >= path.length - 1,
+    share = isEnd ? 1 : t - i,
+    from = path[isEnd ? path.length - 2 : Math.max(0, i)],
+    to = path[isEnd ? path.length - 1 : i + 1];
+  page.shape.handles.forEach((handle, k) => {
+    const a = rigidParts({ ...handle, matrix: from[k] }),
+      b = rigidParts({ ...handle, matrix: to[k] });
+    handle.matrix = isEnd
+      ? to[k].slice()
+      : matrixOf(handle.pivot, a.q.slerp(b.q, share), a.place.lerp(b.place, share));
+  });
+  handlesMoved();
+  if (isEnd) {
+    stopPlaying();
+    commit();
+  }
+}
+
+export function film() {
+  const type = ['video/webm;codecs=vp9', 'video/webm', 'video/mp4'].find((t) =>
+    window.MediaRecorder?.isTypeSupported(t),
+  );
+  if (!type) return say('This browser cannot record films.', true);
+  play(() => {
+    const stream = view.canvas.captureStream(30),
+      recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6e6 }),
+      parts = [];
+    recorder.ondataavailable = ({ data }) => parts.push(data);
+    recorder.onstop = () => {
+      stream.getTracks().forEach((track) => track.stop());
+      save(
+        `${page.shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`,
+        new Blob(parts, { type }),
+      );
+    };
+    recorder.start();
+    return recorder;
+  });
+}

@@ -1,0 +1,173 @@
+// Mouse, pen and fingers in the view.
+import { HANDLE } from './colors.js';
+import { placeGizmo } from './drawing.js';
+import { choose, handlesMoved } from './handles.js';
+import { closeHelp } from './messages.js';
+import { matrixOf, rigidParts } from './motion.js';
+import {
+  brushAt,
+  cancelStroke,
+  drawStroke,
+  paint,
+  paintArea,
+  painted,
+  placePoint,
+} from './painting.js';
+import { flood, nearestSeen } from './regions.js';
+import { $, page, view } from './state.js';
+import { commit } from './undo.js';
+import { THREE } from './view.js';
+
+const pointers = new Set();
+
+const at = (event) => {
+  const box = view.canvas.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+};
+
+function pressed(event) {
+  if (event.target !== view.canvas || !page.shape) return;
+  view.canvas.focus({ preventScroll: true });
+  pointers.add(event.pointerId);
+  if (pointers.size > 1) {
+    // two fingers turn the view
+    cancelStroke();
+    return;
+  }
+  view.letTurn(true);
+  if (event.button !== 0 || page.playing) return;
+  const [x, y] = at(event);
+  if (page.tool === 'grab') {
+    const { clientWidth: w, clientHeight: h } = view.container;
+    if (page.chosen >= 0)
+      view.gizmo.pointerHover({ x: (2 * x) / w - 1, y: 1 - (2 * y) / h, button: -1 });
+    if (page.chosen >= 0 && view.gizmo.axis) return view.letTurn(false);
+    const k = handleAt(x, y, event.pointerType === 'touch' ? 30 : 16);
+    if (k < 0) return;
+    view.letTurn(false);
+    choose(k);
+    grab(event, x, y, k);
+    return;
+  }
+  const screen = view.screen();
+  if (page.tool !== 'box' && page.tool !== 'lasso' && !screen.isOn(x, y)) return; // the view turns
+  view.letTurn(false);
+  if (page.tool === 'point') return void placePoint(x, y);
+  page.stroke = {
+    screen,
+    before: page.shape.status.slice(),
+    stiffness: page.shape.stiffness?.slice() ?? null,
+    id: event.pointerId,
+  };
+  view.canvas.setPointerCapture(event.pointerId);
+  if (page.tool === 'flood') {
+    const seed = nearestSeen(screen, x, y, 60);
+    if (seed >= 0) paint(flood(page.shape, seed));
+  } else if (page.tool === 'box' || page.tool === 'lasso') page.stroke.path = [[x, y]];
+  else brushAt(x, y);
+  drawStroke(x, y);
+}
+
+function handleAt(x, y, within) {
+  let best = -1,
+    least = within;
+  page.shape.handles.forEach((handle, k) => {
+    if (!handle.point) return;
+    const [a, b] = view.toScreen(...rigidParts(handle).place),
+      d = Math.hypot(a - x, b - y);
+    if (d < least) {
+      least = d;
+      best = k;
+    }
+  });
+  if (best >= 0 || !page.shape.handles.length) return best;
+  const v = nearestSeen(view.screen(), x, y, within, (w) => page.shape.status[w] >= HANDLE);
+  return v < 0 ? -1 : page.shape.status[v] - HANDLE;
+}
+
+// in the plane of the screen through the handle
+function grab(event, x, y, k) {
+  const { place, q } = rigidParts(page.shape.handles[k]);
+  const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(
+    view.camera.getWorldDirection(new THREE.Vector3()),
+    place,
+  );
+  const hit = (a, b) => view.ray(a, b).ray.intersectPlane(plane, new THREE.Vector3());
+  const start = hit(x, y);
+  if (!start) return;
+  view.canvas.setPointerCapture(event.pointerId);
+  page.dragging = {
+    id: event.pointerId,
+    k,
+    hasMoved: false,
+    to: (a, b) => {
+      const p = hit(a, b);
+      if (!p) return;
+      const handle = page.shape.handles[k];
+      handle.matrix = matrixOf(handle.pivot, q, p.sub(start).add(place));
+      page.dragging.hasMoved = true;
+      handlesMoved();
+    },
+  };
+}
+
+function movedTo(event) {
+  if (!page.shape) return;
+  const [x, y] = at(event);
+  if (page.dragging?.to && page.dragging.id === event.pointerId) return page.dragging.to(x, y);
+  if (page.stroke && page.stroke.id === event.pointerId) {
+    if (page.stroke.path) page.stroke.path.push([x, y]);
+    else if (page.tool !== 'flood') brushAt(x, y);
+  }
+  if (page.stroke || event.pointerType !== 'touch') drawStroke(x, y);
+}
+
+function released(event) {
+  pointers.delete(event.pointerId);
+  if (page.dragging?.to && page.dragging.id === event.pointerId) {
+    const { hasMoved } = page.dragging;
+    page.dragging = null;
+    placeGizmo();
+    if (hasMoved) {
+      closeHelp();
+      commit();
+    }
+    page.isSettled = false;
+  }
+  if (!page.stroke || page.stroke.id !== event.pointerId) return;
+  if (event.type === 'pointercancel') return cancelStroke();
+  if (page.stroke.path) paintArea();
+  const { hasPainted } = page.stroke;
+  page.stroke = null;
+  drawStroke();
+  if (hasPainted) painted();
+}
+
+$('view').addEventListener('pointerdown', pressed, true);
+
+addEventListener('pointermove', movedTo);
+
+addEventListener('pointerup', released);
+
+addEventListener('pointercancel', released);
+
+$('view').addEventListener('pointerleave', () => !page.stroke && drawStroke());
+
+$('view').addEventListener('contextmenu', (event) => event.preventDefault());
+
+view.gizmo.addEventListener('objectChange', () => {
+  if (page.chosen < 0) return;
+  const handle = page.shape.handles[page.chosen];
+  handle.matrix = matrixOf(handle.pivot, view.proxy.quaternion, view.proxy.position);
+  handlesMoved();
+});
+
+view.gizmo.addEventListener('dragging-changed', ({ value }) => {
+  view.orbit.enabled = !value;
+  page.dragging = value ? { gizmo: true } : null;
+  if (!value) {
+    closeHelp();
+    page.isSettled = false;
+    commit();
+  }
+});

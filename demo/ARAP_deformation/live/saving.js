@@ -1,0 +1,99 @@
+// Files that are saved, and the command that does the same with them.
+import { HANDLE } from './colors.js';
+import { writeMesh, writeSelection, writeTransforms } from './files.js';
+import { complain, say } from './messages.js';
+import { identity } from './motion.js';
+import { options } from './options.js';
+import { $, engine, page, view } from './state.js';
+
+export function save(name, content) {
+  const url = URL.createObjectURL(
+    content instanceof Blob ? content : new Blob([content], { type: 'text/plain' }),
+  );
+  Object.assign(document.createElement('a'), { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+  say(`${name} was saved.`);
+}
+
+// the handles of the files, which are numbered without gaps and have vertices
+function filed() {
+  const numbers = page.shape.handles
+    .map((handle, k) => k)
+    .filter((k) => page.shape.handles[k].size > 0);
+  const place = new Map(numbers.map((k, i) => [k + HANDLE, i + HANDLE]));
+  return { numbers, status: page.shape.status.map((s) => place.get(s) ?? s) };
+}
+
+// for a shell; where it cannot tell all, a second line has what is left out
+export function commandLine() {
+  const { name, volume, weights } = page.shape,
+    { cells, minimizer } = options(),
+    ending = volume ? 'mesh' : 'off',
+    held = filed().numbers.map((k) => page.shape.handles[k]);
+  const file = (end) =>
+    /^[\w.-]+$/.test(name) ? name + end : `'${(name + end).replaceAll("'", "'\\''")}'`;
+  const differ = (what) => held.some((handle) => handle[what] !== held[0][what]);
+  const ofAll = (what) => (held.length && !differ(what) ? held[0][what] : null);
+  const untold = [
+    differ('weight') && 'weights that differ between handles',
+    differ('turns') && 'which handles turn the cells around them',
+    page.shape.stiffness?.some((k) => k !== 1) && 'painted stiffness',
+    page.shape.handles.some((handle) => handle.point) && 'handles that are points in a face',
+  ].filter(Boolean);
+  return (
+    `arap_deform ${file(`_rest.${ending}`)} -o out.${ending} --selection ${file('.sel')}` +
+    (held.length ? ` --transform ${file('.def')}` : '') +
+    ` --cells ${cells} --weights ${weights}` +
+    ` --minimizer ${minimizer} --bending ${$('bending').value / 100}` +
+    (ofAll('weight') === null ? '' : ` --soft ${ofAll('weight')}`) +
+    (ofAll('turns') ? ' --turn' : '') +
+    (untold.length ? `\nThis line leaves out: ${untold.join(', ')}.` : '')
+  );
+}
+
+async function saveMesh(ending, which, suffix) {
+  try {
+    const answer = await engine.call('points');
+    save(
+      `${page.shape.name}${suffix}.${ending}`,
+      writeMesh(ending, { ...page.shape, points: answer[which] }),
+    );
+  } catch (error) {
+    complain(error);
+  }
+}
+
+export const saves = {
+  'Mesh .off': () => saveMesh('off', 'points', ''),
+  '.obj': () => saveMesh('obj', 'points', ''),
+  '.mesh': () => saveMesh('mesh', 'points', ''),
+  'Rest shape': () => saveMesh(page.shape.volume ? 'mesh' : 'off', 'rest', '_rest'),
+  Selection: () => save(`${page.shape.name}.sel`, writeSelection(filed().status, commandLine())),
+  Transforms: () => {
+    const { numbers } = filed();
+    if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
+    save(
+      `${page.shape.name}.def`,
+      writeTransforms(numbers.map((k) => page.shape.handles[k].matrix)),
+    );
+  },
+  'Key frames': () => {
+    const { numbers } = filed();
+    if (!page.keys.length)
+      return say('There is no key frame: move a handle, and choose Add.', true);
+    page.keys.forEach((key, i) =>
+      save(
+        `${page.shape.name}-${i + 1}.def`,
+        writeTransforms(numbers.map((k) => key[k] ?? identity())),
+      ),
+    );
+  },
+  Picture: () => {
+    const shown = view.gizmo.getHelper().visible;
+    view.gizmo.getHelper().visible = false;
+    view.render();
+    view.canvas.toBlob((blob) => save(`${page.shape.name}.png`, blob));
+    view.gizmo.getHelper().visible = shown;
+    view.isDirty = true;
+  },
+};

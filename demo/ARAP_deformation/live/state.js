@@ -1,0 +1,53 @@
+// What is open, painted and held: the state that all modules of the page share.
+import { FIXED } from './colors.js';
+import { Engine } from './engine.js';
+import { View } from './view.js';
+
+export const $ = (id) => document.getElementById(id);
+
+export const view = (() => {
+  try {
+    return new View($('view'));
+  } catch (error) {
+    $('message').hidden = false;
+    $('message').className = 'error';
+    $('message').firstElementChild.textContent =
+      'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+    throw error;
+  }
+})();
+
+export const engine = new Engine(...window.arapParts());
+
+export const page = {
+  // what is open: points are those of the rest shape
+  // { name, points, simplices, corners, volume, faces, diagonal, status, handles, stiffness }
+  shape: null,
+  tool: 'grab',
+  paints: FIXED,
+  chosen: -1, // the handle with the gizmo
+  hasNewTargets: false,
+  isSettled: true,
+  isHeld: false,
+  failed: '',
+  keys: [],
+  playing: null,
+  spare: null, // an array for the next points
+  dragging: null,
+  stroke: null,
+};
+
+export const measured = {
+  energy: NaN,
+  milliseconds: NaN,
+  iterations: 0,
+  perIteration: 1,
+  frames: 0,
+  steps: 0,
+};
+export const history = { energy: [], milliseconds: [] };
+
+// Who shows the state is told when it has changed.
+const shows = [];
+export const whenChanged = (show) => shows.push(show);
+export const changed = () => shows.forEach((show) => show());

@@ -1,0 +1,109 @@
+// Undo and redo.
+import { draw } from './drawing.js';
+import { pump, stopPlaying } from './follow.js';
+import { recountHandles } from './handles.js';
+import { complain } from './messages.js';
+import { cellStiffness, options, sendOptions, showOptions } from './options.js';
+import { $, changed, engine, page, view } from './state.js';
+
+let past = [],
+  now = -1;
+
+// how many there are
+export const steps = () => ({ undo: now, redo: past.length - 1 - now });
+
+export const optionsOfLast = () => past[now].options;
+
+// to be called when another session begins
+export function forgetPast() {
+  past = [];
+  now = -1;
+}
+
+export async function commit() {
+  const { shape } = page;
+  const kept = {
+    status: shape.status.slice(),
+    stiffness: shape.stiffness && shape.stiffness.slice(),
+    keys: page.keys.slice(),
+    chosen: page.chosen,
+    handles: structuredClone(shape.handles),
+    options: options(),
+    measure: $('measure').value,
+    points: shape.points,
+  };
+  const dropped = past.splice(now + 1);
+  past.push(kept);
+  now = past.length - 1;
+  const largest = Math.max(3, Math.min(60, Math.floor(1.2e7 / shape.points.length)));
+  while (past.length > largest) {
+    dropped.push(past.shift());
+    --now;
+  }
+  changed();
+  kept.state = engine.call('keep').then(
+    (answer) => answer.state,
+    () => null,
+  );
+  for (const old of dropped)
+    old.state.then(
+      (state) => shape === page.shape && state && engine.call('forget', { state }).catch(() => {}),
+    );
+  await kept.state;
+}
+
+// Runs what changes the shape, which then follows. What fails is undone.
+export async function changing(f) {
+  try {
+    await f();
+    page.failed = '';
+    page.isSettled = false;
+    page.hasNewTargets = page.shape.handles.length > 0;
+    draw();
+    await commit();
+    pump();
+  } catch (error) {
+    complain(error);
+    await goTo(now);
+  }
+}
+
+async function goTo(index) {
+  if (index < 0 || index >= past.length || page.dragging || page.stroke) return;
+  stopPlaying();
+  const kept = past[index],
+    before = past[now];
+  now = index;
+  const state = await kept.state;
+  if (!state) return;
+  try {
+    Object.assign(page.shape, {
+      status: kept.status.slice(),
+      handles: structuredClone(kept.handles),
+      stiffness: kept.stiffness?.slice() ?? null,
+    });
+    page.keys = kept.keys.slice();
+    page.isSettled = true;
+    page.hasNewTargets = false;
+    const { points, rest } = await engine.call('restore', { state });
+    page.shape.points = rest;
+    if (JSON.stringify(kept.options) !== JSON.stringify(before.options)) {
+      showOptions(kept.options);
+      await sendOptions(kept.options);
+    }
+    if (kept.stiffness !== before.stiffness)
+      await engine.call('stiffness', { values: cellStiffness() });
+    page.spare = view.setPositions(points);
+    page.chosen = kept.chosen;
+    recountHandles(false);
+    page.isSettled = false;
+    page.hasNewTargets = page.shape.handles.length > 0;
+    draw();
+    pump();
+  } catch (error) {
+    complain(error);
+  }
+}
+
+export const undo = () => goTo(now - 1),
+  redo = () => goTo(now + 1);
