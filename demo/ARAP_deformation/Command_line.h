@@ -128,6 +128,11 @@ inline void check_outputs(const Command_line& line)
   };
   std::vector<std::string> outputs = mesh_files(line), inputs = line.transforms;
   inputs.push_back(line.selection);
+  for(const auto& pick : line.picks)
+    inputs.push_back(pick.second.file());
+  for(const auto* picks : {&line.region, &line.rigid, &line.stiff})
+    for(const Pick& pick : *picks)
+      inputs.push_back(pick.file());
   if(line.is_sequence)
     for(const std::string& output : outputs)
       check(output, line.mesh);
@@ -157,7 +162,12 @@ inline void check_several(const std::string& option, std::size_t values)
 inline std::vector<boost::program_options::option>
 parse_several(std::vector<std::string>& arguments)
 {
-  if(arguments.empty() || (arguments[0] != "--rotate" && arguments[0] != "--stiffness"))
+  if(arguments.empty())
+    return {};
+  for(const std::string option : {"rotate", "stiffness"})
+    if(arguments[0].rfind("--" + option + '=', 0) == 0)
+      check_several(option, 1);
+  if(arguments[0] != "--rotate" && arguments[0] != "--stiffness")
     return {};
   const std::string name = arguments[0].substr(2);
   const bool has_center = name == "rotate" && arguments.size() > 3 &&
@@ -192,11 +202,18 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
 }
 
 // A message of the library, with the names that options have here.
-inline std::string with_options(const std::string& message)
+inline std::string with_options(std::string message)
 {
-  static const std::regex length("(the option )?(bending|smoothing)_length"),
-    member("the option (\\w+)|(\\w+) of the dynamics");
-  return std::regex_replace(std::regex_replace(message, length, "--$2"), member, "--$1$2");
+  static const std::array<std::pair<std::regex, std::string>, 4> names = {{
+    {std::regex("(the option )?(bending|smoothing)_length"), "--$2"},
+    {std::regex("time_step, density, modulus and damping of the dynamics"),
+     "--time_step, --modulus and --damping"},
+    {std::regex("the option (\\w+)|(\\w+) of the dynamics"), "--$1$2"},
+    {std::regex("erase one of them, or give it a finite weight"),
+     "leave one of them out, or give a handle --soft"}}};
+  for(const auto& [of_library, of_command] : names)
+    message = std::regex_replace(message, of_library, of_command);
+  return message;
 }
 
 inline Chosen_edge_weight chosen_weight(const std::string& name)
@@ -232,8 +249,6 @@ inline void read_picks(const std::vector<boost::program_options::option>& given,
     }
     if(option.value.empty())
       continue;
-    if(name == "rotate" || name == "stiffness") // after = there is one value only
-      check_several(name, option.value.size());
     if(const std::string& value = option.value[0]; name == "fix")
       line.picks.emplace_back(FIXED, Pick(name, value));
     else if(name == "region")
@@ -354,7 +369,6 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
 // Reads the names of files.
 inline void read_files(const boost::program_options::variables_map& values, Command_line& line)
 {
-  line.mesh = value_of("mesh", values);
   line.output = value_of("output", values);
   line.selection = value_of("selection", values);
   if(values.count("transform"))
@@ -372,7 +386,7 @@ inline void read_files(const boost::program_options::variables_map& values, Comm
   line.animation = value_of("animation", values);
   line.save_selection = value_of("save-selection", values);
   line.save_transform = value_of("save-transform", values);
-  if(!line.image.empty() && std::filesystem::path(line.image).extension() != ".png" &&
+  if(!line.image.empty() && lower_case_extension(line.image) != ".png" &&
      !is_written_directly(line.image))
     throw Usage_error("--image " + line.image + ": the picture must be a .png file");
 }
@@ -409,7 +423,7 @@ inline void read_options(const boost::program_options::variables_map& values, Op
       {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
         "verify_minimum", "coarse_metric"})
     if(const Outcome set = set_option(options, name, value_of(name, values)); !set)
-      throw Usage_error((set.message.find(name) == 0 ? "--" : "") + set.message);
+      throw Usage_error((set.message.find(name) == 0 ? "--" : "") + with_options(set.message));
   options.bending_length = number<double>("bending", value_of("bending", values));
   options.smoothing_length = number<double>("smoothing", value_of("smoothing", values));
   if(const Outcome checked = options.check(); !checked)
@@ -440,13 +454,13 @@ inline Command_line parse_command_line(int argc, char** argv)
 {
   namespace po = boost::program_options;
   po::options_description all = described_options();
-  all.add_options()("mesh", po::value<std::string>()->required());
+  all.add_options()("mesh", po::value<std::vector<std::string>>());
   po::variables_map values;
   try
   {
     const auto parsed = po::command_line_parser(arguments_of(argc, argv, all))
       .options(all)
-      .positional(po::positional_options_description().add("mesh", 1))
+      .positional(po::positional_options_description().add("mesh", -1))
       .extra_style_parser(parse_several)
       .style(po::command_line_style::default_style & ~po::command_line_style::allow_guessing)
       .run();
@@ -456,8 +470,13 @@ inline Command_line parse_command_line(int argc, char** argv)
     line.is_version = values.count("version") > 0;
     if(line.is_help || line.is_version)
       return line;
-    if(!values.count("mesh"))
+    const auto& meshes = values["mesh"];
+    if(meshes.empty())
       throw Usage_error("no mesh is given");
+    line.mesh = meshes.as<std::vector<std::string>>()[0];
+    if(meshes.as<std::vector<std::string>>().size() > 1)
+      throw Usage_error(in_quotes(meshes.as<std::vector<std::string>>()[1]) + " is a second mesh, "
+                        "or a second value of an option that has one");
     po::notify(values);
 
     line.is_quiet = values.count("quiet") > 0;
@@ -480,10 +499,6 @@ inline Command_line parse_command_line(int argc, char** argv)
     // not what(): there Boost replaces placeholders such as %canonical_option% by the option, and
     // endlessly if that contains the placeholder itself
     throw Usage_error("the option '" + error.get_option_name() + "' is not known");
-  }
-  catch(const po::too_many_positional_options_error&)
-  {
-    throw Usage_error("more than one mesh is given, or more than one value for an option");
   }
   catch(const po::error& error)
   {

@@ -19,6 +19,7 @@
 #include "Gltf.h"
 #include "Output_file.h"
 #include "Scene.h"
+#include "arguments.h"
 #include "shape_files.h"
 
 #ifdef CGAL_ARAP_DEMO_WITH_GIFLIB
@@ -49,14 +50,15 @@ public:
     };
     if(is_gltf_format(format))
       return;
+    if(format != ".gif" && format != ".mp4" && format != ".webm")
+      throw Usage_error("--animation " + file + ": a film ends in .gif, .mp4, .webm, .gltf or "
+                                                ".glb");
     if(format == ".mp4" || format == ".webm")
     {
       const internal::Temporary_folder folder;
       if(internal::run_program(folder, "ffmpeg -version") != 0)
         refuse("needs the program ffmpeg, which was not found");
     }
-    else if(format != ".gif")
-      refuse("a film ends in .gif, .mp4, .webm, .gltf or .glb");
 #ifndef CGAL_ARAP_DEMO_WITH_GIFLIB
     else
       refuse("this arap_deform was built without giflib (Debian: libgif-dev)");

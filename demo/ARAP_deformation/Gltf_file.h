@@ -59,8 +59,9 @@ public:
     }
     catch(const Gltf::Json::exception& error)
     {
+      const std::string why = error.what(); // after the name of the exception in brackets
       throw std::runtime_error(file + ": is no glTF that can be read: " +
-                               printable(error.what()));
+                               printable(why.substr(why.find(']') + 1)));
     }
     catch(const std::runtime_error& error)
     {

@@ -20,16 +20,18 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
 
-// A point inside a simplex that is picked, with its status.
+// A point inside a simplex that is picked, with its status and its option.
 template <typename Domain>
 struct Held_point
 {
   int status;
+  std::string name;
   Location<typename Domain::simplex_descriptor> location;
 };
 
@@ -47,9 +49,22 @@ std::vector<Held_point<Domain>> held_points(const Command_line& line, const Doma
       const auto location = locator->locate(pick.point(points));
       if(!location)
         throw std::runtime_error(pick.name() + ": there is no place for it in the mesh");
-      held.push_back({status, *location});
+      held.push_back({status, pick.name(), *location});
     }
   return held;
+}
+
+// A message of the library, in which they have the numbers of control points.
+template <typename Domain>
+std::string with_names(std::string message, const std::vector<Held_point<Domain>>& held)
+{
+  for(std::size_t k = held.size(); k > 0; --k) // 12 before 1
+  {
+    const std::string number = "control point " + std::to_string(k);
+    if(const std::size_t place = message.find(number); place != std::string::npos)
+      return message.replace(place, number.size(), held[k - 1].name);
+  }
+  return message;
 }
 
 // with their places

@@ -53,13 +53,20 @@ public:
     else if(m_kind == "plane")
     {
       m_measures = measures(m_name, value, "x,y,z,nx,ny,nz");
+      for(std::size_t k = 3; k < 6; ++k)
+        if(m_measures[k].is_percentage)
+          throw Usage_error(m_name + ": a percentage makes no sense in a normal");
       if(normal() == CGAL::NULL_VECTOR)
         throw Usage_error(m_name + ": the normal 0,0,0 has no direction");
     }
     else if(m_kind == "x" || m_kind == "y" || m_kind == "z")
       read_range(value);
     else if(m_kind == "list" && value.rfind('@', 0) == 0)
+    {
       m_file = value.substr(1);
+      if(m_file.empty())
+        throw Usage_error(m_name + ": expected the name of a file after @");
+    }
     else if(m_kind == "list")
       for(const std::string& number_of_vertex : split(value))
         m_vertices.push_back(number<int>(option + " list:", number_of_vertex));
@@ -69,6 +76,9 @@ public:
   }
 
   const std::string& name() const { return m_name; }
+
+  // that of a list, or empty
+  const std::string& file() const { return m_file; }
 
   // whether it picks no vertices, but a point inside a simplex
   bool is_point() const { return m_kind == "point"; }

@@ -62,10 +62,21 @@ inline std::optional<long long> peak_memory_bytes()
   return std::nullopt;
 }
 
-inline nlohmann::ordered_json seconds(const Report& report)
+// of all frames together
+inline Phase_seconds seconds(const Result& result)
 {
-  return {{"preprocess", report.seconds.preprocess},
-          {"deform", report.seconds.total - report.seconds.preprocess}};
+  Phase_seconds sum;
+  for(const Report& frame : result.frames)
+  {
+    sum.preprocess += frame.seconds.preprocess;
+    sum.total += frame.seconds.total;
+  }
+  return sum;
+}
+
+inline nlohmann::ordered_json to_json(const Phase_seconds& seconds)
+{
+  return {{"preprocess", seconds.preprocess}, {"deform", seconds.total - seconds.preprocess}};
 }
 
 inline void write_report(Output_file& file, const Result& result)
@@ -95,20 +106,20 @@ inline void write_report(Output_file& file, const Result& result)
   json["largest_spike"] = result.quality.largest_spike;
   if(result.self_intersections)
     json["self_intersections"] = *result.self_intersections;
-  json["inverted_simplices"] = report.inverted_simplices;
+  json["inverted_simplices"] = result.quality.inverted_simplices;
   json["unconstrained_components"] = report.unconstrained_components;
   json["seconds"] = {{"load", result.load_seconds}};
-  json["seconds"].update(seconds(report));
+  json["seconds"].update(to_json(seconds(result)));
   json["peak_memory_bytes"] = nullptr;
   if(const auto bytes = peak_memory_bytes())
     json["peak_memory_bytes"] = *bytes;
-  if(result.frames.size() > 1)
+  if(result.frames.size() > 1 || result.frames[0].mass > 0)
     for(const Step_report& frame : result.frames)
     {
       json["frames"].push_back({{"iterations", frame.iterations},
                                 {"energy", {frame.energy.front(), frame.final_energy()}},
                                 {"factorized", frame.stages.factor},
-                                {"seconds", seconds(frame)}});
+                                {"seconds", to_json(frame.seconds)}});
       if(frame.mass > 0) // of a time step
         json["frames"].back().update({{"kinetic_energy", frame.kinetic_energy},
                                       {"elastic_energy", frame.elastic_energy},
@@ -123,6 +134,7 @@ inline void print_summary(std::ostream& out, const Command_line& line, const Res
   const Report& report = result.report;
   out << line.mesh << ": " << result.vertices << " vertices, "
       << report.free_vertices << " free\n"
+      << (result.frames.size() > 1 ? "last frame: " : "")
       << report.iterations << " iterations: " << report.message << '\n'
       << "energy ";
   if(line.dynamics) // the energy that a step minimizes has its inertia, too
@@ -133,12 +145,12 @@ inline void print_summary(std::ostream& out, const Command_line& line, const Res
   out << ", edge length error " << result.quality.edge_length_error << '\n';
   if(result.self_intersections)
     out << *result.self_intersections << " pairs of faces intersect\n";
-  if(report.inverted_simplices > 0)
-    out << report.inverted_simplices << " of " << result.simplices
+  if(result.quality.inverted_simplices > 0)
+    out << result.quality.inverted_simplices << " of " << result.simplices
         << " tetrahedra are inside out\n";
-  out << "seconds: load " << result.load_seconds << ", preprocess "
-      << report.seconds.preprocess << ", deform "
-      << report.seconds.total - report.seconds.preprocess << '\n'
+  const Phase_seconds of_frames = seconds(result);
+  out << "seconds: load " << result.load_seconds << ", preprocess " << of_frames.preprocess
+      << ", deform " << of_frames.total - of_frames.preprocess << '\n'
       << "written: " << mesh_files(line).front();
   if(line.is_sequence && line.frames > 1)
     out << " to " << mesh_files(line).back();

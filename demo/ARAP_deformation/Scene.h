@@ -265,7 +265,11 @@ struct Temporary_folder
 
   Temporary_folder()
   {
-    const auto parent = std::filesystem::absolute(std::filesystem::temp_directory_path());
+    std::error_code error;
+    const auto parent = std::filesystem::absolute(std::filesystem::temp_directory_path(error));
+    if(error)
+      throw std::runtime_error("there is no folder for temporary files: " + error.message() +
+                               "; TMPDIR tells where it is");
     do
       path = parent / ("arap_scene_" + std::to_string(std::random_device()()));
     while(!std::filesystem::create_directory(path)); // false if it exists

@@ -78,7 +78,9 @@ public:
       result.insert("colors");
     if(is_gltf_format(format) && !CGAL::is_triangle_mesh(m_mesh))
       result.insert("polygons (they are cut into triangles)");
-    if((format == ".stl" || is_gltf_format(format)) && m_format != ".stl")
+    if(m_format == ".stl")
+      result.insert("names and attributes");
+    else if(format == ".stl" || is_gltf_format(format))
       result.insert("double precision");
     if(format == ".stl" && has_isolated_vertices(m_mesh))
       result.insert("vertices without a face");
@@ -119,10 +121,11 @@ private:
   void insert_property()
   {
     std::string name = m_property;
-    while(m_source.text.substr(0, m_source.text.find("end_header")).find(' ' + name + '\n') !=
-          std::string::npos)
-      name += '_'; // the input has one of this name
-    m_source.insert(m_source.properties_end, "property float " + name + '\n');
+    while(m_source.properties.count(name) > 0)
+      name += '_';
+    const std::size_t end = m_source.properties_end;
+    const char* end_of_line = m_source.text.compare(end - 2, 2, "\r\n") == 0 ? "\r\n" : "\n";
+    m_source.insert(end, "property float " + name + end_of_line);
     const bool is_text = m_source.numbers == Source_text::Numbers::text;
     for(std::size_t v = 0; v < m_values.size(); ++v)
       m_source.insert(m_source.row_ends[v],

@@ -21,6 +21,7 @@
 #include <limits>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -55,8 +56,11 @@ public:
   Numbers numbers = Numbers::text;
   std::vector<Triple> points;  // of the vertices, in their order
   std::vector<Normal> normals;
-  std::size_t properties_end = 0;    // of a .ply file: where more properties of vertices go,
-  std::vector<std::size_t> row_ends; // in the header and for each vertex
+
+  // of a .ply file: the properties of vertices, and where more go, in the header and in each row
+  std::set<std::string> properties;
+  std::size_t properties_end = 0;
+  std::vector<std::size_t> row_ends;
 
   // The places of the next three words.
   static Triple next_triple(Words& words)

@@ -95,7 +95,7 @@ insert_controls(Deformation& deformation, const Command_line& line, const Domain
     controls[status - HANDLE].vertices.push_back(v);
     set_weight(status, v);
   }
-  for(const auto& [status, location] : held)
+  for(const auto& [status, name, location] : held)
   {
     const auto inserted = deformation.insert_control_point(location);
     expect_success(line, inserted);
@@ -172,6 +172,7 @@ void deform(const Command_line& line, const Chosen_solver& solver, const Domain&
     else
       static_cast<Report&>(report) = deformation.deform(visitor);
     progress.show("");
+    report.message = with_names(report.message, held);
     expect_success(line, report);
     after_frame(report);
   }
@@ -219,8 +220,8 @@ std::ostream& summary_stream(const Command_line& line)
 {
   const std::string standard_output = "/dev/stdout";
   bool is_taken = false;
-  for(const std::string& file : {line.output, line.image, line.animation, line.save_selection,
-                                 line.save_transform})
+  for(const std::string& file : {line.output, line.report, line.image, line.animation,
+                                 line.save_selection, line.save_transform})
     is_taken = is_taken || (!file.empty() && is_same_file(file, standard_output));
   return is_taken ? std::cerr : std::cout;
 }
@@ -241,19 +242,18 @@ void check_mesh_files(const Command_line& line, const std::string& format)
   const std::string mesh_format = lower_case_extension(line.mesh);
   const auto check = [](const std::string& file, const std::string& its_format) {
     if(!is_mesh_format(its_format))
-      throw std::runtime_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, "
-                                      ".gltf, .glb, .mesh, .msh, .vtk or .vtu");
+      throw Usage_error(file + ": the name of a mesh file ends in .off, .obj, .ply, .stl, .gltf, "
+                               ".glb, .mesh, .msh, .vtk or .vtu");
   };
   check(line.mesh, mesh_format);
   check(line.output, format);
   if(is_tetrahedra_format(mesh_format) && format != mesh_format && format != ".mesh")
-    throw std::runtime_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
-                             " can only be written to a .mesh file" +
-                             (mesh_format == ".mesh" ? "" : ", or to a " + mesh_format + " file"));
+    throw Usage_error("--output " + line.output + ": the tetrahedra of " + line.mesh +
+                      " can only be written to a .mesh file" +
+                      (mesh_format == ".mesh" ? "" : ", or to a " + mesh_format + " file"));
   if(is_surface_format(mesh_format) && !is_surface_format(format))
-    throw std::runtime_error("--output " + line.output + ": the surface of " + line.mesh +
-                             " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb "
-                             "file");
+    throw Usage_error("--output " + line.output + ": the surface of " + line.mesh +
+                      " can only be written to an .off, .obj, .ply, .stl, .gltf or .glb file");
 }
 
 // The outputs: opened before the run, so that nothing is computed in vain, and kept only after all
@@ -397,7 +397,7 @@ void run(const Command_line& line, const Chosen_solver& solver)
   const std::string format = output_format(line.output, line.mesh);
   check_mesh_files(line, format);
   if(!line.color.empty() && line.image.empty() && format != ".ply")
-    throw std::runtime_error("--color " + line.color + ": needs a .ply file as output, or --image");
+    throw Usage_error("--color " + line.color + ": needs a .ply file as output, or --image");
   {
     const Delayed_interruption until_folder_is_removed;
     if(!line.image.empty())

@@ -139,6 +139,10 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
     next += line.size();
     Words words(line);
     const std::string keyword(words.next());
+    if(Words others = words; keyword == "vn")
+      for(int k = 0; k < 3; ++k)
+        if(others.next().empty())
+          throw bad_line(file, number, "a normal has three numbers");
     if(source && keyword == "vn")
       source->normals.push_back(internal::read_obj_normal(line, words, begin));
     if(source && keyword == "v")

@@ -43,7 +43,8 @@ public:
     : m_in(in), m_file(file), m_header(header), m_dropped(dropped), m_source(source)
   {}
 
-  void check_vertices()
+  // Returns whether they have colors.
+  bool check_vertices()
   {
     // coordinates, and a weight if they are homogeneous
     const std::size_t h = m_header.is_homogeneous() ? 1 : 0;
@@ -77,9 +78,11 @@ public:
       if(m_header.has_colors())
         check_color("vertex", v, plain, m_row.size() - texture, has_colors);
     }
+    return has_colors;
   }
 
-  void check_faces()
+  // Returns whether they have colors that the header announces.
+  bool check_faces()
   {
     bool has_colors = false;
     for(std::size_t f = 0; f < m_header.size_of_facets(); ++f)
@@ -98,6 +101,7 @@ public:
       else if(m_row.size() > end)
         m_dropped.insert("colors");
     }
+    return has_colors;
   }
 
 private:
@@ -175,16 +179,22 @@ private:
 
 } // namespace internal
 
+// which elements of an .off file have colors
+struct Off_colors
+{
+  bool are_at_vertices = false, are_in_faces = false;
+};
+
 // Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
 // rows, rows that are too short, and rows that the header does not announce. Files without an .off
 // header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`, and
 // into `source`, whose text is that of the stream, the places of the coordinates.
-inline void check_off_file(std::istream& in, const std::string& file,
-                           std::set<std::string>& dropped, Source_text* source = nullptr)
+inline Off_colors check_off_file(std::istream& in, const std::string& file,
+                                 std::set<std::string>& dropped, Source_text* source = nullptr)
 {
   File_header_OFF header(false);
   if(!(in >> header))
-    return;
+    return {};
   if(header.binary())
     throw std::runtime_error(file + ": is binary; only .off files in text can be read");
   if(header.has_textures() && !header.has_colors())
@@ -194,11 +204,13 @@ inline void check_off_file(std::istream& in, const std::string& file,
   if(header.has_textures())
     dropped.insert("texture coordinates");
   internal::Off_rows rows(in, file, header, dropped, source);
-  rows.check_vertices();
-  rows.check_faces();
+  Off_colors colors;
+  colors.are_at_vertices = rows.check_vertices();
+  colors.are_in_faces = rows.check_faces();
   check_end(in, file, "the " + std::to_string(header.size_of_vertices()) + " vertices and " +
                         std::to_string(header.size_of_facets()) + " faces that the header "
                         "announces");
+  return colors;
 }
 
 } // namespace CGAL::ARAP::demo

@@ -78,6 +78,9 @@ public:
   {
     for(const Element& element : m_elements)
     {
+      for(const char* name : {"x", "y", "z"})
+        if(is_vertex(element) && !has(element, name))
+          refuse("the vertices have no property " + std::string(name));
       const bool has_bytes = std::any_of(element.properties.begin(), element.properties.end(),
                                          [](const Property& p) {
         return is_color(p.name) && p.is("uchar");
@@ -141,6 +144,12 @@ public:
                                                        : Source_text::Numbers::little_endian;
     source.properties_end = m_properties_end;
     for(const Element& element : m_elements)
+    {
+      const bool has_normals = is_vertex(element) && has(element, "nx") && has(element, "ny") &&
+                               has(element, "nz");
+      if(is_vertex(element))
+        for(const Property& p : element.properties)
+          source.properties.insert(p.name);
       for(std::size_t i = 0; i < element.number; ++i)
       {
         std::size_t end = 0;
@@ -155,7 +164,7 @@ public:
           end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
           if(is_position(p))
             point[p.name[0] - 'x'] = {begin, end};
-          if(is_normal(p))
+          if(has_normals && is_normal(p))
           {
             normal[p.name[1] - 'x'] = {begin, end};
             direction[p.name[1] - 'x'] = value;
@@ -170,6 +179,7 @@ public:
             {normal, {direction[0], direction[1], direction[2]},
              {{std::nullopt, source.points.size() - 1}}});
       }
+    }
   }
 
 private:
@@ -210,6 +220,12 @@ private:
   static bool is_face(const Element& element)
   {
     return element.name == "face" || element.name == "faces";
+  }
+
+  static bool has(const Element& element, const std::string& property)
+  {
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [&](const Property& p) { return p.name == property; });
   }
 
   static bool is_position(const Property& p)

@@ -45,7 +45,7 @@ inline boost::program_options::options_description described_options()
      "surface, and about its length in a volume")
     ("onto", in_order()->value_name("PLANE"),
      "to this plane, plane:X,Y,Z,NX,NY,NZ, along which they glide; the plane moves as the handle")
-    ("turn",
+    ("turn", value<std::vector<std::string>>()->composing()->zero_tokens(),
      "its rotation is prescribed to the cells at it: even one vertex turns its surroundings")
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
     ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")

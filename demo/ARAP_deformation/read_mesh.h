@@ -69,11 +69,11 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
   }
 }
 
-// The vertex normals of the input are wrong after a deformation.
-inline void remove_normals(Mesh& mesh)
+template <typename Index, typename Value>
+void remove_property(Mesh& mesh, const std::string& name)
 {
-  auto normals = mesh.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
-  mesh.remove_property_map(normals);
+  auto map = mesh.add_property_map<Index, Value>(name).first; // or the one that there is
+  mesh.remove_property_map(map);
 }
 
 // Returns whether CGAL could read the file. Inserts what is not read of it into `dropped`.
@@ -95,11 +95,15 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
   rewind();
   if(extension == ".off")
   {
-    check_off_file(in, file, dropped);
+    const Off_colors colors = check_off_file(in, file, dropped);
     rewind();
-    if(CGAL::IO::read_OFF(in, mesh)) // with its colors
+    if(CGAL::IO::read_OFF(in, mesh)) // with its colors, black ones where there are none
     {
-      remove_normals(mesh);
+      if(!colors.are_at_vertices)
+        remove_property<Mesh::Vertex_index, CGAL::IO::Color>(mesh, "v:color");
+      if(!colors.are_in_faces)
+        remove_property<Mesh::Face_index, CGAL::IO::Color>(mesh, "f:color");
+      remove_property<Mesh::Vertex_index, Kernel::Vector_3>(mesh, "v:normal"); // of before
       return true;
     }
     mesh.clear(); // read it again, to find the wrong face

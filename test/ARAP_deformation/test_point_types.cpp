@@ -94,6 +94,78 @@ void test_plane(double tolerance)
   CHECK(moved[0] == planar[0][0] + 1 && moved[1] == planar[0][1] + 2);
 }
 
+// What looks for a way out does not find one to the side: a strip in the plane that is pushed
+// together by default options, a body that swings, a frame.
+void test_staying_in_the_plane()
+{
+  using Point_2 = Eigen::Vector2d;
+  const Shape shape = grid("strip", 21, 5, [](double u, double v) {
+    return Eigen::Vector3d(5 * u, v, 0);
+  });
+  std::vector<Point_2> rest;
+  for(const auto& p : shape.points)
+    rest.emplace_back(p.x(), p.y());
+  using Domain = Polygon_soup_domain<std::vector<Point_2>, decltype(shape.triangles)>;
+  using Deformation = CGAL::ARAP_deformation<Domain>;
+  const auto prepare = [&](Deformation& d, double share) {
+    for(std::size_t v = 0; v < rest.size(); ++v)
+    {
+      d.insert_roi_vertex(v);
+      if(const double x = rest[v].x(); x < 0.01 || x > 4.99)
+        d.insert_control_vertex(v, Point_2(share * x, rest[v].y()));
+    }
+  };
+  test_case() = "a strip in the plane that is pushed together";
+  for(const double share : {0.98, 0.9, 0.6})
+  {
+    std::vector<double> energies;
+    for(const bool is_verified : {true, false})
+    {
+      std::vector<Point_2> points = rest;
+      Deformation d(Domain(points, shape.triangles));
+      prepare(d, share);
+      CGAL::ARAP::Options options;
+      options.verify_minimum = is_verified;
+      CHECK(d.set_options(options));
+      const CGAL::ARAP::Report report = d.deform();
+      CHECK(report);
+      energies.push_back(report.final_energy());
+
+      // the energy of the points that were written
+      std::vector<Point_2> others = rest;
+      Deformation e(Domain(others, shape.triangles));
+      prepare(e, share);
+      options.initial_guess = CGAL::ARAP::Initial_guess::previous;
+      CHECK(e.set_options(options) && e.preprocess());
+      others = points;
+      CHECK_AT_MOST(std::abs(e.deform(0, 0).final_energy() / energies.back() - 1), 1e-9);
+    }
+    CHECK_AT_MOST(energies[0] / energies[1], 1.001);
+  }
+
+  test_case() = "gravity across the plane, and a frame that tilts out of it";
+  std::vector<Point_2> points = rest;
+  Deformation d(Domain(points, shape.triangles));
+  prepare(d, 1);
+  CGAL::ARAP::Dynamics dynamics;
+  dynamics.acceleration = {0, 0, -9.81};
+  for(int step = 0; step < 5; ++step)
+  {
+    const CGAL::ARAP::Step_report report = d.advance(dynamics);
+    CHECK(report && report.center_of_mass[2] == 0);
+  }
+  for(std::size_t v = 0; v < rest.size(); ++v)
+    CHECK_AT_MOST((points[v] - rest[v]).norm(), 1e-12);
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const CGAL::ARAP::Matrix_3x3 tilted = {c, 0, s, 0, 1, 0, -s, 0, c},
+                               turned = {c, -s, 0, s, c, 0, 0, 0, 1};
+  const CGAL::ARAP::Outcome refused = d.set_target_rotation(0, tilted);
+  CHECK(refused.status == CGAL::ARAP::Status::invalid_rotation);
+  CHECK(refused.message.find("vertex 0 was given a target rotation that turns it out of the "
+                             "plane") == 0);
+  CHECK(d.set_target_rotation(0, turned));
+}
+
 int main()
 {
   using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -110,5 +182,6 @@ int main()
   test_plane<std::array<double, 2>>(1e-12);
   test_plane<std::array<float, 2>>(1e-5);
   test_plane<Eigen::Vector2d>(1e-12);
+  test_staying_in_the_plane();
   return checks_result();
 }

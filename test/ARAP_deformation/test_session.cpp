@@ -518,8 +518,81 @@ void test_rotations_between_runs()
     CHECK_AT_MOST(std::abs(after_a_detour[k] - after_a_run[k]), 1e-9 * after_a_run[k]);
 }
 
+// A state from before the first run knows the rest shape of what is found around the region later,
+// also if that was overwritten meanwhile.
+void test_state_before_the_first_run()
+{
+  test_case() = "a state from before the first run";
+  const Shape shape = grid("sheet", 9, 4, [](double u, double v) {
+    return Eigen::Vector3d(8 * u, 3 * v, 0);
+  });
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  Deformation d(mesh);
+  const auto insert_column = [&](int column) {
+    for(Vertex v : mesh.vertices())
+      if(std::abs(rest.point(v).x() - column) < 0.1)
+        d.insert_roi_vertex(v);
+  };
+  for(int column = 0; column < 5; ++column)
+    insert_column(column);
+  for(Vertex v : mesh.vertices())
+    if(const Point& p = rest.point(v); p.x() < 0.1)
+      d.insert_control_vertex(v, Point(p.x(), p.y(), 1));
+  const auto state = d.state();
+  const CGAL::ARAP::Report report = d.deform(10, 0);
+  const Mesh first = mesh;
+  insert_column(5); // what was around the region enters it, and moves
+  CHECK(report && d.deform(10, 0));
+  d.overwrite_initial_geometry();
+  CHECK(d.restore(state));
+  CHECK(same_points(mesh, rest));
+  CHECK(d.deform(10, 0).energy == report.energy);
+  CHECK(same_points(mesh, first));
+  insert_column(5);
+  d.reset();
+  CHECK(same_points(mesh, rest));
+}
+
+// Handles on a line leave a turn about it open: there is none, up to rounding.
+void test_handles_on_a_line()
+{
+  test_case() = "handles on a line";
+  const Shape shape = sheet();
+  const Mesh rest = make_mesh<Mesh>(shape);
+  const auto check = [&](const Eigen::Affine3d& motion, double most_x, double tolerance) {
+    Mesh mesh = rest;
+    Deformation d(mesh);
+    d.insert_roi_vertices(mesh.vertices());
+    const auto moved = [&motion](const Point& p) {
+      const Eigen::Vector3d q = motion * Eigen::Vector3d(p.x(), p.y(), p.z());
+      return Point(q.x(), q.y(), q.z());
+    };
+    for(Vertex v : mesh.vertices())
+      if(const Point& p = rest.point(v); p.y() < 1e-9 && p.x() < most_x)
+        d.insert_control_vertex(v, moved(p));
+    CHECK_AT_MOST(d.deform().final_energy(), 1e-24);
+    for(Vertex v : mesh.vertices())
+      CHECK_AT_MOST(std::sqrt(squared_distance(mesh.point(v), moved(rest.point(v)))), tolerance);
+  };
+  const auto about = [](double angle, const Eigen::Vector3d& axis) {
+    return Eigen::Translation3d(3, -1, 2) * Eigen::AngleAxisd(angle, axis.normalized());
+  };
+  for(const double most_x : {0.15, 3.0}) // two handles, and all of an edge
+  {
+    check(about(0, {0, 0, 1}), most_x, 1e-13);
+    for(const double angle : {1e-3, 1.0, 2.0, 3.0})
+      for(const double t : {0.0, 0.4, 2.0}) // axes that are orthogonal to the line
+        check(about(angle, {0, std::cos(t), std::sin(t)}), most_x, 1e-12);
+    const double anywhere = std::numeric_limits<double>::infinity(); // but with no energy
+    check(about(std::acos(-1.0), {0, 0, 1}), most_x, anywhere);
+  }
+}
+
 void test_all()
 {
+  test_state_before_the_first_run();
+  test_handles_on_a_line();
   test_rotations_between_runs();
   test_sets();
   test_targets();

@@ -1056,6 +1056,17 @@ void test_self_intersections()
             CGAL::ARAP::make_polygon_soup_domain(flat, polygons)) == 0);
     std::rotate(polygons[0].begin(), polygons[0].begin() + 1, polygons[0].end());
   }
+
+  // what is not finite intersects nothing, and hides nothing
+  Points holey = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0},
+                  {0, 0, 0}};
+  const std::vector<std::array<int, 3>> around = {{0, 1, 2}, {3, 4, 5}, {6, 0, 1}, {4, 3, 6}};
+  for(const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+  {
+    holey[6] = {bad, 0, 0};
+    CHECK(CGAL::ARAP::number_of_self_intersections(
+            CGAL::ARAP::make_polygon_soup_domain(holey, around)) == 1);
+  }
 }
 
 void test_all()

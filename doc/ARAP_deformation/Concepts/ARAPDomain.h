@@ -64,6 +64,11 @@ public:
   /// the dimension of the simplices: 2 for triangles and polygons, 3 for tetrahedra.
   static constexpr int dimension = unspecified_value;
 
+  /// whether points have two coordinates: nothing then leaves the plane z = 0.
+  ///
+  /// Optional: without it none have.
+  static constexpr bool is_planar = unspecified_value;
+
   /// @}
 
   /// \name Vertices

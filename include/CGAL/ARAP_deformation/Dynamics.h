@@ -48,7 +48,8 @@ struct Dynamics
   /// requires a factorization.
   double damping = 0;
 
-  /// the acceleration of all vertices, such as that of gravity
+  /// the acceleration of all vertices, such as that of gravity; of points with two coordinates the
+  /// third does not count
   Coordinates acceleration = {0, 0, 0};
 
   /// returns `Status::success`, or `Status::invalid_option` and a message that names the member.

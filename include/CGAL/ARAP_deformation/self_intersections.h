@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -25,6 +26,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <type_traits>
@@ -67,10 +69,11 @@ std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
 /// Polygons are cut from one of their corners, into triangles with an area if that is possible.
-/// Triangles without area do not count; those beside one may, and so may triangles where the
-/// surface is not an orientable manifold, as at an edge of three faces. Takes
-/// \f$O(n \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which have bounding boxes
-/// that intersect. No other header needs CGAL's package Polygon Mesh Processing.
+/// Triangles without area do not count, nor do faces with a corner that is not finite. Those beside
+/// a triangle without area may, and so may triangles where the surface is not an orientable
+/// manifold, as at an edge of three faces. Takes \f$O(n \log^3 n + k)\f$ time for \f$n\f$
+/// triangles, \f$k\f$ pairs of which have bounding boxes that intersect. No other header needs
+/// CGAL's package Polygon Mesh Processing.
 ///
 /// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,
 ///        with its own points, or a model of `ARAPDomain`, which may have others
@@ -90,9 +93,13 @@ std::size_t number_of_self_intersections(const Shape& shape)
         points.resize(domain.index(v) + 1, Point(0, 0, 0));
       points[domain.index(v)] = Point(p[0], p[1], p[2]);
     }
+    const auto is_finite = [&](std::size_t v) {
+      return internal::is_finite({points[v].x(), points[v].y(), points[v].z()});
+    };
     for(const auto& face : internal::Simplex_list<Domain>(domain).faces())
-      for(auto& triangle : internal::cut_polygon(face, points))
-        triangles.push_back(std::move(triangle));
+      if(std::all_of(face.begin(), face.end(), is_finite))
+        for(auto& triangle : internal::cut_polygon(face, points))
+          triangles.push_back(std::move(triangle));
   });
   PMP::orient_polygon_soup(points, triangles); // so that there is a mesh of them
   CGAL::Surface_mesh<Point> mesh;

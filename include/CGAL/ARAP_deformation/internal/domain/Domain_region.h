@@ -30,6 +30,19 @@ namespace internal {
 template <typename Domain>
 using Triangles_only = decltype(Domain::has_triangles_only);
 
+template <typename Domain>
+using Planar = decltype(Domain::is_planar);
+
+// whether the points of a domain have two coordinates
+template <typename Domain>
+constexpr bool is_planar()
+{
+  if constexpr(is_valid<Planar, Domain>)
+    return Domain::is_planar;
+  else
+    return false;
+}
+
 // A region with the names of its vertices and simplices in a mesh. It is collected by walking over
 // the region only.
 template <typename Domain>
@@ -51,6 +64,7 @@ public:
                int cell_rings = 0)
   {
     flat.dimension = Domain::dimension;
+    flat.is_planar = is_planar<Domain>();
     for(vertex_descriptor v : movable_vertices)
       add_movable(domain.index(v));
     vertices.assign(movable_vertices.begin(), movable_vertices.end());

@@ -435,7 +435,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       return {Status::solver_failed};
   }
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
-                            m_constraints, options, observe, m_region.rest, targets, x, rotations,
+                            m_constraints, options, observe, m_region, targets, x, rotations,
                             m_state->coarse_metric, report);
   if(has_other_start)
   {

@@ -27,6 +27,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
@@ -57,13 +58,13 @@ public:
 
   Minimization(Deformation_energy& energy, const Closest_rotations& closest_rotations,
                Constrained_system& system, const Constraints& constraints, const Options& options_,
-               const Observer& observe, const Array<Coordinates>& rest, Targets& targets,
+               const Observer& observe, const Region& region, Targets& targets,
                Array<Coordinates>& x_, Array<Matrix_3x3>& rotations,
                std::unique_ptr<Coarse_metric>& coarse_metric, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
       m_constraints(constraints), m_rows(constraints.rows), m_inertia(constraints.inertia),
-      m_observe(observe), m_rest(rest), m_targets(targets), m_rotations(rotations),
+      m_observe(observe), m_region(region), m_targets(targets), m_rotations(rotations),
       m_coarse_metric(coarse_metric)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
@@ -197,6 +198,9 @@ public:
   {
     for(std::size_t v : m_fixed_vertices)
       force[v] = {0, 0, 0};
+    if(m_region.is_planar)
+      for(Coordinates& f : force)
+        f[2] = 0;
     m_system.hard_rows().leave_out_multipliers(force);
   }
 
@@ -212,7 +216,7 @@ public:
       return nullptr;
     const Sparse_matrix& laplacian = m_system.laplacian().matrix;
     if(!m_coarse_metric)
-      m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian, m_rest);
+      m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian, m_region.rest);
     const bool has_rows = m_rows.size() > 0;
     const Sparse_matrix own = has_rows ? m_system.with_rows(m_rows) : Sparse_matrix();
     return m_coarse_metric->build(m_energy, has_rows ? own : laplacian, m_constraints.is_fixed, x,
@@ -392,7 +396,7 @@ private:
   const double m_inertia;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
-  const Array<Coordinates>& m_rest;
+  const Region& m_region;
   Targets& m_targets;
   Array<Matrix_3x3>& m_rotations;
   std::unique_ptr<Coarse_metric>& m_coarse_metric;

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -33,6 +34,54 @@ inline Coordinates centroid(const Array<Coordinates>& points)
   for(const Coordinates& p : points)
     add(sum, 1 / static_cast<double>(points.size()), p);
   return sum;
+}
+
+// The smallest rotation that takes one unit vector to another: the product of two reflections.
+inline Matrix_3x3 smallest_rotation(const Coordinates& from, const Coordinates& to)
+{
+  Coordinates middle = from;
+  add(middle, 1, to);
+  if(dot(middle, middle) < 1e-16) // a half-turn about any axis
+    middle = cross(from, std::abs(from[0]) < 0.6 ? Coordinates{1, 0, 0} : Coordinates{0, 1, 0});
+  const auto reflected = [](Coordinates v, const Coordinates& normal) {
+    add(v, -2 * dot(v, normal) / dot(normal, normal), normal);
+    return v;
+  };
+  Matrix_3x3 rotation;
+  for(std::size_t k = 0; k < 3; ++k)
+  {
+    Coordinates axis = {0, 0, 0};
+    axis[k] = 1;
+    const Coordinates column = reflected(reflected(axis, from), middle);
+    for(std::size_t row = 0; row < 3; ++row)
+      rotation[3 * row + k] = column[row];
+  }
+  return rotation;
+}
+
+// The smallest rotation that is closest to a covariance of rank one, up to rounding, as that of
+// points on a line is; nothing for others.
+inline std::optional<Matrix_3x3> rotation_of_line(const Matrix_3x3& covariance)
+{
+  const auto unit = [](const Coordinates& v) { return scaled(v, 1 / std::sqrt(dot(v, v))); };
+  Coordinates from = {0, 0, 0}; // the longest row
+  for(std::size_t row = 0; row < 3; ++row)
+  {
+    const double* r = covariance.data() + 3 * row;
+    if(const Coordinates entries = {r[0], r[1], r[2]}; dot(entries, entries) > dot(from, from))
+      from = entries;
+  }
+  if(!(dot(from, from) > 0) || !is_finite(from))
+    return std::nullopt;
+  from = unit(from);
+  const Coordinates to = product(covariance, from);
+  double left = 0;
+  for(std::size_t row = 0; row < 3; ++row)
+    for(std::size_t k = 0; k < 3; ++k)
+      left = (std::max)(left, std::abs(covariance[3 * row + k] - to[row] * from[k]));
+  if(!(left * left <= 1e-24 * dot(to, to)))
+    return std::nullopt;
+  return smallest_rotation(from, unit(to));
 }
 
 CGAL_ARAP_INLINE_FUNCTION
@@ -49,7 +98,10 @@ Rigid_fit::Rigid_fit(const Array<Coordinates>& from, const Array<Coordinates>& t
   }
   // A little is added of the last rotation, the identity at first: it decides where nothing else
   // does, and what it does elsewhere is gone after some steps.
-  for(int step = 0; step < 3; ++step)
+  const std::optional<Matrix_3x3> of_line = rotation_of_line(covariance);
+  if(of_line)
+    m_rotation = *of_line;
+  for(int step = 0; step < 3 && !of_line; ++step)
   {
     Matrix_3x3 sum = covariance;
     add(sum, 1e-11 * size, m_rotation);

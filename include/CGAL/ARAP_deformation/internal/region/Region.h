@@ -34,6 +34,7 @@ constexpr int most_corners = 2048;
 struct Region
 {
   int dimension = 2; // of the simplices: 2 for triangles and polygons, 3 for tetrahedra
+  bool is_planar = false; // nothing leaves the plane z = 0
   int number_of_movable_vertices = 0;
   int number_of_centers = 0;
   int number_of_vertex_cells = 0; // the vertices whose cells have movable vertices come first

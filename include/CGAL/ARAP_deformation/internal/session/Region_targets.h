@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
@@ -100,6 +101,8 @@ public:
       step.goals[v] = step.goal(positions[v], m_vertices.velocity(m_vertices.find(vertex)));
       if(force)
         add(step.goals[v], step.mobility(contents[v]), force(vertex));
+      if(is_planar<Domain>())
+        step.goals[v][2] = 0;
       if(!is_finite(step.goals[v]))
         return outcome_of_vertex(Status::non_finite_point, domain().index(vertex),
                                  "where velocity and forces take ");

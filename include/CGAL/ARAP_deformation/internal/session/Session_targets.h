@@ -17,11 +17,13 @@
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_controls.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -107,6 +109,9 @@ public:
     return with_target(v, [&](auto& target) {
       if(rotation && !is_rotation(*rotation))
         return outcome(Status::invalid_rotation, name(v));
+      if(rotation && is_planar<Domain>() && !(std::abs((*rotation)[8]) > 1 - 1e-10))
+        return Outcome(Status::invalid_rotation, name(v) + " was given a target rotation that "
+                       "turns it out of the plane of its mesh");
       target.rotation = rotation;
       if(rotation)
         target.rotation = Svd_rotation::closest(*rotation);

@@ -195,7 +195,7 @@ public:
   void keep_rest(vertex_descriptor v)
   {
     if(find(v) == nullptr)
-      m_surroundings.keep(m_domain.index(v), {v, rest(v)});
+      m_surroundings.keep(m_domain.index(v), v, rest(v));
   }
 
   // to be called when the rest shape is overwritten
@@ -381,7 +381,7 @@ public:
   {
     State state;
     std::map<std::size_t, int> slots; // those that change
-    typename Surroundings<Domain>::Change surroundings;
+    Array<typename Surroundings<Domain>::Vertex> surroundings;
   };
 
   // Prepares the return to an earlier state. Vertices that have entered since leave.
@@ -402,7 +402,7 @@ public:
         change.slots[index] = static_cast<int>(k);
         m_slots.reserve(index);
       }
-    change.surroundings = m_surroundings.prepare(m_domain, change.state.surroundings);
+    change.surroundings = m_surroundings.prepare(change.state.surroundings);
     return change;
   }
 
@@ -420,7 +420,7 @@ public:
   {
     for(const auto& [index, slot] : change.slots)
       m_slots.set(index, slot);
-    m_surroundings.restore(std::move(change.surroundings));
+    m_surroundings.restore(change.surroundings);
     m_entries.swap(change.state.entries);
     m_targets.swap(change.state.targets);
     m_first_points.swap(change.state.first_points);

@@ -16,10 +16,9 @@
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -35,7 +34,7 @@ public:
   struct Vertex
   {
     typename Domain::vertex_descriptor vertex;
-    Point rest;
+    Point rest, first; // in the rest shape now, and in that when it was found
   };
 
   const Array<Vertex>& vertices() const { return m_vertices; }
@@ -47,48 +46,32 @@ public:
     return slot == Paged_index_map::none ? nullptr : &m_vertices[slot].rest;
   }
 
-  void keep(std::size_t index, Vertex v)
+  void keep(std::size_t index, const typename Domain::vertex_descriptor& v, const Point& rest)
   {
     if(const int slot = m_slots[index]; slot != Paged_index_map::none)
     {
-      m_vertices[slot] = std::move(v);
+      Vertex& kept = m_vertices[slot];
+      if(!is_finite(Domain::coordinates(kept.first))) // it has been mended
+        kept.first = rest;
+      kept.rest = rest;
       return;
     }
     m_slots.reserve(index); // so that what throws throws before anything is changed
-    m_vertices.push_back(std::move(v));
+    m_vertices.push_back({v, rest, rest});
     m_slots.set(index, static_cast<int>(m_vertices.size()) - 1);
   }
 
-  // What restore() makes of these, which needs no more memory.
-  struct Change
+  // Those of an earlier state, for restore(): they come first here, too. What was found since
+  // stays, in the rest shape of then.
+  Array<Vertex> prepare(const Array<Vertex>& state) const
   {
-    Array<Vertex> vertices;
-    std::vector<std::size_t> added; // by their indices
-  };
-
-  // those of a state, and what was found since
-  Change prepare(const Domain& domain, const Array<Vertex>& state)
-  {
-    Change change{m_vertices, {}};
-    for(const Vertex& v : state)
-      if(const std::size_t index = domain.index(v.vertex); m_slots[index] != Paged_index_map::none)
-        change.vertices[m_slots[index]] = v;
-      else
-      {
-        m_slots.reserve(index);
-        change.vertices.push_back(v);
-        change.added.push_back(index);
-      }
-    return change;
+    Array<Vertex> vertices = m_vertices;
+    for(std::size_t k = 0; k < vertices.size(); ++k)
+      vertices[k].rest = k < state.size() ? state[k].rest : vertices[k].first;
+    return vertices;
   }
 
-  void restore(Change change)
-  {
-    auto slot = static_cast<int>(m_vertices.size());
-    for(std::size_t index : change.added)
-      m_slots.set(index, slot++);
-    m_vertices.swap(change.vertices);
-  }
+  void restore(Array<Vertex>& prepared) { m_vertices.swap(prepared); }
 
   // takes the points that the mesh has now for all of them, or for none if one throws
   void read_again(const Domain& domain)
