@@ -72,8 +72,16 @@ public:
     }
     catch(const Json::exception& error)
     {
-      throw std::runtime_error(file + ": is no glTF that can be read: " + printable(error.what()));
+      throw unreadable(file, error);
     }
+  }
+
+  // what to throw for a file that the JSON library finds fault with
+  static std::runtime_error unreadable(const std::string& file, const Json::exception& error)
+  {
+    const std::string why = error.what(); // after the name of the exception in brackets
+    return std::runtime_error(file + ": is no glTF that can be read:" +
+                              printable(why.substr(why.find(']') + 1)));
   }
 
   // An index or a size. Throws a Json::exception if it is a fraction, or too large a number, whose

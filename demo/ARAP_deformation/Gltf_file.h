@@ -59,9 +59,7 @@ public:
     }
     catch(const Gltf::Json::exception& error)
     {
-      const std::string why = error.what(); // after the name of the exception in brackets
-      throw std::runtime_error(file + ": is no glTF that can be read: " +
-                               printable(why.substr(why.find(']') + 1)));
+      throw Gltf::unreadable(file, error);
     }
     catch(const std::runtime_error& error)
     {

@@ -493,8 +493,8 @@ public:
   /// The rotation is that from the rest shape; it counts for soft control vertices too. A new
   /// rotation costs no preprocessing. It stays when the target changes, by `rotate()` for example;
   /// `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it. Returns
-  /// `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or turns points
-  /// with two coordinates out of their plane.
+  /// `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or turns
+  /// points with two coordinates out of their plane.
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -679,9 +679,9 @@ public:
   /// returns the region of interest, the control vertices and control points, their targets and
   /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
   /// memory. Options, stiffness and groups are no part of it: a program that lets its users change
-  /// these keeps them itself, and sets them before it restores the state, which has the rotations of
-  /// the cells of then. Nor is the factor: where that, or the region, was computed again since, runs
-  /// from a restored state have the same iterates only up to rounding.
+  /// these keeps them itself, and sets them before it restores the state, which has the rotations
+  /// of the cells of then. Nor is the factor: where that, or the region, was computed again since,
+  /// runs from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs

@@ -228,6 +228,9 @@ void test_success()
   const Run to_device = run(call + "-o new.off --quiet --report /dev/stdout");
   CHECK(to_device.exit_code == 0);
   CHECK(nlohmann::json::parse(to_device.out)["status"] == "iteration_limit");
+  const Run with_summary = run(call + "-o new.off --report /dev/stdout");
+  CHECK(nlohmann::json::parse(with_summary.out, nullptr, false)["status"] == "iteration_limit");
+  CHECK(with_summary.err.find("1 iterations") != std::string::npos);
   CHECK(fs::is_character_file("/dev/null"));
   CHECK(run(call + "-o new.off --report /dev/null").exit_code == 0);
   CHECK(fs::is_character_file("/dev/null"));
@@ -378,8 +381,8 @@ void test_refusals()
     check_refused(file + rest, 1, phrase);
   };
   mesh("missing.off", "missing.off: there is no such file");
-  mesh(".", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
-  mesh("volume.meshb", "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
+  for(const std::string file : {".", "volume.meshb"})
+    check_refused(file + rest, 2, "ends in .off, .obj, .ply, .stl, .gltf, .glb, .mesh");
   for(const std::string extension : {"off", "obj", "ply", "stl"})
   {
     write("empty." + extension, "");
@@ -431,7 +434,7 @@ void test_refusals()
   for(std::size_t v = 0; v < shape.points.size(); ++v)
     free_text += "1\n";
   write("bad.sel", free_text);
-  select("bad.sel", "fix a vertex of its component");
+  select("bad.sel", "nothing moves: no vertex belongs to a handle of bad.sel");
 
   const auto transform = [&](const std::string& matrix, const std::string& phrase) {
     write("bad.def", matrix);
@@ -451,9 +454,9 @@ void test_refusals()
 
   const std::string good_call = "in.off --selection in.sel --transform in.def ";
   check_refused(good_call + "-o no/such/folder/out.off", 1, "no/such/folder/out.off: cannot be");
-  check_refused(good_call + "-o out.xyz", 1, "out.xyz: the name of a mesh file ends in");
+  check_refused(good_call + "-o out.xyz", 2, "out.xyz: the name of a mesh file ends in");
   check_refused(good_call + "-o new.off --report no/such/folder/r.json", 1, "cannot be written");
-  check_refused(good_call + "-o out.mesh", 1, "--output out.mesh: the surface of in.off can only");
+  check_refused(good_call + "-o out.mesh", 2, "--output out.mesh: the surface of in.off can only");
   fs::create_directory(folder / "folder.off");
   check_refused(good_call + "-o folder.off", 1, "folder.off: cannot be written");
 
@@ -461,11 +464,15 @@ void test_refusals()
   check_refused(good_call + "-o new.off --report ./in.off", 2, "is given for two things");
   check_refused(good_call + "-o new.off --report in.sel", 2, "is given for two things");
   check_refused(good_call + "-o new.off --image picture.jpg", 2, ".png");
+  const std::string lists = "in.off --fix list:@list.txt --stiffness list:@stiff.txt 2 --handle "
+                            "z:4.. --move 0,0,1 -o new.off ";
+  check_refused(lists + "--report ./list.txt", 2, "is given for two things");
+  check_refused(lists + "--save-selection stiff.txt", 2, "is given for two things");
   check_refused("", 2, "no mesh is given");
   check_refused(good_call, 2, "output");
   check_refused("in.off -o new.off --transform in.def", 2, "selection");
   check_refused("in.off -o new.off --selection in.sel", 2, "transform");
-  check_refused("in.off in.off" + rest, 2, "more than one mesh is given");
+  check_refused("in.off in.off" + rest, 2, "'in.off' is a second mesh, or a second value");
   check_refused("in.off --frobnicate" + rest, 2, "frobnicate");
   check_refused("in.off --cells dinner" + rest, 2, "spokes, spokes_and_rims, elements");
   check_refused("in.off --weights none" + rest, 2, "cotangent, clamped_cotangent, uniform");
@@ -473,11 +480,12 @@ void test_refusals()
   check_refused("in.off --initial_guess none" + rest, 2, "rotations, laplacian");
   check_refused("in.off --initial-guess none" + rest, 2, "rotations, laplacian");
   check_refused("-o new.off -- --initial-guess", 2, "nothing moves: give a --handle");
-  check_refused("in.off --=1" + rest, 2, "more than one mesh is given");
+  check_refused("in.off --=1" + rest, 2, "'1' is a second mesh");
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");
-  check_refused("in.off --tolerance -1" + rest, 2, "tolerance");
+  check_refused("in.off --tolerance -1" + rest, 2, "--tolerance is -1");
+  check_refused("in.off --cells k_ring:101" + rest, 2, "--cells is k_ring(101)");
   check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
 }
 
@@ -531,6 +539,16 @@ void test_handles()
       CHECK_AT_MOST((result[v] - Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(),
                                                  mesh.point(v).z())).norm(), 1e-12);
   }
+
+  test_case() = "two handles that turn what is around them";
+  const auto energy = [](const std::string& first, const std::string& second) {
+    CHECK(run("in.off --fix z:..0.5 --handle list:50" + first + " --rotate z 40 --handle list:101" +
+              second + " --rotate z -40 --minimizer local_global --iterations 1 -o two.off "
+              "--report r.json").exit_code == 0);
+    return nlohmann::json::parse(content(folder / "r.json"))["energy"].dump();
+  };
+  CHECK((std::set<std::string>{energy("", ""), energy(" --turn", ""), energy("", " --turn"),
+                               energy(" --turn", " --turn")}.size() == 4));
 
   test_case() = "targets that glide along a plane";
   const std::string glide = "in.off --fix z:..0.1 --handle z:4.5.. --soft 1e6 --onto "
@@ -665,7 +683,7 @@ void test_frames()
 #endif
 
   test_case() = "films";
-  check_refused(call + "new.off --animation film.avi", 1, "a film ends in .gif");
+  check_refused(call + "new.off --animation film.avi", 2, "a film ends in .gif");
   for(const auto& [file, start] : std::map<std::string, std::string>{
         {"film.gif", "GIF89a"}, {"film.glb", "glTF"}, {"film.gltf", "{"},
         {"film.webm", "\x1A\x45\xDF\xA3"}})
@@ -860,17 +878,26 @@ void test_picks()
   refuse("--handle z:0.. --transform in.def", 2, "leave out --move and --rotate");
   refuse("--handle z:0.. --selection in.sel", 2, "leave out --handle");
   refuse("--fix z:0..", 2, "--move is for the --handle before it");
+  refuse("--selection in.sel --fix z:4..", 1, "nothing moves: no vertex belongs to a handle of "
+                                              "in.sel");
+  check_refused("in.off --fix z:..1 --gravity 0,0,1 --frames 2 --transform in.def -o precious.off",
+                1, "nothing moves: there is no --handle");
+  refuse("--handle list:@", 2, "--handle list:@: expected the name of a file");
+  check_refused("in.off --handle z:0.. --soft 1 --onto plane:0,0,0,1%,0,0 -o precious.off", 2,
+                "a percentage makes no sense in a normal");
   refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers azimuth,elevation");
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
   refuse("--handle z:0.. --view 0,0", 2, "--view is for pictures and films: give --image");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. -o precious.off --rotate=z", 2, "expected AXIS ANGLE");
+  check_refused("in.off --handle z:0.. -o precious.off --rotate=z 30", 2, "expected AXIS ANGLE");
 
   test_case() = "an option has one value, and the mesh may follow it";
-  const std::string several = "or more than one value for an option";
-  check_refused("in.off --handle list:1,2 list:3" + rest, 2, several);
-  check_refused("in.off --handle z:0.. -o precious.off --move 0,0,1 0,1,0", 2, several);
+  check_refused("in.off --handle list:1,2 list:3" + rest, 2,
+                "'list:3' is a second mesh, or a second value of an option");
+  check_refused("in.off --handle z:0.. -o precious.off --move 0,0,1 0,1,0", 2,
+                "'0,1,0' is a second");
   const std::string lift = "--quiet --fix z:..0.5 --handle z:4.5.. --move 0,0,1 ";
   CHECK(run("in.off -o first.off " + lift).exit_code == 0);
   CHECK(run("-o last.off " + lift + "in.off").exit_code == 0);
@@ -1042,6 +1069,8 @@ void test_gltf()
   const std::string deep = std::string(300000, '[') + std::string(300000, ']');
   write("bad.gltf", "{\"extras\": " + deep + ',' + json.dump().substr(1));
   check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: has more than 1000 lists and");
+  write("bad.gltf", "[]");
+  check_refused("bad.gltf" + stay + "precious.off", 1, "is no glTF that can be read: cannot use");
   write("bad.glb", content(folder / "out.glb").substr(0, 300));
   check_refused("bad.glb" + stay + "precious.off", 1, "bad.glb: ");
 }
@@ -1102,7 +1131,7 @@ void test_quality()
   CHECK(content(folder / "new2.ply").find("property float edge_error_\n") != std::string::npos);
   CHECK(run("in.off --handle z:..1 --rotate x 90 -o new2.ply --color spike").exit_code == 0);
   CHECK(content(folder / "new2.ply").find("property float spike\n") != std::string::npos);
-  check_refused(call + "new3.off --color edge_error", 1, "needs a .ply file as output, or --image");
+  check_refused(call + "new3.off --color edge_error", 2, "needs a .ply file as output, or --image");
   check_refused(call + "new3.ply --color red", 2, "use one of edge_error, area, volume, angle");
 
   test_case() = "one triangle through another";
@@ -1191,6 +1220,9 @@ void test_control_points()
 
   const std::string handle = "in.off --handle point:0,0,0 --move 1,0,0 -o new.off";
   check_refused(handle + " --turn", 2, "--turn: the handle is a point");
+  check_refused("in.off --fix z:..0.1 --fix point:1,0,0 --handle z:4.. --move 0,0,1 -o new.off", 1,
+                "in.off: --fix point:1,0,0: its position is determined by other hard targets; "
+                "leave one of them out");
   check_refused(handle + " --region point:0,0,0", 2, "for --fix and --handle only");
   check_refused(handle + " --save-selection new.sel", 2, "a selection has vertices only, not "
                                                          "--handle point:0,0,0");
@@ -1301,6 +1333,15 @@ void test_dynamics()
     CHECK_AT_MOST(frame["elastic_energy"].get<double>(), 1e-9);
   }
 
+  CHECK(fall.out.find("last frame: ") != std::string::npos);
+  double deform = 0;
+  for(const auto& frame : json["frames"])
+    deform += frame["seconds"]["deform"].get<double>();
+  CHECK_AT_MOST(std::abs(json["seconds"]["deform"].get<double>() - deform), 1e-9);
+  CHECK(run("in.off --frames 1 -o fall.off --report r.json" + gravity).exit_code == 0);
+  json = nlohmann::json::parse(content(folder / "r.json"));
+  CHECK(json["frames"].size() == 1 && json["frames"][0].contains("center_of_mass"));
+
   test_case() = "a body that hangs, and whose handle moves";
   Mesh mesh = make_mesh<Mesh>(shape);
   CGAL::ARAP_deformation<Mesh> d(mesh);
@@ -1337,6 +1378,7 @@ void test_dynamics()
   const std::string call = "in.off --fix z:..1 -o new.off --frames 3 --gravity ";
   check_refused(call + "0,0", 2, "expected the numbers x,y,z");
   check_refused(call + "0,0,1 --time_step 0", 2, "--time_step must be positive");
+  check_refused(call + "0,0,1 --time_step 1e300", 1, "--time_step, --modulus and --damping differ");
   check_refused(call + "0,0,1 --modulus x", 2, "--modulus 'x' is not a number");
 }
 
@@ -1713,8 +1755,10 @@ void test_text()
   CHECK(run("odd.mesh --selection all.sel --transform identity.def -o /dev/stdout").out == odd);
 #endif
   write("fixed.sel", "0\n0\n0\n0\n0\n0\n");
-  CHECK(run("odd.mesh --selection fixed.sel -o new.mesh --transform identity.def").exit_code == 0);
-  CHECK(content(folder / "new.mesh") == odd);
+  CHECK(run("odd.mesh --selection fixed.sel -o new.mesh --frames 1 --gravity 0,0,1")
+          .exit_code == 0);
+  CHECK(content(folder / "new-0001.mesh") == odd);
+  fs::remove(folder / "new-0001.mesh");
 
   test_case() = "a vertex without a tetrahedron stays";
   write("shift.def", "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
@@ -1816,7 +1860,7 @@ void test_other_formats()
     CHECK(other.find("Vertices " + std::to_string(n) + '\n' + row(expected[0]) + " 0\n") !=
           std::string::npos);
     write("precious.off", "precious");
-    check_refused("in." + file + rest + "new.off", 1, "only be written to a .mesh file, or to a");
+    check_refused("in." + file + rest + "new.off", 2, "only be written to a .mesh file, or to a");
   };
   check_same("msh 2.2", "msh", msh2);
   check_same("msh 4.1", "msh", msh4);
@@ -1936,6 +1980,12 @@ void test_inside_out()
   CHECK(done.out.find(std::to_string(inverted) + " of " + std::to_string(shape.tetrahedra.size()) +
                       " tetrahedra are inside out") != std::string::npos);
 
+  test_case() = "inside out, and nothing is free";
+  write("mirror.def", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  CHECK(run("in.mesh --handle x:-1e9.. --transform mirror.def -o out.mesh --report r.json")
+          .exit_code == 0);
+  CHECK(report()["inverted_simplices"] == shape.tetrahedra.size());
+
   test_case() = "picture";
   if(is_long_run())
     check_picture(call);
@@ -2020,10 +2070,10 @@ void test_refusals()
   write("good.mesh", good);
   const std::string good_call = "good.mesh --selection four.sel --transform in.def ";
   check_refused("missing.mesh" + rest, 1, "missing.mesh: there is no such file");
-  check_refused(good_call + "-o out.off", 1,
+  check_refused(good_call + "-o out.off", 2,
                 "--output out.off: the tetrahedra of good.mesh can only be written to a .mesh "
                 "file");
-  check_refused(good_call + "-o out.meshb", 1, "ends in .off, .obj, .ply, .stl, .gltf, .glb,");
+  check_refused(good_call + "-o out.meshb", 2, "ends in .off, .obj, .ply, .stl, .gltf, .glb,");
   write("five.sel", "0\n1\n1\n2\n1\n");
   check_refused("good.mesh --selection five.sel --transform in.def -o new.mesh", 1,
                 "has 5 statuses, but the mesh has 4 vertices");

@@ -135,6 +135,7 @@ void test_obj()
   for(const std::string corner : {"0", "x", "1.5", "-", "/1"})
     refuse_at(6, "obj", square + "f 1 3 " + corner + "\n", "'" + corner + "' is not a corner");
   refuse_at(6, "obj", square + "f 1 3\n", "a face has at least three vertices");
+  refuse_at(6, "obj", square + "vn 0 1\nvn 0 0 1\n", "a normal has three numbers");
   refuse_at(6, "obj", square + "v 1 2\n", "a vertex has three coordinates");
   refuse_at(7, "obj", square + "\nv 1 nan 2\n",
             "'nan' is not a finite number");
@@ -202,6 +203,9 @@ void test_ply()
   refuse_ply(ply("ascii", "list uchar float", "4", "uchar int") + square + faces,
              "the property x is not float or double");
   refuse_ply(ply("ascii", "quad", "4", "uchar int") + square + faces, "has a property of an");
+  refuse_ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement "
+             "face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n1 1\n3 0 1 2\n",
+             "the vertices have no property z");
   refuse_ply(ply("ascii", "float", "4", "uchar short") + square + faces,
              "the property vertex_indices is not a list of int or uint");
   refuse_ply(ply("ascii", "float", "4", "float int") + square + faces, "has a list with a");
@@ -301,6 +305,21 @@ void test_notes()
   check_note("colors.off", "new.off", "");
   check_note("colors.off", "new.ply", "");
   check_note("colors.off", "new.obj", "colors");
+  const auto ply_of = [](const std::string& vertex_color, const std::string& face_color) {
+    write("some.off", "COFF\n4 2 0\n0 0 0" + vertex_color + "\n1 0 0" + vertex_color + "\n1 1 0" +
+                      vertex_color + "\n0 1 0" + vertex_color + "\n3 0 1 2" + face_color +
+                      "\n3 0 2 3" + face_color + '\n');
+    CHECK(run("some.off --selection in.sel --transform in.def -o new.ply").exit_code == 0);
+    const std::string text = content(folder / "new.ply");
+    const std::size_t faces_begin = text.find("element face");
+    fs::remove(folder / "new.ply");
+    return std::pair(text.substr(0, faces_begin).find("red") != std::string::npos,
+                     text.find("red", faces_begin) != std::string::npos);
+  };
+  test_case() = "colors of vertices or of faces only";
+  CHECK(ply_of(" 1 2 3", "") == std::pair(true, false));
+  CHECK(ply_of("", " 1 2 3") == std::pair(false, true));
+  CHECK(ply_of(" 1 2 3", " 1 2 3") == std::pair(true, true));
   write("faces.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces(" 1 2 3"));
   check_note("faces.off", "new.off", "");
   check_note("faces.off", "new.ply", "colors");
@@ -378,6 +397,12 @@ void test_kept()
     }
   }
 
+  const std::string two = // coordinates of a normal
+    ply("ascii", "float", "4", "uchar int", "property float nx\nproperty float ny\n") +
+    "0 -1 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n";
+  CHECK(deformed("two.ply", two + "-1 0.5 0 1 2\n3 0 1 2\n3 0 2 3\n") ==
+        two + "0 0.5 1 1 2\n3 0 1 2\n3 0 2 3\n");
+
   const auto header = [](const std::string& format) {
     return "ply\nformat " + format + " 1.0\ncomment by hand\nelement lists 1\n"
            "property list uchar short things\nelement vertex 4\nproperty int before\n"
@@ -430,6 +455,18 @@ void test_color()
   write("binary.ply", binary("", 0));
   CHECK(run("binary.ply --handle x:0.. --move 1,0,0 --color edge_error -o new.ply").exit_code == 0);
   CHECK(content(folder / "new.ply") == binary("property float edge_error\n", 1));
+
+  test_case() = "a property of a text with ends of lines of two characters";
+  std::string text = ply("ascii", "float", "4", "uchar int", "property float area \n") +
+                     "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 2\n3 0 2 3\n";
+  for(std::size_t place = 0; (place = text.find('\n', place)) != std::string::npos; place += 2)
+    text.insert(place, 1, '\r');
+  write("returns.ply", text);
+  CHECK(run("returns.ply --handle x:0.. --move 0,0,0 --color area -o new.ply").exit_code == 0);
+  const std::string colored = content(folder / "new.ply");
+  CHECK(colored.find("property float area \r\nproperty float area_\r\n") != std::string::npos);
+  CHECK(colored.find("\r\n1 0 0 7 0\r\n") != std::string::npos);
+  fs::remove(folder / "new.ply");
 }
 
 // Three tetrahedra, and a triangle on them, in binary files. The last vertex moves by a vector of
@@ -910,7 +947,7 @@ void test_meshes_in_pipes()
                "is given for two things");
   check_failed("{ sleep 0.1; arap in.off " + arguments + "/dev/stdout; } | true", 1,
                "/dev/stdout: could not be written to the end");
-  check_failed("arap in.off " + arguments + "nothing", 1, "the name of a mesh file ends in");
+  check_failed("arap in.off " + arguments + "nothing", 2, "the name of a mesh file ends in");
 }
 
 // On a terminal the command says what it is doing.
@@ -949,8 +986,8 @@ void test_descriptors()
     check_done(done);
     const std::string log = content(folder / "log");
     CHECK(log.substr(0, start.size()) == start);
-    CHECK((log + done.out).find("}\nin.off: 4 vertices") != std::string::npos);
-    CHECK((log + done.out).find("written: in.off") != std::string::npos);
+    CHECK((log + done.out + done.err).find("in.off: 4 vertices") != std::string::npos);
+    CHECK((log + done.out + done.err).find("written: in.off") != std::string::npos);
   };
   check_log(call + "--report /dev/stdout >> log", "old\n{\n");
   check_log(call + "--report /dev/stdout > log", "{\n");
