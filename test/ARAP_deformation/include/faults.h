@@ -149,7 +149,7 @@ private:
   std::size_t m_exceptions = 0, m_refusals = 0, m_survived = 0;
 };
 
-// Makes each call of a kind (in a short run every seventh) fail in each step of a story, from step
+// Makes each call of a kind (in a short run every 17th) fail in each step of a story, from step
 // `first_step` on.
 template <typename Session>
 class Fault_test

@@ -134,10 +134,8 @@ public:
     std::optional<Point> moved; // others may have moved it
     if(takes_points() && m_vertices.find(v) != nullptr)
       moved = domain().point(v);
-    if(!m_vertices.insert_control(v))
+    if(!m_vertices.insert_control(v, moved))
       return false;
-    if(moved)
-      m_vertices.target(*m_vertices.find(v)) = std::move(*moved);
     return was_roi ? constraints_changed() : region_changed();
   }
 

@@ -220,14 +220,15 @@ public:
 
   bool insert_roi(vertex_descriptor v) { return is_vertex(v) && enter_roi(find_or_insert(v)); }
 
-  bool insert_control(vertex_descriptor v)
+  // The target is the present point, or another one.
+  bool insert_control(vertex_descriptor v, const std::optional<Point>& point = {})
   {
     if(!is_vertex(v) || is_control(v))
       return false;
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
       m_targets.reserve(2 * m_targets.size() + 1);
-    Target target = {present(v), hard};
+    Target target = {point ? *point : present(v), hard};
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {
@@ -285,13 +286,14 @@ public:
   std::pair<Control_point, bool> insert_point(Held_point held)
   {
     const Control_point point(m_last_point + 1);
-    for(vertex_descriptor v : held.corners) // what can throw comes first
-      find_or_insert(v);
-    const Held_point& inserted = m_points.emplace(point, std::move(held)).first->second;
+    std::vector<std::size_t> corners; // their places: what can throw comes first
+    for(vertex_descriptor v : held.corners)
+      corners.push_back(static_cast<std::size_t>(&find_or_insert(v) - m_entries.data()));
+    m_points.emplace(point, std::move(held));
     ++m_last_point;
     bool is_region_other = false;
-    for(vertex_descriptor v : inserted.corners)
-      is_region_other |= enter_roi(*find(v));
+    for(std::size_t k : corners)
+      is_region_other |= enter_roi(m_entries[k]);
     return {point, is_region_other};
   }
 
