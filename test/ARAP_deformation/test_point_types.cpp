@@ -143,6 +143,19 @@ void test_staying_in_the_plane()
     CHECK_AT_MOST(energies[0] / energies[1], 1.001);
   }
 
+  test_case() = "handles on a line in the plane, after a half-turn";
+  std::vector<Point_2> turning = rest;
+  Deformation turned_over(Domain(turning, shape.triangles));
+  for(std::size_t v = 0; v < rest.size(); ++v)
+  {
+    turned_over.insert_roi_vertex(v);
+    if(rest[v].x() > 4.99)
+      turned_over.insert_control_vertex(v, Point_2(-rest[v]));
+  }
+  CHECK(turned_over.deform());
+  for(std::size_t v = 0; v < rest.size(); ++v)
+    CHECK_AT_MOST((turning[v] + rest[v]).norm(), 1e-12);
+
   test_case() = "gravity across the plane, and a frame that tilts out of it";
   std::vector<Point_2> points = rest;
   Deformation d(Domain(points, shape.triangles));

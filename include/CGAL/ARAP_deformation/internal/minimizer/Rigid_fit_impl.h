@@ -41,8 +41,8 @@ inline Matrix_3x3 smallest_rotation(const Coordinates& from, const Coordinates& 
 {
   Coordinates middle = from;
   add(middle, 1, to);
-  if(dot(middle, middle) < 1e-16) // a half-turn about any axis
-    middle = cross(from, std::abs(from[0]) < 0.6 ? Coordinates{1, 0, 0} : Coordinates{0, 1, 0});
+  if(dot(middle, middle) < 1e-16) // a half-turn about any axis, in the plane z = 0 about z
+    middle = cross(from, std::abs(from[2]) < 0.6 ? Coordinates{0, 0, 1} : Coordinates{0, 1, 0});
   const auto reflected = [](Coordinates v, const Coordinates& normal) {
     add(v, -2 * dot(v, normal) / dot(normal, normal), normal);
     return v;
@@ -96,17 +96,17 @@ Rigid_fit::Rigid_fit(const Array<Coordinates>& from, const Array<Coordinates>& t
     add_product(covariance, q, p);
     size += dot(p, p);
   }
-  // A little is added of the last rotation, the identity at first: it decides where nothing else
-  // does, and what it does elsewhere is gone after some steps.
-  const std::optional<Matrix_3x3> of_line = rotation_of_line(covariance);
-  if(of_line)
-    m_rotation = *of_line;
-  for(int step = 0; step < 3 && !of_line; ++step)
-  {
-    Matrix_3x3 sum = covariance;
-    add(sum, 1e-11 * size, m_rotation);
-    m_rotation = Svd_rotation::closest(sum);
-  }
+  if(const std::optional<Matrix_3x3> rotation = rotation_of_line(covariance))
+    m_rotation = *rotation;
+  else
+    // A little is added of the last rotation, the identity at first: it decides where nothing else
+    // does, and what it does elsewhere is gone after some steps.
+    for(int step = 0; step < 3; ++step)
+    {
+      Matrix_3x3 sum = covariance;
+      add(sum, 1e-11 * size, m_rotation);
+      m_rotation = Svd_rotation::closest(sum);
+    }
   for(std::size_t k = 0; k < from.size(); ++k)
   {
     const Coordinates error = difference(to[k], (*this)(from[k]));
