@@ -266,12 +266,13 @@ struct Temporary_folder
   Temporary_folder()
   {
     std::error_code error;
-    const auto parent = std::filesystem::absolute(std::filesystem::temp_directory_path(error));
+    const auto parent = std::filesystem::temp_directory_path(error);
     if(error)
       throw std::runtime_error("there is no folder for temporary files: " + error.message() +
                                "; TMPDIR tells where it is");
     do
-      path = parent / ("arap_scene_" + std::to_string(std::random_device()()));
+      path = std::filesystem::absolute(parent) /
+             ("arap_scene_" + std::to_string(std::random_device()()));
     while(!std::filesystem::create_directory(path)); // false if it exists
   }
   Temporary_folder(const Temporary_folder&) = delete;

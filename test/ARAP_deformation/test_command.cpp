@@ -261,6 +261,10 @@ void test_success()
   CHECK(no_povray.exit_code == 1);
   CHECK(no_povray.err.find("povray") != std::string::npos);
   CHECK(!fs::exists(folder / "other.off") && !fs::exists(folder / "other.png"));
+  command = "/usr/bin/env\" TMPDIR=/nonexistent \"" + shell_command;
+  const Run no_folder = run(call + "-o other.off --image other.png");
+  CHECK(no_folder.exit_code == 1);
+  CHECK(no_folder.err.find("there is no folder for temporary files") != std::string::npos);
   command = shell_command;
 
   test_case() = "view and colors of a picture";
