@@ -164,7 +164,7 @@ parse_several(std::vector<std::string>& arguments)
 {
   if(arguments.empty())
     return {};
-  for(const std::string option : {"rotate", "stiffness"})
+  for(const std::string option : {"rotate", "stiffness"}) // after = there is one value only
     if(arguments[0].rfind("--" + option + '=', 0) == 0)
       check_several(option, 1);
   if(arguments[0] != "--rotate" && arguments[0] != "--stiffness")
@@ -204,13 +204,14 @@ inline Motion_step rotation_step(const std::vector<std::string>& values)
 // A message of the library, with the names that options have here.
 inline std::string with_options(std::string message)
 {
-  static const std::array<std::pair<std::regex, std::string>, 4> names = {{
+  static const std::array<std::pair<std::regex, std::string>, 5> names = {{
     {std::regex("(the option )?(bending|smoothing)_length"), "--$2"},
     {std::regex("time_step, density, modulus and damping of the dynamics"),
      "--time_step, --modulus and --damping"},
     {std::regex("the option (\\w+)|(\\w+) of the dynamics"), "--$1$2"},
     {std::regex("erase one of them, or give it a finite weight"),
-     "leave one of them out, or give a handle --soft"}}};
+     "leave one of them out, or give a handle --soft"},
+    {std::regex("give them finite weights"), "give them --soft"}}};
   for(const auto& [of_library, of_command] : names)
     message = std::regex_replace(message, of_library, of_command);
   return message;
@@ -303,6 +304,8 @@ inline void check_task(const Command_line& line)
   std::for_each(line.handles.begin(), line.handles.end(), look_at);
   if(has_steps && !line.transforms.empty())
     throw Usage_error("--transform already tells how handles move; leave out --move and --rotate");
+  if(line.selection.empty() && line.handles.empty() && !line.transforms.empty())
+    throw Usage_error("--transform moves handles: give a --handle, or a --selection");
   if(!has_steps && !has_planes && line.transforms.empty() && !line.dynamics)
     throw Usage_error("nothing moves: give --move, --rotate or --transform");
   for(const auto& pick : line.picks)

@@ -54,7 +54,7 @@ std::vector<Held_point<Domain>> held_points(const Command_line& line, const Doma
   return held;
 }
 
-// A message of the library, in which they have the numbers of control points.
+// Replaces the number of a control point in a message of the library by its option.
 template <typename Domain>
 std::string with_names(std::string message, const std::vector<Held_point<Domain>>& held)
 {

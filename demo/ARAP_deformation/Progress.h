@@ -54,7 +54,7 @@ public:
       std::cerr << '\r' << what << "\033[K" << std::flush;
   }
 
-  // the same of an iterate of a frame
+  // shows how far a frame is
   template <typename Iterate>
   void show(const std::string& which, const Iterate& iterate, unsigned int iterations)
   {

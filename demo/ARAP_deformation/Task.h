@@ -208,9 +208,7 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   const bool is_moved = !line.transforms.empty() || !line.all_handles.steps.empty() ||
                         line.all_handles.plane;
   if(line.handles.empty() && all.empty() && is_moved)
-    throw std::runtime_error("nothing moves: " + (line.selection.empty()
-                               ? "there is no --handle"
-                               : "no vertex belongs to a handle of " + line.selection));
+    throw std::runtime_error("nothing moves: no vertex belongs to a handle of " + line.selection);
 
   const auto key_frames = internal::read_key_frames(line, task.handles.size());
   const bool are_together = // all handles move as one

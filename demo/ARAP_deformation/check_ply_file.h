@@ -145,8 +145,8 @@ public:
     source.properties_end = m_properties_end;
     for(const Element& element : m_elements)
     {
-      const bool has_normals = is_vertex(element) && has(element, "nx") && has(element, "ny") &&
-                               has(element, "nz");
+      const bool has_normals =
+        3 == std::count_if(element.properties.begin(), element.properties.end(), is_normal);
       if(is_vertex(element))
         for(const Property& p : element.properties)
           source.properties.insert(p.name);

@@ -103,7 +103,7 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
         remove_property<Mesh::Vertex_index, CGAL::IO::Color>(mesh, "v:color");
       if(!colors.are_in_faces)
         remove_property<Mesh::Face_index, CGAL::IO::Color>(mesh, "f:color");
-      remove_property<Mesh::Vertex_index, Kernel::Vector_3>(mesh, "v:normal"); // of before
+      remove_property<Mesh::Vertex_index, Kernel::Vector_3>(mesh, "v:normal"); // wrong after it
       return true;
     }
     mesh.clear(); // read it again, to find the wrong face

@@ -885,7 +885,7 @@ void test_picks()
   refuse("--selection in.sel --fix z:4..", 1, "nothing moves: no vertex belongs to a handle of "
                                               "in.sel");
   check_refused("in.off --fix z:..1 --gravity 0,0,1 --frames 2 --transform in.def -o precious.off",
-                1, "nothing moves: there is no --handle");
+                2, "--transform moves handles: give a --handle");
   refuse("--handle list:@", 2, "--handle list:@: expected the name of a file");
   check_refused("in.off --handle z:0.. --soft 1 --onto plane:0,0,0,1%,0,0 -o precious.off", 2,
                 "a percentage makes no sense in a normal");

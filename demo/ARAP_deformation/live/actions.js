@@ -8,11 +8,11 @@ import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { painted } from './painting.js';
 import { $, changed, engine, page, view } from './state.js';
-import { changing, commit, forgetPast, optionsOfLast } from './undo.js';
+import { changing, commit, forgetPast, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
 
 export async function optionsChanged() {
-  const before = optionsOfLast();
+  const before = optionsOfNow();
   if ($('cells').value === 'elements') $('bending').value = 0;
   const wanted = options();
   try {

@@ -31,7 +31,7 @@ window.arap = {
     try {
       $('help').hidden = localStorage.getItem('arap-help') === 'seen';
     } catch {
-      /* as above */
+      /* not allowed for files */
     }
     await openModel('cactus');
     requestAnimationFrame(frame);

@@ -48,8 +48,8 @@ function showPanel() {
         setTool('brush');
       if (
         status >= HANDLE &&
-        shape.handles[status - HANDLE] &&
-        isThere(shape.handles[status - HANDLE])
+        page.shape.handles[status - HANDLE] &&
+        isThere(page.shape.handles[status - HANDLE])
       )
         choose(status - HANDLE);
       showPanel();
@@ -105,9 +105,9 @@ function showPanel() {
       button(
         String(i + 1),
         () => {
-          if (key.length !== shape.handles.length)
+          if (key.length !== page.shape.handles.length)
             return say('This key frame is of other handles.', true);
-          shape.handles.forEach((h, k) => {
+          page.shape.handles.forEach((h, k) => {
             h.matrix = key[k].slice();
           });
           handlesMoved();

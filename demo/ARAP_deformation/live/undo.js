@@ -9,10 +9,10 @@ import { $, changed, engine, page, view } from './state.js';
 let past = [],
   now = -1;
 
-// how many there are
+// how many steps can be undone, and done again
 export const steps = () => ({ undo: now, redo: past.length - 1 - now });
 
-export const optionsOfLast = () => past[now].options;
+export const optionsOfNow = () => past[now].options;
 
 // to be called when another session begins
 export function forgetPast() {
@@ -85,14 +85,15 @@ async function goTo(index) {
     page.keys = kept.keys.slice();
     page.isSettled = true;
     page.hasNewTargets = false;
-    const { points, rest } = await engine.call('restore', { state });
-    page.shape.points = rest;
+    // options and stiffness first: the state has the rotations of their cells
     if (JSON.stringify(kept.options) !== JSON.stringify(before.options)) {
+      await engine.call('stiffness', { values: [] }); // it may be of other cells
       showOptions(kept.options);
       await sendOptions(kept.options);
     }
-    if (kept.stiffness !== before.stiffness)
-      await engine.call('stiffness', { values: cellStiffness() });
+    await engine.call('stiffness', { values: cellStiffness() });
+    const { points, rest } = await engine.call('restore', { state });
+    page.shape.points = rest;
     page.spare = view.setPositions(points);
     page.chosen = kept.chosen;
     recountHandles(false);

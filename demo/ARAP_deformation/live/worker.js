@@ -20,8 +20,8 @@ function listOf(values, wanted) {
   return Int32Array.from(list);
 }
 
-// Takes the place of the session with a new one, which prepare() makes ready. If that fails, all is
-// as before.
+// Replaces the session by a new one, after prepare() has made it ready. If that fails, all is as
+// before.
 function newSession(next, points, weights, prepare = () => {}) {
   const before = { shape, session, status, vertices, pointHandles };
   try {

@@ -66,7 +66,7 @@ public:
 
   /// whether points have two coordinates: nothing then leaves the plane z = 0.
   ///
-  /// Optional: without it none have.
+  /// Optional: without it they have three.
   static constexpr bool is_planar = unspecified_value;
 
   /// @}

@@ -37,7 +37,7 @@ enum class Status
   invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
   undeclared_map,       ///< cells are simplices, and a generic function object for their stiffness
                         ///< or groups is not declared with `of_simplices()`
-  invalid_rotation,     ///< the rotation of a control vertex is not a rotation
+  invalid_rotation,     ///< the rotation of a control vertex is not a rotation, or leaves the plane
   not_a_control_vertex, ///< a target or its weight was set for neither a control vertex nor
                         ///< a control point
   invalid_weight,       ///< the weight of a target is negative or not a number, or infinite where

@@ -115,7 +115,7 @@ struct Problem
     CHECK(system.prepare(constraints, stages).status == CGAL::ARAP::Status::success);
     CHECK(system.meet(targets.hard, x));
     return Minimization(energy, models.closest_rotations, system, constraints, options, observe,
-                        region.rest, targets, x, rotations, coarse_metric, report);
+                        region, targets, x, rotations, coarse_metric, report);
   }
 };
 

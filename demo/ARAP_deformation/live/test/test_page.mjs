@@ -532,6 +532,19 @@ const steps = {
     await page.keyboard.press('Escape'); // closes the message
     await twoSteps('#undo');
     await twoSteps('#redo');
+    // stiffness of vertices, which goes with their cells
+    await page.select('#cells', 'spokes_and_rims');
+    await settled();
+    await page.keyboard.press('s');
+    await paintMiddle();
+    const ofVertices = (await settled()).energy;
+    await page.select('#cells', 'elements');
+    const ofElements = (await settled()).energy;
+    await page.keyboard.press('Escape'); // closes the message
+    await twoSteps('#undo');
+    assert(Math.abs((await state()).energy / ofVertices - 1) < 1e-2, 'undo of other cells');
+    await twoSteps('#redo');
+    assert(Math.abs((await state()).energy / ofElements - 1) < 1e-2, 'redo of other cells');
     await page.select('#cells', 'spokes_and_rims');
     await settled();
     await page.select('#measure', '');
@@ -545,9 +558,12 @@ const steps = {
           /(?:from|import) '\.\/([\w.]+)'/g,
         ),
       ].map((match) => match[1]);
+    const done = new Set();
     const visit = (name, path) => {
       assert(!path.includes(name), [...path, name].join(' -> '));
+      if (done.has(name)) return;
       imported(name).forEach((other) => visit(other, [...path, name]));
+      done.add(name);
     };
     assert(imported('page.js').length > 5);
     visit('page.js', []);

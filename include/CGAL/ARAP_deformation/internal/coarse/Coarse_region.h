@@ -41,6 +41,7 @@ public:
       m_space(graph_of(fine), fine.rest, complement(m_is_free), vertices_of_a_ball)
   {
     const int m = m_space.number_of_nodes();
+    m_region.is_planar = fine.is_planar;
     m_region.number_of_movable_vertices = m_region.number_of_centers =
       m_region.number_of_vertex_cells = m;
     m_region.rest.reserve(static_cast<std::size_t>(m));

@@ -24,6 +24,7 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -107,14 +108,19 @@ public:
   Outcome set_rotation(vertex_descriptor v, const std::optional<Matrix_3x3>& rotation)
   {
     return with_target(v, [&](auto& target) {
-      if(rotation && !is_rotation(*rotation))
-        return outcome(Status::invalid_rotation, name(v));
-      if(rotation && is_planar<Domain>() && !(std::abs((*rotation)[8]) > 1 - 1e-10))
-        return Outcome(Status::invalid_rotation, name(v) + " was given a target rotation that "
-                       "turns it out of the plane of its mesh");
-      target.rotation = rotation;
+      std::optional<Matrix_3x3> closest = rotation;
       if(rotation)
-        target.rotation = Svd_rotation::closest(*rotation);
+      {
+        closest = Svd_rotation::closest(*rotation);
+        bool is_right = is_rotation(*rotation);
+        if(is_planar<Domain>()) // z must stay an axis, but for what single precision leaves of it
+          for(const std::size_t k : {2, 5, 6, 7})
+            is_right &= std::abs(std::exchange((*closest)[k], 0)) <= 1e-5;
+        if(!is_right)
+          return outcome(Status::invalid_rotation, name(v));
+        closest = Svd_rotation::closest(*closest);
+      }
+      target.rotation = closest;
       return Outcome(Status::success, std::string());
     });
   }

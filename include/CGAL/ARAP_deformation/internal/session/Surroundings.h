@@ -61,8 +61,8 @@ public:
     m_slots.set(index, static_cast<int>(m_vertices.size()) - 1);
   }
 
-  // Those of an earlier state, for restore(): they come first here, too. What was found since
-  // stays, in the rest shape of then.
+  // What restore() makes of these. Vertices are only ever appended: those of an earlier state come
+  // first here, too. What was found since stays, with the points that it had when it was found.
   Array<Vertex> prepare(const Array<Vertex>& state) const
   {
     Array<Vertex> vertices = m_vertices;

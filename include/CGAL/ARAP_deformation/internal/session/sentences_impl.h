@@ -132,7 +132,8 @@ inline const char* sentence(Status status, const std::string& what)
            "for vertices; pass of_simplices() of it, or give its parameter a type";
   case Status::invalid_rotation:
     return " was given a target rotation that is not a rotation: its columns must have "
-           "length 1, be orthogonal, and be right-handed";
+           "length 1, be orthogonal, and be right-handed; of points with two coordinates it must "
+           "turn their plane into itself";
   case Status::invalid_coordinates:
     return " needs barycentric coordinates that are finite and add up to one, one for each "
            "corner of its simplex";
