@@ -120,7 +120,7 @@ struct Built_region : Built_core
         corners.push_back(region->find_vertex(domain, corner));
       if(Vertices::is_pull(held.target.weight))
         constraints.pull(point, corners, held.coordinates, held.target.weight);
-      else if(held.target.weight == Vertices::hard)
+      else if(Vertices::is_hard(held.target.weight))
         constraints.fix(point, corners, held.coordinates);
     }
     if(inertia > 0)

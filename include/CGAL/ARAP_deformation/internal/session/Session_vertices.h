@@ -106,13 +106,16 @@ public:
     return m_targets[entry.target].rotation;
   }
 
+  // not by a comparison: with -ffast-math there is no infinity
+  static bool is_hard(double weight) { return !is_finite(weight); }
+
   bool is_hard_control(const Entry& entry) const
   {
-    return entry.is_control && weight(entry) == hard;
+    return entry.is_control && is_hard(weight(entry));
   }
 
   // whether a target is a term of the energy
-  static bool is_pull(double weight) { return 0 < weight && weight < hard; }
+  static bool is_pull(double weight) { return 0 < weight && !is_hard(weight); }
 
   // whether a vertex is solved for, and has a term of its own in the energy
   bool is_pulled(const Entry& entry) const
