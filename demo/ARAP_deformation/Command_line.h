@@ -364,8 +364,6 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
     line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
     if(is_direction && line.view == std::vector<double>(3, 0))
       throw Usage_error("--view 0,0,0 is no direction");
-    if(line.image.empty() && line.animation.empty())
-      throw Usage_error("--view is for pictures and films: give --image or --animation, too");
   }
 }
 

@@ -891,7 +891,6 @@ void test_picks()
                 "a percentage makes no sense in a normal");
   refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers azimuth,elevation");
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
-  refuse("--handle z:0.. --view 0,0", 2, "--view is for pictures and films: give --image");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. -o precious.off --rotate=z", 2, "expected AXIS ANGLE");
