@@ -86,12 +86,13 @@ async function goTo(index) {
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
+    const hasStiffness = kept.stiffness || before.stiffness; // else the weights stay
     if (JSON.stringify(kept.options) !== JSON.stringify(before.options)) {
-      await engine.call('stiffness', { values: [] }); // it may be of other cells
+      if (hasStiffness) await engine.call('stiffness', { values: [] }); // it may be of other cells
       showOptions(kept.options);
       await sendOptions(kept.options);
     }
-    await engine.call('stiffness', { values: cellStiffness() });
+    if (hasStiffness) await engine.call('stiffness', { values: cellStiffness() });
     const { points, rest } = await engine.call('restore', { state });
     page.shape.points = rest;
     page.spare = view.setPositions(points);
