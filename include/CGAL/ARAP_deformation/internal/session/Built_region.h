@@ -118,9 +118,9 @@ struct Built_region : Built_core
       std::vector<int> corners;
       for(vertex_descriptor corner : held.corners)
         corners.push_back(region->find_vertex(domain, corner));
-      if(Vertices::is_pull(held.target.weight))
+      if(held.target.is_pull())
         constraints.pull(point, corners, held.coordinates, held.target.weight);
-      else if(Vertices::is_hard(held.target.weight))
+      else if(held.target.is_hard())
         constraints.fix(point, corners, held.coordinates);
     }
     if(inertia > 0)

@@ -148,7 +148,7 @@ private:
   Coordinates fixed_share(const typename Vertices::Held_point& held,
                           const Array<Coordinates>& positions) const
   {
-    return Vertices::position(held, [&](vertex_descriptor v) {
+    return held.position([&](vertex_descriptor v) {
       const int number = m_prepared.region().find_vertex(domain(), v);
       if(number >= 0)
         return number < m_prepared.core().region().number_of_movable_vertices

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
+#include <CGAL/ARAP_deformation/internal/session/Held_point.h>
 #include <CGAL/ARAP_deformation/internal/session/Prepared_region.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_vertices.h>
@@ -158,7 +159,7 @@ public:
   {
     if(refuse_in_a_run())
       return Control_point_insertion(outcome(Status::in_a_run));
-    typename Vertices::Held_point held = {{}, {}, {Domain::make_point({0, 0, 0}), Vertices::hard}};
+    Held_point<Domain> held = {{}, {}, {Domain::make_point({0, 0, 0})}};
     if(!collect_corners(s, held.corners))
       return Control_point_insertion(Outcome(
         Status::not_a_simplex, "the simplex that was given for a control point is not there"));
@@ -176,8 +177,8 @@ public:
       }
       else
         held.coordinates[k] /= sum;
-    held.target.point = Domain::make_point(Vertices::position(
-      held, [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
+    held.target.point = Domain::make_point(held.position(
+      [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
     const auto [point, is_region_other] = m_vertices.insert_point(std::move(held));
     is_region_other ? region_changed() : constraints_changed();
     return Control_point_insertion(Outcome(Status::success, std::string()), point);
@@ -223,8 +224,7 @@ protected:
     return Domain::make_point(
       found == m_vertices.points().end()
         ? Coordinates{0, 0, 0}
-        : Vertices::position(found->second,
-                             [&](vertex_descriptor v) { return Domain::coordinates(f(v)); }));
+        : found->second.position([&](vertex_descriptor v) { return Domain::coordinates(f(v)); }));
   }
 
   // the corners of a simplex; false if it is not one of the domain

@@ -74,7 +74,7 @@ public:
   Outcome set_target_set(Handle handle, Projection projection)
   {
     return with_target(handle, [&](auto& target) {
-      if(Vertices::is_hard(target.weight))
+      if(target.is_hard())
         return refuse_hard_set(handle);
       target.set = std::move(projection);
       return Outcome(Status::success, std::string());
@@ -95,7 +95,7 @@ public:
     return with_target(handle, [&](auto& target) {
       if(!(weight >= 0))
         return outcome(Status::invalid_weight, name(handle));
-      if(target.set && Vertices::is_hard(weight))
+      if(target.set && target.is_hard(weight))
         return refuse_hard_set(handle);
       const double before = std::exchange(target.weight, weight);
       if(weight != before)

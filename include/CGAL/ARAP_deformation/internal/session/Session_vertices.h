@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/Held_point.h>
 #include <CGAL/ARAP_deformation/internal/session/Insertions.h>
 #include <CGAL/ARAP_deformation/internal/session/Surroundings.h>
 
@@ -26,8 +27,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -50,6 +49,8 @@ class Session_vertices
 public:
   using vertex_descriptor = typename Domain::vertex_descriptor;
   using Point = typename Domain::Point;
+  using Target = Handle_target<Point>;
+  using Held_point = internal::Held_point<Domain>;
 
   struct Entry
   {
@@ -63,29 +64,9 @@ public:
     bool was_roi : 1; // when the points of the region were last written; see Session_rules
   };
 
-  // the weight of the target of a control vertex that is put there, and not only pulled
-  static constexpr double hard = std::numeric_limits<double>::infinity();
-
   explicit Session_vertices(Domain domain) : m_domain(std::move(domain)) {}
 
   const Domain& domain() const { return m_domain; }
-
-  // What a control vertex or a control point is moved to or pulled toward.
-  struct Target
-  {
-    Point point;
-    double weight;
-    std::function<Point(const Point&)> set = {}; // projects onto the target, if that is a set
-    std::optional<Matrix_3x3> rotation = {};     // of the cells there, if it is given
-  };
-
-  // a handle inside a simplex, with its corners of non-zero barycentric coordinates
-  struct Held_point
-  {
-    std::vector<vertex_descriptor> corners;
-    std::vector<double> coordinates;
-    Target target;
-  };
 
   // the target of a control vertex
   Target& whole_target(const Entry& entry) { return m_targets[entry.target]; }
@@ -106,21 +87,15 @@ public:
     return m_targets[entry.target].rotation;
   }
 
-  // not by a comparison: with -ffast-math there is no infinity
-  static bool is_hard(double weight) { return !is_finite(weight); }
-
   bool is_hard_control(const Entry& entry) const
   {
-    return entry.is_control && is_hard(weight(entry));
+    return entry.is_control && whole_target(entry).is_hard();
   }
-
-  // whether a target is a term of the energy
-  static bool is_pull(double weight) { return 0 < weight && !is_hard(weight); }
 
   // whether a vertex is solved for, and has a term of its own in the energy
   bool is_pulled(const Entry& entry) const
   {
-    return entry.is_control && is_pull(weight(entry));
+    return entry.is_control && whole_target(entry).is_pull();
   }
 
   // the target of a control vertex or a control point, nullptr for what is none
@@ -146,16 +121,6 @@ public:
   // the control points, in the order of insertion
   std::map<Control_point, Held_point>& points() { return m_points; }
   const std::map<Control_point, Held_point>& points() const { return m_points; }
-
-  // Where a control point is; `coordinates(v)` are those of a vertex.
-  template <typename Function>
-  static Coordinates position(const Held_point& held, const Function& coordinates)
-  {
-    Coordinates sum = {0, 0, 0};
-    for(std::size_t k = 0; k < held.corners.size(); ++k)
-      add(sum, held.coordinates[k], coordinates(held.corners[k]));
-    return sum;
-  }
 
   std::vector<Entry>& entries() { return m_entries; }
   const std::vector<Entry>& entries() const { return m_entries; }
@@ -231,7 +196,7 @@ public:
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
       m_targets.reserve(2 * m_targets.size() + 1);
-    Target target = {point ? *point : present(v), hard};
+    Target target = {point ? *point : present(v)};
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {
