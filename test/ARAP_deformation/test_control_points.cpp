@@ -1037,6 +1037,35 @@ void test(const Held_shape<Dimension>& shape)
   CHECK(!CGAL::ARAP::locate(domain, Point(nan, 0, 0)));
 }
 
+// The halfedge of a face may point to any of its corners: coordinates begin there.
+void test_turned_halfedges()
+{
+  test_case() = "locate, faces that begin elsewhere";
+  Mesh mesh = make_mesh<Mesh>(shapes()[2]);
+  for(auto f : mesh.faces())
+    for(std::size_t turns = f.idx() % 3; turns-- > 0;)
+      mesh.set_halfedge(f, mesh.next(mesh.halfedge(f)));
+  CGAL::ARAP_deformation<Mesh> deformation(mesh);
+  const CGAL::ARAP::Locator<CGAL::ARAP::Face_graph_domain<Mesh>> locator{
+    CGAL::ARAP::Face_graph_domain<Mesh>(mesh)};
+  for(auto f : mesh.faces())
+  {
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    std::size_t number = 0;
+    for(auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+      p += ++number * vector(mesh.point(v));
+    p /= static_cast<double>(number * (number + 1) / 2);
+    const auto found = locator.locate(point(p));
+    if(!CHECK(found))
+      return;
+    const auto inserted = deformation.insert_control_point(*found);
+    CHECK(inserted);
+    const auto q = deformation.control_point_position(inserted.point);
+    CHECK_AT_MOST((vector(q) - p).norm(), found->distance + 1e-12);
+    CHECK_AT_MOST(found->distance, 0.05); // a quad is not plane
+  }
+}
+
 // a cell with five corners is no tetrahedron, and found by no point in it
 void test_cell_of_other_size()
 {
@@ -1183,6 +1212,7 @@ int main()
   sets::test_surface();
   sets::test_refusals();
   sets::test_frames_of_sets();
+  locations::test_turned_halfedges();
   locations::test_cell_of_other_size();
   locations::test_function();
   guess::test_all();

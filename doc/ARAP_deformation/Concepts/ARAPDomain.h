@@ -132,7 +132,7 @@ public:
   bool is_simplex(simplex_descriptor s) const;
 
   /// calls `f(s, corners)` once for each simplex `s` incident to `v`, with the range `corners` that
-  /// `simplex_vertices(s)` returns.
+  /// `simplex_vertices(s)` returns, or one that begins with another corner.
   ///
   /// The cells need not be valid simplices: for a face with fewer than three corners, a volume
   /// without exactly four, or a repeated corner, `CGAL::ARAP_deformation::preprocess()` returns

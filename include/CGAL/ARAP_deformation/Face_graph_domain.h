@@ -210,7 +210,7 @@ public:
     return vertices_around_face(halfedge(s, *m_mesh), *m_mesh);
   }
 
-  /// calls `f(s, simplex_vertices(s))` for each face `s` at `v`.
+  /// calls `f(s, corners)` for each face `s` at `v`, with its vertices in their order around it.
   template <typename Function>
   void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
   {

@@ -21,7 +21,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Calls f(s, corners) for each simplex of a whole domain: at the corner of smallest index. Leaves
+// Calls f(s, simplex_vertices(s)) for each simplex of a whole domain: at the corner of smallest
+// index, whose own order of the corners may begin elsewhere, unlike barycentric coordinates. Leaves
 // out cells that are none, as they have too few corners, or more than four among tetrahedra.
 template <typename Domain, typename Function>
 void for_each_simplex(const Domain& domain, const Function& f)
@@ -33,7 +34,7 @@ void for_each_simplex(const Domain& domain, const Function& f)
         [&, index = domain.index(v)](const auto& w) { return domain.index(w) < index; });
       const auto n = std::distance(std::begin(corners), std::end(corners));
       if(is_first && (Domain::dimension == 3 ? n == 4 : n >= 3))
-        f(s, corners);
+        f(s, domain.simplex_vertices(s));
     });
 }
 
