@@ -318,7 +318,7 @@ public:
     if(roi_vertices().empty())
       return;
     m_session.put_back_erased();
-    std::vector<double> weights =
+    const auto weights =
       m_weights.recomputed_at(m_roi, [this](vertex_descriptor v) { return is_roi_vertex(v); });
     m_session.overwrite_initial_geometry();
     m_weights.take_over(weights);

@@ -78,7 +78,12 @@ public:
     }
     m_state->weights.reserve(num_halfedges(mesh));
     for(const halfedge_descriptor h : halfedges(mesh))
-      compute(h, m_state->weights);
+    {
+      const auto [index, weight] = computed(h);
+      if(index >= m_state->weights.size()) // where some were removed, indices exceed the number
+        m_state->weights.resize(index + 1, 0);
+      m_state->weights[index] = weight;
+    }
   }
 
   // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those
@@ -110,23 +115,31 @@ public:
     return result;
   }
 
-  // Returns all weights, those of the halfedges that a vertex of the range is an end of computed
-  // again. This may throw, what takes them over does not.
+  // the weight of a halfedge, with its index
+  using Indexed_weight = std::pair<std::size_t, double>;
+
+  // Returns the weights of the halfedges that a vertex of the range is an end of, computed again.
+  // This may throw, what takes them over does not.
   template <typename VertexRange, typename IsInRange>
-  std::vector<double> recomputed_at(const VertexRange& range, const IsInRange& is_in_range) const
+  std::vector<Indexed_weight> recomputed_at(const VertexRange& range,
+                                            const IsInRange& is_in_range) const
   {
-    std::vector<double> weights = m_state->weights;
+    std::vector<Indexed_weight> weights;
     for(const vertex_descriptor v : range)
       for(const halfedge_descriptor h : CGAL::halfedges_around_target(v, m_state->mesh))
       {
-        compute(h, weights);
+        weights.push_back(computed(h));
         if(!is_in_range(source(h, m_state->mesh)))
-          compute(opposite(h, m_state->mesh), weights);
+          weights.push_back(computed(opposite(h, m_state->mesh)));
       }
     return weights;
   }
 
-  void take_over(std::vector<double>& weights) noexcept { m_state->weights.swap(weights); }
+  void take_over(const std::vector<Indexed_weight>& weights) noexcept
+  {
+    for(const auto& [index, weight] : weights)
+      m_state->weights[index] = weight;
+  }
 
 private:
   struct State
@@ -149,13 +162,10 @@ private:
     return m_state->weights[static_cast<std::size_t>(get(m_state->index_map, h))];
   }
 
-  void compute(halfedge_descriptor h, std::vector<double>& weights) const
+  Indexed_weight computed(halfedge_descriptor h) const
   {
-    const double weight = m_state->calculator(h, m_state->mesh, m_state->point_map);
-    const auto i = static_cast<std::size_t>(get(m_state->index_map, h));
-    if(i >= weights.size()) // where halfedges were removed, indices exceed the number
-      weights.resize(i + 1, 0);
-    weights[i] = weight;
+    return {static_cast<std::size_t>(get(m_state->index_map, h)),
+            m_state->calculator(h, m_state->mesh, m_state->point_map)};
   }
 
   std::shared_ptr<State> m_state;
