@@ -34,6 +34,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <locale>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -312,6 +313,15 @@ void test_options_by_name()
   options.tolerance = 0.1 + 0.2; // has seventeen digits
   CHECK(set_option(options, "tolerance", option_value(options, "tolerance")));
   CHECK(options.tolerance == 0.1 + 0.2);
+  struct Comma : std::numpunct<char>
+  {
+    char do_decimal_point() const override { return ','; }
+  };
+  const std::locale global = std::locale::global(std::locale(std::locale::classic(), new Comma));
+  CHECK(option_value(options, "smoothing_length") == "7");
+  CHECK(set_option(options, "tolerance", "0.25"));
+  CHECK(option_value(options, "tolerance") == "0.25");
+  std::locale::global(global);
   CHECK(option_value(options, "color").empty());
 
   const CGAL::ARAP::Options before = options;
@@ -324,7 +334,7 @@ void test_options_by_name()
     {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 4294967295"},
     {"threads", "4294967296", "threads '4294967296' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
     {"verify_minimum", "1", "verify_minimum '1' is not known; use one of true, false"},
-    {"tolerance", "nan", "tolerance is nan"}, {"smoothing_length", "-1", "smoothing_length"},
+    {"tolerance", "nan", "'nan' is not a number"}, {"smoothing_length", "-1", "smoothing_length"},
     {"Cells", "spokes", "the option 'Cells' is not known; use one of cells, minimizer"}};
   for(const auto& [name, value, sentence] : invalid)
   {

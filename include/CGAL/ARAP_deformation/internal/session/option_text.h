@@ -17,10 +17,13 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Status.h>
 
-#include <boost/lexical_cast.hpp>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
 
 #include <initializer_list>
+#include <iomanip>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -119,8 +122,12 @@ struct Read_option
 
   Outcome operator()(double& value) const
   {
-    if(!boost::conversion::try_lexical_convert(text, value))
+    std::istringstream in(text);
+    in.imbue(std::locale::classic()); // the program may have another one, with a decimal comma
+    double number = 0;
+    if(!(in >> std::noskipws >> number) || in.peek() != std::istringstream::traits_type::eof())
       return Outcome(Status::invalid_option, name + " '" + text + "' is not a number");
+    value = number;
     return Outcome(Status::success, std::string());
   }
 };
@@ -145,7 +152,10 @@ struct Write_option
   template <typename Number>
   Outcome operator()(const Number& value) const
   {
-    text = boost::lexical_cast<std::string>(value); // all digits
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(std::numeric_limits<Number>::max_digits10) << value; // all digits
+    text = out.str();
     return Outcome(Status::success, std::string());
   }
 };
