@@ -276,7 +276,9 @@ public:
   void restore(const std::any& state) override
   {
     const State* known = std::any_cast<State>(&state);
-    require(known != nullptr, "the state is of another kind of shape");
+    if(known == nullptr)
+      throw Deformation_error(
+        Outcome(Status::foreign_state, "the state is of another kind of shape"));
     Points rest = known->rest;
     require(m_deformation.restore(known->session));
     m_rest = std::move(rest);

@@ -1,6 +1,7 @@
 """The Python module: identities, the command's energies, and bad input."""
 
 import gc
+import itertools
 import json
 import os
 import re
@@ -216,6 +217,9 @@ def test_states():
     with pytest.raises(arap.DeformationError) as error:
         other.restore(state)
     assert error.value.status == "foreign_state" and str(error.value)
+    with pytest.raises(arap.DeformationError) as error:
+        arap.Deformation(*tetrahedra(BAR), tetrahedra=True).restore(d.state())
+    assert error.value.status == "foreign_state" and "another kind of shape" in str(error.value)
     with pytest.raises(TypeError, match="what state.. returns"):
         d.restore("state")
 
@@ -455,7 +459,7 @@ CALLS = [
     (lambda d: d.set_stiffness([1, 2]), ValueError, "2 values for the"),
     (lambda d: d.set_groups([0.5]), ValueError, "integers"),
     (lambda d: d.deform(-1), arap.DeformationError, "iterations '-1' is not a whole number"),
-    (lambda d: d.deform(1, float("nan")), arap.DeformationError, "tolerance is nan"),
+    (lambda d: d.deform(1, float("nan")), arap.DeformationError, "'nan' is not a number"),
     (lambda d: d.deform(1, "small"), arap.DeformationError, "tolerance 'small' is not a number"),
     (lambda d: d.advance(0), arap.DeformationError, "time_step"),
     (lambda d: d.advance("fast"), ValueError, "time_step must be numbers"),
@@ -489,3 +493,25 @@ def test_the_code_of_the_readme():
     names = {}
     exec(code, names)
     assert 6 <= code.count("\n") <= 12 and not np.array_equal(names["V2"], names["V"])
+
+
+def test_laplacian_guess_of_random_targets():
+    """It is taken, although where it is solved to the last digits refining it fails."""
+    vertices, faces = triangles(list(itertools.product(range(5), range(2), range(2))))
+    handles = [3, 8, 11, 40, 48]
+    for seed in range(100):
+        guesses = []
+        for guess in ("previous", "laplacian"):
+            random = np.random.default_rng(seed)
+            targets = vertices[handles] + random.normal(size=(5, 3)) * 0.3
+            coordinates = random.dirichlet(np.ones(3))
+            simplex = int(random.integers(len(faces)))
+            shift = random.normal(size=3) * 0.3
+            d = arap.Deformation(vertices, faces, initial_guess=guess)
+            d.insert_handles(handles)
+            d.set_targets(handles, targets)
+            point = d.insert_point(simplex, coordinates)
+            d.set_targets([point], [vertices[faces[simplex]].T @ coordinates + shift])
+            d.deform(0, 0)
+            guesses.append(d.vertices.copy())
+        assert not np.array_equal(*guesses)

@@ -89,8 +89,13 @@ public:
       std::transform(m_region.rest.begin(), m_region.rest.end(), x.begin(), from_x.begin(),
                      difference);
       Array<Coordinates> correction;
-      if(!solve(normal_product(from_x, false), correction))
+      bool is_solved = false;
+      if(!solve(normal_product(from_x, false), correction, is_solved))
         return false;
+      if(pass == 0)
+        m_is_found = is_solved;
+      else if(!is_solved) // what is left is below what rounding permits
+        break;
       const Coordinates size = products(correction, correction);
       for(std::size_t c = 0; c < 3; ++c)
         if(pass == 0 || size[c] < 0.25 * last[c])
@@ -110,9 +115,9 @@ public:
   bool is_found() const { return m_is_found; }
 
 private:
-  // The solution for a right-hand side, for each coordinate a system of its own. Returns false if
-  // the solver failed.
-  bool solve(Array<Coordinates> residual, Array<Coordinates>& x)
+  // The solution for a right-hand side, for each coordinate a system of its own, and whether
+  // iterations were enough. Returns false if the solver failed.
+  bool solve(Array<Coordinates> residual, Array<Coordinates>& x, bool& is_solved)
   {
     const std::size_t n = residual.size();
     x.assign(n, Coordinates{0, 0, 0});
@@ -132,7 +137,7 @@ private:
       for(std::size_t c = 0; c < 3; ++c)
         is_done &= !(size[c] > 1e-14 * first[c]);
       if(is_done)
-        return true;
+        return is_solved = true;
       for(std::size_t v = 0; v < n; ++v)
         for(std::size_t c = 0; c < 3; ++c)
           direction[v][c] = preconditioned[v][c] +
@@ -150,7 +155,6 @@ private:
         }
       }
     }
-    m_is_found = false;
     return true;
   }
 
