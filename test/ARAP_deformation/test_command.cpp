@@ -545,9 +545,9 @@ void test_handles()
   }
 
   test_case() = "two handles that turn what is around them";
-  const auto energy = [](const std::string& first, const std::string& second) {
-    CHECK(run("in.off --fix z:..0.5 --handle list:50" + first + " --rotate z 40 --handle list:101" +
-              second + " --rotate z -40 --minimizer local_global --iterations 1 -o two.off "
+  const auto energy = [](const std::string& lower, const std::string& upper) {
+    CHECK(run("in.off --fix z:..0.5 --handle list:50" + lower + " --rotate z 40 --handle list:101" +
+              upper + " --rotate z -40 --minimizer local_global --iterations 1 -o two.off "
               "--report r.json").exit_code == 0);
     return nlohmann::json::parse(content(folder / "r.json"))["energy"].dump();
   };
