@@ -427,6 +427,41 @@ void test_visitor()
   CHECK_AT_MOST(Run(flat, push(flat, 0.2), options).report.iterations, 10);
 }
 
+// To which side a flat strip buckles does not depend on the order of its vertices.
+void test_order()
+{
+  const Shape first = strip();
+  for(const Cell_scheme& cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims()})
+  {
+    const Options options = options_for(cells);
+    Shape shape = first;
+    Scenario s = push(shape, 0.2);
+    const Run reference(shape, s, options);
+    std::vector<Mesh::Vertex_index> place; // of the vertices of the first order
+    for(auto v : reference.mesh.vertices())
+      place.push_back(v);
+    double height = 0;
+    for(auto v : reference.mesh.vertices())
+      height = larger(height, std::abs(reference.mesh.point(v).z()));
+    CHECK(height > 0.1);
+    for(int k = 0; k < 4; ++k)
+    {
+      test_case() = "order of vertices " + std::to_string(k);
+      std::vector<std::size_t> next;
+      shape = shuffled(shape, next);
+      s = shuffled(s, next);
+      for(auto& v : place)
+        v = Mesh::Vertex_index(static_cast<unsigned int>(next[v]));
+      const Run run(shape, s, options);
+      double distance = 0;
+      for(auto v : reference.mesh.vertices())
+        distance = larger(distance, std::sqrt(CGAL::squared_distance(reference.mesh.point(v),
+                                                                     run.mesh.point(place[v]))));
+      CHECK_AT_MOST(distance, 1e-4 * height);
+    }
+  }
+}
+
 // what does not look, and what has nothing to look at
 void test_unknown()
 {
@@ -468,6 +503,7 @@ void test_all()
   test_plates();
   test_minimum();
   test_visitor();
+  test_order();
   test_unknown();
   test_threads();
 }

@@ -100,7 +100,7 @@ public:
       const Array<Coordinates>& direction = look.direction();
       const double first = 0.01 * m_run.diameter /
                            largest_entry(direction.data(), direction.size());
-      const double sign = dot_product(m_run.force(), direction) < 0 ? -1 : 1;
+      const double sign = look.is_along_force() ? 1 : -1;
       is_lower |= descend_along(direction, sign * first, 100 * first, relaxing_steps) ||
                   descend_along(direction, -sign * first, 100 * first, relaxing_steps);
     }

@@ -149,6 +149,7 @@ public:
     return false;
   }
 
+  const Array<Coordinates>& rest() const { return m_region.rest; }
   bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }
 
   // minus half the gradient where the energy was last evaluated

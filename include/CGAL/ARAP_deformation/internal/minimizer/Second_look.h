@@ -27,9 +27,12 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <random>
 
 namespace CGAL {
 namespace ARAP {
@@ -65,25 +68,12 @@ public:
   {
     const std::size_t n = m_run.number_of_vertices;
     m_r.resize(n);
-    std::uint32_t state = 1;
-    for(Coordinates& e : m_r)
-      for(double& entry : e)
-      {
-        state = 1664525 * state + 1013904223;
-        entry = state / 4294967296.0 - 0.5;
-      }
-    m_run.leave_free(m_r);
+    set_pseudorandom(m_r);
     if(!solve_laplacian())
       return Finding::failure;
     const double square = dot_product(m_r, m_z);
-    const double factor = square > 0 ? std::sqrt(disturbance / square) : 0;
-    for_each_block(n, [&](std::size_t begin, std::size_t end) {
-      for(std::size_t v = begin; v < end; ++v)
-      {
-        m_r[v] = scaled(m_r[v], factor);
-        add(m_r[v], 1, m_run.force()[v]);
-      }
-    });
+    m_factor = square > 0 ? std::sqrt(disturbance / square) : 0;
+    combine(m_r, m_factor, m_r, 1, m_run.force());
     m_p.assign(m_run.x.size(), Coordinates{0, 0, 0});
     m_mp.assign(n, Coordinates{0, 0, 0});
     m_s.assign(n, Coordinates{0, 0, 0});
@@ -158,6 +148,15 @@ public:
 
   // the last direction, for all vertices of the region
   const Array<Coordinates>& direction() const { return m_p; }
+
+  // Whether force and e, at the current positions, point along the direction rather than against
+  // it. The force alone would leave to rounding errors what symmetry leaves open.
+  bool is_along_force()
+  {
+    set_pseudorandom(m_r);
+    return dot_product(m_run.force(), m_p) + m_factor * dot_product(m_r, m_p) >= 0;
+  }
+
   const Array<Coordinates>& solution() const { return m_s; } // for the movable ones
 
   // by how much the energy decreases along the solution, by its model and up to what e changes
@@ -166,6 +165,30 @@ public:
   double curvature() const { return m_curvature; } // s A s, of the solution s
 
 private:
+  // Depends on the rest shape, not on the order of its vertices.
+  void set_pseudorandom(Array<Coordinates>& forces) const
+  {
+    for_each_block(forces.size(), [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        forces[v] = pseudorandom(m_run.rest()[v]);
+    });
+    m_run.leave_free(forces);
+  }
+
+  // three numbers between -1/2 and 1/2
+  static Coordinates pseudorandom(const Coordinates& seed)
+  {
+    const Coordinates place = {seed[0] + 0., seed[1] + 0., seed[2] + 0.}; // -0 is 0
+    std::array<std::uint32_t, 6> words;
+    static_assert(sizeof(words) == sizeof(place));
+    std::memcpy(words.data(), place.data(), sizeof(words));
+    std::seed_seq(words.begin(), words.end()).generate(words.begin(), words.begin() + 3);
+    Coordinates result;
+    for(std::size_t k = 0; k < result.size(); ++k)
+      result[k] = words[k] / 4294967296.0 - 0.5;
+    return result;
+  }
+
   // result := a x + b y, for the movable vertices; it may be one of them
   void combine(Array<Coordinates>& result, double a, const Array<Coordinates>& x,
                double b, const Array<Coordinates>& y) const
@@ -248,6 +271,7 @@ private:
   Array<Coordinates> m_ap, m_w, m_q, m_aq, m_mq; // of sharpen(): A p and so on
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric
   double m_curvature = 0;
+  double m_factor = 0; // of the pseudorandom force
 };
 
 } // namespace internal
