@@ -45,6 +45,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -1061,8 +1062,101 @@ void test_turned_halfedges()
     const auto inserted = deformation.insert_control_point(*found);
     CHECK(inserted);
     const auto q = deformation.control_point_position(inserted.point);
-    CHECK_AT_MOST((vector(q) - p).norm(), found->distance + 1e-12);
-    CHECK_AT_MOST(found->distance, 0.05); // a quad is not plane
+    CHECK_AT_MOST((vector(q) - p).norm(), 1e-12);
+  }
+}
+
+// A polygon need not be convex. Compared with the distance from its sides, and a count of those that
+// a ray crosses.
+void test_polygons()
+{
+  const std::vector<std::vector<Eigen::Vector2d>> polygons = {
+    {{0, 0}, {2, 1}, {4, 0}, {2, 4}},                                 // an arrow head
+    {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},                 // an L
+    {{0, 0}, {5, 0}, {5, 3}, {4, 1}, {3, 3}, {2, 1}, {1, 3}, {0, 3}}, // a comb
+    {{0, 0}, {2, 0}, {4, 0}, {4, 4}, {1, 4}, {1, 2}, {2, 2}, {2, 3}, {3, 3}, {3, 1}, {0, 1}}};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 6);
+  const Eigen::Matrix3d turn(
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix());
+  for(const std::vector<Eigen::Vector2d>& polygon : polygons)
+    for(std::size_t first = 0; first < 2 * polygon.size(); ++first)
+    {
+      const std::size_t n = polygon.size();
+      test_case() = "locate, polygon of " + std::to_string(n) + ", from " + std::to_string(first);
+      std::vector<Eigen::Vector2d> corners(n);
+      for(std::size_t k = 0; k < n; ++k) // in both directions
+        corners[k] = polygon[first < n ? (first + k) % n : (2 * n - 1 + first - k) % n];
+      std::vector<Point> points;
+      std::vector<std::size_t> face;
+      for(const auto& c : corners)
+      {
+        face.push_back(points.size());
+        points.push_back(point(turn * Eigen::Vector3d(c.x(), c.y(), 1)));
+      }
+      const std::vector<std::vector<std::size_t>> faces = {face};
+      const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, faces);
+      const CGAL::ARAP::Locator<std::decay_t<decltype(domain)>> locator(domain);
+      for(int k = 0; k < 50; ++k)
+      {
+        const double x = coordinate(random), y = coordinate(random);
+        const Eigen::Vector2d p(x, y);
+        bool is_inside = false;
+        double distance = std::numeric_limits<double>::infinity();
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          const Eigen::Vector2d a = corners[i], b = corners[(i + 1) % n], side = b - a;
+          const double t = std::clamp(side.dot(p - a) / side.squaredNorm(), 0.0, 1.0);
+          distance = (std::min)(distance, (a + t * side - p).norm());
+          if((a.y() > p.y()) != (b.y() > p.y()))
+            is_inside ^= p.x() < a.x() + (p.y() - a.y()) / side.y() * side.x();
+        }
+        if(is_inside)
+          distance = 0;
+        const Eigen::Vector3d q = turn * Eigen::Vector3d(p.x(), p.y(), 1);
+        const auto found = locator.locate(point(q));
+        if(!CHECK(found && found->coordinates.size() == n))
+          return;
+        CHECK_AT_MOST(std::abs(found->distance - distance), 1e-13);
+        CHECK_AT_MOST(std::abs((place(domain, *found) - q).norm() - distance), 1e-13);
+      }
+    }
+  test_case() = "locate, polygons that are not simple";
+  for(const std::vector<Point>& corners : std::vector<std::vector<Point>>{
+        {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}},                 // meets itself, has no area
+        {{0, 0, 0}, {3, 3, 0}, {3, 0, 0}, {0, 2, 0}},                 // meets itself
+        {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}},                 // on a line
+        {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})     // a corner twice
+  {
+    std::vector<Point> points = corners;
+    std::vector<std::size_t> face(points.size());
+    std::iota(face.begin(), face.end(), std::size_t(0));
+    const std::vector<std::vector<std::size_t>> faces = {face};
+    const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, faces);
+    const auto found = CGAL::ARAP::locate(domain, Point(0.9, 0.2, 0.5));
+    const bool is_on_a_line = corners[3].y() == 0;
+    CHECK(found.has_value() != is_on_a_line);
+    if(found)
+      CHECK_AT_MOST(std::abs((place(domain, *found) -
+                              Eigen::Vector3d(0.9, 0.2, 0.5)).norm() - found->distance), 1e-13);
+  }
+}
+
+// A quad that is not plane is cut along the same diagonal, whichever of its corners is the first.
+void test_folded_quad()
+{
+  test_case() = "locate, a folded quad";
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0.6}, {1, 1, 0}, {0, 1, 0.7}};
+  std::vector<double> distances;
+  for(std::size_t first = 0; first < 4; ++first)
+  {
+    const std::vector<std::array<std::size_t, 4>> faces = {
+      {first, (first + 1) % 4, (first + 2) % 4, (first + 3) % 4}};
+    const auto found = CGAL::ARAP::locate(CGAL::ARAP::make_polygon_soup_domain(points, faces),
+                                          Point(0.5, 0.5, 2));
+    CHECK(found);
+    distances.push_back(found ? found->distance : 0);
+    CHECK_AT_MOST(std::abs(distances.back() - distances[0]), 1e-15);
   }
 }
 
@@ -1213,6 +1307,8 @@ int main()
   sets::test_refusals();
   sets::test_frames_of_sets();
   locations::test_turned_halfedges();
+  locations::test_polygons();
+  locations::test_folded_quad();
   locations::test_cell_of_other_size();
   locations::test_function();
   guess::test_all();

@@ -17,7 +17,9 @@
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
+#include <CGAL/Exact_integer.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Simple_homogeneous.h>
 
 #include <array>
 #include <cmath>
@@ -191,6 +193,7 @@ int main()
   test_case() = "points of several types";
   test_point_type<Bare_point>(1e-12);
   test_point_type<Epeck::Point_3>(1e-12);
+  test_point_type<CGAL::Simple_homogeneous<CGAL::Exact_integer>::Point_3>(1e-12);
   test_point_type<Simple_cartesian<double>::Point_3>(1e-12);
   test_point_type<Simple_cartesian<float>::Point_3>(1e-5);
   test_point_type<std::array<double, 3>>(1e-12);

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/ARAP_deformation/self_intersections.h>
 
@@ -373,6 +374,105 @@ struct Throwing : Soup
   bool is_isolated(std::size_t) const { throw std::runtime_error("no such table"); }
 };
 
+// A number that can do what the concept asks of a descriptor, and no more.
+template <typename Tag>
+class Descriptor
+{
+public:
+  explicit Descriptor(std::size_t number) : m_number(number) {}
+  Descriptor() = delete;
+  std::size_t number() const { return m_number; }
+  friend bool operator==(const Descriptor& a, const Descriptor& b)
+  {
+    return a.m_number == b.m_number;
+  }
+  friend bool operator!=(const Descriptor&, const Descriptor&) = delete;
+
+private:
+  std::size_t m_number;
+};
+
+// a soup with such descriptors, and with corners that are valid until the next call
+class Minimal_domain
+{
+public:
+  using vertex_descriptor = Descriptor<struct Vertex_tag>;
+  using simplex_descriptor = Descriptor<struct Simplex_tag>;
+  using Point = Soup::Point;
+  static constexpr int dimension = Soup::dimension;
+
+  Minimal_domain(std::vector<Point>& points, const decltype(Shape::triangles)& triangles)
+    : m_soup(points, triangles), m_number_of_points(points.size()),
+      m_corners(std::make_shared<std::vector<vertex_descriptor>>())
+  {}
+
+  std::vector<vertex_descriptor> vertices() const
+  {
+    std::vector<vertex_descriptor> all;
+    for(std::size_t v = 0; v < m_number_of_points; ++v)
+      all.emplace_back(v);
+    return all;
+  }
+  std::size_t index(vertex_descriptor v) const { return v.number(); }
+  Point point(vertex_descriptor v) const { return m_soup.point(v.number()); }
+  void set_point(vertex_descriptor v, const Point& p) const { m_soup.set_point(v.number(), p); }
+  bool is_in_place() const { return true; }
+  bool is_isolated(vertex_descriptor v) const { return m_soup.is_isolated(v.number()); }
+  static CGAL::ARAP::Coordinates coordinates(const Point& p) { return Soup::coordinates(p); }
+  static Point make_point(const CGAL::ARAP::Coordinates& c) { return Soup::make_point(c); }
+  const std::vector<vertex_descriptor>& simplex_vertices(simplex_descriptor s) const
+  {
+    m_corners->clear();
+    for(std::size_t v : m_soup.simplex_vertices(s.number()))
+      m_corners->emplace_back(v);
+    return *m_corners;
+  }
+  template <typename Function>
+  void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
+  {
+    m_soup.for_each_incident_simplex(v.number(), [&](std::size_t s, const auto&) {
+      f(simplex_descriptor(s), simplex_vertices(simplex_descriptor(s)));
+    });
+  }
+
+private:
+  Soup m_soup;
+  std::size_t m_number_of_points;
+  std::shared_ptr<std::vector<vertex_descriptor>> m_corners;
+};
+
+void test_minimal_domain()
+{
+  test_case() = "minimal domain";
+  const Shape shape = shapes()[2];
+  const Scenario s = scenario(shape);
+  const std::vector<Point> rest = points_of(shape.points);
+  std::vector<Point> points = rest, others = rest;
+  const Minimal_domain domain(points, shape.triangles);
+  check_conforms(domain);
+  CGAL::ARAP_deformation<Minimal_domain> deformation(domain);
+  CGAL::ARAP_deformation<Soup> expected(Soup(others, shape.triangles));
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(s.selection[v] != 1)
+    {
+      deformation.insert_control_vertex(domain.vertices()[v], point(s.targets[v]));
+      expected.insert_control_vertex(v, point(s.targets[v]));
+    }
+    else
+    {
+      deformation.insert_roi_vertex(domain.vertices()[v]);
+      expected.insert_roi_vertex(v);
+    }
+  const auto before = deformation.state();
+  CHECK(deformation.deform() && expected.deform());
+  CHECK(points == others);
+  const auto found = CGAL::ARAP::locate(domain, points[0]);
+  if(CHECK(found))
+    CHECK(deformation.insert_control_point(*found));
+  CHECK(deformation.restore(before));
+  CHECK(points == rest);
+}
+
 template <typename Domain>
 void check_model(const std::string& sentence)
 {
@@ -402,6 +502,7 @@ void test_all()
   check_model<Mirrored_points>("coordinates() and make_point() are not inverse to each other");
   check_model<Keeps_points>("point() is not what set_point() and is_in_place() make it");
   check_model<Throwing>("the domain threw an exception: no such table");
+  test_minimal_domain();
 }
 
 } // namespace conformance

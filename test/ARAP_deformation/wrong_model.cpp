@@ -235,6 +235,13 @@ int main()
   Mesh mesh;
   CGAL::ARAP_deformation deformation(mesh);
   return bool(deformation.set_target_rotation(Mesh::Vertex_index(0), Eigen::Rotation2Dd(1)));
+#elif WRONG_MODEL == 34
+  std::vector<Mesh::Point> points, others;
+  const std::vector<std::array<int, 3>> triangles;
+  const std::map<std::size_t, Mesh::Point> targets;
+  auto domain = make_polygon_soup_domain(points, triangles);
+  return bool(CGAL::arap_deform(
+    domain, targets, CGAL::parameters::output_point_map(CGAL::make_property_map(others))));
 #else
 #error "there is no wrong model of that number"
 #endif

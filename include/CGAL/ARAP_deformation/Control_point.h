@@ -34,7 +34,7 @@ namespace ARAP {
 template <typename Simplex>
 struct Location
 {
-  Simplex simplex{};               ///< the face or tetrahedron.
+  Simplex simplex;                 ///< the face or tetrahedron.
   std::vector<double> coordinates; ///< the barycentric coordinates.
   double distance = 0;             ///< how far from there the point is that was located.
 };

@@ -19,8 +19,10 @@
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/for_each_simplex.h>
 #include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -35,9 +37,9 @@ namespace ARAP {
 /// `CGAL::ARAP_deformation`.
 ///
 /// It is built for the points that the domain has at construction. Takes \f$O(n \log n)\f$ time for
-/// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Triangles, and triangles
-/// of the fan of a polygon, that have no area are ignored, and so are tetrahedra without volume and
-/// simplices with a point that is not finite.
+/// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Polygons are cut into
+/// triangles, as seen along their mean normal; they need not be convex. Triangles without area are
+/// ignored, and so are tetrahedra without volume and simplices with a point that is not finite.
 ///
 /// \tparam Domain a model of `ARAPDomain`
 template <typename Domain>
@@ -82,7 +84,7 @@ public:
     Location<simplex_descriptor> location = {part.simplex, {}, found->distance};
     location.coordinates.assign(part.number_of_corners, 0);
     for(std::size_t k = 0; k < found->coordinates.size(); ++k)
-      location.coordinates[k == 0 ? 0 : part.fan + k] += found->coordinates[k];
+      location.coordinates[part.corners[k]] += found->coordinates[k];
     return location;
   }
 
@@ -90,23 +92,30 @@ private:
   using Search = internal::Simplex_search<Domain::dimension + 1>;
   using Corners = typename Search::Corners;
 
-  // a simplex, or a triangle (0, fan + 1, fan + 2) of a polygon
+  // a simplex, or a triangle of a polygon
   struct Part
   {
     simplex_descriptor simplex;
-    std::size_t fan, number_of_corners;
+    std::array<std::size_t, Domain::dimension + 1> corners; // numbers in the simplex
+    std::size_t number_of_corners;                          // of the simplex
   };
 
   void append(const simplex_descriptor& s, const internal::Array<Coordinates>& points,
-              std::vector<Corners>& corners)
+              std::vector<Corners>& all_corners)
   {
-    for(std::size_t fan = 0; fan + Domain::dimension < points.size(); ++fan)
+    const auto append_part = [&](const auto& corners) {
+      m_parts.push_back({s, corners, points.size()});
+      all_corners.emplace_back();
+      for(std::size_t k = 0; k < corners.size(); ++k)
+        all_corners.back()[k] = points[corners[k]];
+    };
+    if constexpr(Domain::dimension == 2)
     {
-      m_parts.push_back({s, fan, points.size()});
-      corners.emplace_back();
-      for(std::size_t k = 0; k < corners.back().size(); ++k)
-        corners.back()[k] = points[k == 0 ? 0 : fan + k];
+      for(const auto& triangle : internal::triangles_of_polygon(points))
+        append_part(triangle);
     }
+    else if(points.size() == 4)
+      append_part(std::array<std::size_t, 4>{0, 1, 2, 3});
   }
 
   std::vector<Part> m_parts;

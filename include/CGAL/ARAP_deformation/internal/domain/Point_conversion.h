@@ -50,11 +50,16 @@ constexpr int number_of_coordinates()
            std::is_constructible_v<Point, double, double> ? 2 : 3;
 }
 
+template <typename Point>
+using Field_of = typename Point::R::FT;
+
 // constructs a point from its coordinates, without rounding if the point accepts their type
 template <typename Point, typename... FT>
 Point construct_from_coordinates(const FT&... coordinates)
 {
-  if constexpr(std::is_constructible_v<Point, const FT&...>)
+  if constexpr(is_valid<Field_of, Point>) // integers would do for a homogeneous one
+    return Point(typename Point::R::FT(coordinates)...);
+  else if constexpr(std::is_constructible_v<Point, const FT&...>)
     return Point(coordinates...);
   else // std::array, which accepts only its own type
   {

@@ -20,24 +20,34 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// half the sum of the cross products around a polygon of n corners
+template <typename Corner>
+Coordinates vector_area(std::size_t n, const Corner& corner)
+{
+  Coordinates area = {0, 0, 0};
+  for(std::size_t k = 1; k + 1 < n; ++k)
+    add(area, 0.5, cross(difference(corner(k), corner(0)), difference(corner(k + 1), corner(0))));
+  return area;
+}
+
 // the area or volume of simplex s of the rest shape
 inline double content_of(const Region& region, int s)
 {
-  const int* const corners = region.corners_of(s);
-  const auto edge = [&](int k) {
-    return difference(region.rest[corners[k]], region.rest[corners[0]]);
-  };
+  const auto corner = [&](std::size_t k) { return region.rest[region.corners_of(s)[k]]; };
   if(region.dimension == 3)
+  {
+    const auto edge = [&](std::size_t k) { return difference(corner(k), corner(0)); };
     return std::abs(dot(edge(1), cross(edge(2), edge(3)))) / 6;
-  Coordinates normal = {0, 0, 0};
-  for(int k = 1; k + 1 < region.number_of_corners(s); ++k)
-    add(normal, 0.5, cross(edge(k), edge(k + 1)));
-  return std::sqrt(dot(normal, normal));
+  }
+  const auto n = static_cast<std::size_t>(region.number_of_corners(s));
+  const Coordinates area = vector_area(n, corner);
+  return std::sqrt(dot(area, area));
 }
 
 // the share of each center in the area or volume of its simplices

@@ -141,7 +141,7 @@ public:
     const std::vector<Entry>& after = change.state.entries;
     set_points([&] {
       for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
-        if(k >= after.size() || before[k].vertex != after[k].vertex)
+        if(k >= after.size() || !(before[k].vertex == after[k].vertex))
           domain().set_point(before[k].vertex, m_vertices.first_point(k));
       for(const Entry& entry : after)
         domain().set_point(entry.vertex, entry.present);

@@ -114,7 +114,7 @@ public:
         closest = Svd_rotation::closest(*rotation);
         bool is_right = is_rotation(*rotation);
         if(is_planar<Domain>()) // z must stay an axis, but for what single precision leaves of it
-          for(const std::size_t k : {2, 5, 6, 7})
+          for(const std::size_t k : {2u, 5u, 6u, 7u})
             is_right &= std::abs(std::exchange((*closest)[k], 0)) <= 1e-5;
         if(!is_right)
           return outcome(Status::invalid_rotation, name(v));

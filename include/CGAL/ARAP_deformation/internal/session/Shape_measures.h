@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 
@@ -232,14 +233,9 @@ private:
     return std::atan2(length(cross(e, f)), dot(e, f)) * 180 / std::acos(-1.0);
   }
 
-  // half the sum of the cross products around it
   static Coordinates vector_area(const Simplex& face, const Points& p)
   {
-    Coordinates area = {0, 0, 0};
-    for(std::size_t k = 1; k + 1 < face.size(); ++k)
-      add(area, 0.5, cross(difference(p[face[k]], p[face[0]]),
-                           difference(p[face[k + 1]], p[face[0]])));
-    return area;
+    return internal::vector_area(face.size(), [&](std::size_t k) { return p[face[k]]; });
   }
 
   // an area, or the signed volume of a tetrahedron

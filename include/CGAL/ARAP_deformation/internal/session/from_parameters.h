@@ -27,7 +27,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The domain of a shape that is a domain or a mesh. Maps apply to a FaceGraph only.
+// The domain of a shape that is a domain or a mesh.
 template <typename Shape, typename NamedParameters>
 auto domain_from_parameters(Shape& shape, const NamedParameters& np)
 {
@@ -42,10 +42,18 @@ auto domain_from_parameters(Shape& shape, const NamedParameters& np)
     if constexpr(is_writable)
       return make_face_graph_domain(shape, np);
   }
-  else if constexpr(Is_domain<Mesh>::value)
-    return Mesh(shape);
   else
-    return make_domain<Domain>(shape);
+  {
+    static_assert(!has_parameter<NamedParameters, internal_np::output_point_map_t> &&
+                  !has_parameter<NamedParameters, internal_np::vertex_point_t> &&
+                  !has_parameter<NamedParameters, internal_np::vertex_index_t>,
+                  "the named parameters output_point_map, vertex_point_map and vertex_index_map "
+                  "are for a FaceGraph; a domain or a triangulation has its own points");
+    if constexpr(Is_domain<Mesh>::value)
+      return Mesh(shape);
+    else
+      return make_domain<Domain>(shape);
+  }
 }
 
 template <typename NamedParameters>
