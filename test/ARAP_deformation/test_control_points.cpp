@@ -1066,8 +1066,8 @@ void test_turned_halfedges()
   }
 }
 
-// A polygon need not be convex. Compared with the distance from its sides, and a count of those that
-// a ray crosses.
+// A polygon need not be convex. Compared with the distance from its sides, and a count of those
+// that a ray crosses.
 void test_polygons()
 {
   const std::vector<std::vector<Eigen::Vector2d>> polygons = {
@@ -1186,8 +1186,9 @@ void test_function()
   CHECK_AT_MOST((place(domain, *found) - Eigen::Vector3d(0.1, 0.2, 1.5)).norm(), 1e-12);
   const std::vector<std::tuple<Mesh::Face_index, std::array<double, 3>, Point>> wrong = {
     {found->simplex, {1, 1, 1}, Point(0, 0, 0)}};
-  CHECK(CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(wrong)).status ==
-        Status::invalid_coordinates);
+  const auto refused = CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(wrong));
+  CHECK(refused.status == Status::invalid_coordinates);
+  CHECK(refused.message.find("element 0 of control_points: ") == 0);
   CGAL::ARAP_deformation<Mesh> d(mesh);
   CHECK(d.insert_control_point(*found));
 

@@ -20,10 +20,12 @@
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/arap_deform.h>
 
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using CGAL::ARAP::Triangulation_domain;
@@ -84,6 +86,23 @@ void test_measures()
   CHECK(found && found->distance <= 1e-12);
 }
 
+// The infinite vertex has no point, and is none of the domain.
+void test_infinite_vertex()
+{
+  test_case() = "infinite vertex";
+  using Triangulation = CGAL::Delaunay_triangulation_3<Epick>;
+  auto t = triangulation<Triangulation>();
+  const auto rest = t;
+  const auto v = t.finite_vertices_begin();
+  using Targets = std::vector<std::pair<Triangulation::Vertex_handle, Epick::Point_3>>;
+  const CGAL::ARAP::Report report = CGAL::arap_deform(
+    t, Targets{{v, Epick::Point_3(0, 0, 9)}, {t.infinite_vertex(), Epick::Point_3(0, 0, 0)}});
+  CHECK(report.status == CGAL::ARAP::Status::not_a_control_vertex);
+  CHECK(report.message == "element 1 of the targets: the mesh has no such vertex");
+  CHECK(t == rest);
+  CHECK(!CGAL::ARAP::make_triangulation_domain(t).is_vertex(t.infinite_vertex()));
+}
+
 void test_shelf()
 {
   const std::vector<Nasty_volume> shelf = nasty_points_of_a_volume();
@@ -101,6 +120,7 @@ int main()
   test_some_cells();
   test_terms_of_cells();
   test_measures();
+  test_infinite_vertex();
   test_shelf();
   return checks_result();
 }

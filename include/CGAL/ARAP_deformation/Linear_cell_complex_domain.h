@@ -100,6 +100,9 @@ public:
   /// returns the range of all vertices.
   auto vertices() const { return boost::make_iterator_range(m_tables->vertices); }
 
+  /// returns whether `v` was a vertex of the complex when the domain was constructed.
+  bool is_vertex(vertex_descriptor v) const { return m_tables->indices.count(v) > 0; }
+
   /// returns whether no simplex is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
   {

@@ -114,6 +114,9 @@ public:
   /// returns the range of all finite vertices.
   auto vertices() const { return m_triangulation->finite_vertex_handles(); }
 
+  /// returns whether `v` was a finite vertex of the triangulation when the domain was constructed.
+  bool is_vertex(vertex_descriptor v) const { return m_indices->count(v) > 0; }
+
   /// returns whether no selected cell is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
   {

@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/is_valid.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_vertex_of.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Held_point.h>
@@ -35,10 +35,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-template <typename Domain>
-using Call_is_vertex = decltype(std::declval<const Domain&>().is_vertex(
-  std::declval<typename Domain::vertex_descriptor>()));
 
 // The region of interest, the control vertices and control points with their targets, the rest
 // shape and the present one. Vertices keep their entry when they leave the region of interest: they
@@ -415,16 +411,11 @@ private:
   static constexpr int no_target = -1;
 
   // in Release false for what is no vertex, if the domain can tell
-  bool is_vertex([[maybe_unused]] vertex_descriptor v) const
+  bool is_vertex(vertex_descriptor v) const
   {
-    if constexpr(is_valid<Call_is_vertex, Domain>)
-    {
-      const bool is_one = m_domain.is_vertex(v);
-      CGAL_precondition_msg(is_one, "the mesh has no such vertex");
-      return is_one;
-    }
-    else
-      return true;
+    const bool is_one = is_vertex_of(m_domain, v);
+    CGAL_precondition_msg(is_one, "the mesh has no such vertex");
+    return is_one;
   }
 
   bool enter_roi(Entry& entry)

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_vertex_of.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
@@ -25,7 +26,9 @@
 
 #include <CGAL/Named_function_parameters.h>
 
+#include <cstddef>
 #include <iterator>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -35,6 +38,14 @@ namespace internal {
 
 template <typename Range>
 using Pair_of = decltype(std::begin(std::declval<const Range&>())->second);
+
+// names the element of a range that was refused
+inline Outcome of_element(Outcome outcome, std::size_t k, const std::string& range)
+{
+  if(!outcome)
+    outcome.message = "element " + std::to_string(k) + " of " + range + ": " + outcome.message;
+  return outcome;
+}
 
 // `insert(deformation, insert_target)` makes the control vertices, by `insert_target(v)` those with
 // a target
@@ -62,12 +73,11 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   // a number or a map, which is copied, or none
   [[maybe_unused]] const auto& weight = get_parameter(np, internal_np::target_weight);
   const auto insert_target = [&](auto v) {
+    if(!is_vertex_of(domain, v))
+      return Outcome(Status::not_a_control_vertex, "the mesh has no such vertex");
     Outcome outcome(Status::success, "");
     deformation.insert_control_vertex(v);
-    if(!deformation.is_control_vertex(v))
-      outcome = Outcome(Status::not_a_control_vertex,
-                        "a target is given for a vertex that the mesh does not have");
-    else if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
+    if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
       outcome = deformation.set_target_weight(v, weight);
     else if constexpr(has_parameter<NamedParameters, internal_np::target_weight_t>)
       with_value(weight, v, domain.index(v),
@@ -75,11 +85,12 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
     return outcome;
   };
   static_cast<Outcome&>(report) = insert(deformation, insert_target);
+  [[maybe_unused]] std::size_t k = 0;
   if constexpr(has_parameter<NamedParameters, internal_np::target_sets_t>)
     for(const auto& [v, projection] : get_parameter(np, internal_np::target_sets))
     {
       if(report)
-        static_cast<Outcome&>(report) = insert_target(v);
+        static_cast<Outcome&>(report) = of_element(insert_target(v), k++, "target_sets");
       if(report)
         static_cast<Outcome&>(report) = deformation.set_target_set(v, projection);
     }
@@ -90,12 +101,14 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   if(!report)
     return report;
   if constexpr(has_parameter<NamedParameters, internal_np::control_points_t>)
+  {
+    k = 0;
     for(const auto& [simplex, coordinates, target] :
         get_parameter(np, internal_np::control_points))
     {
       const Control_point_insertion inserted =
         deformation.insert_control_point(simplex, coordinates);
-      static_cast<Outcome&>(report) = inserted;
+      static_cast<Outcome&>(report) = of_element(inserted, k++, "control_points");
       if(report)
         deformation.set_target_position(inserted.point, target);
       if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
@@ -104,6 +117,7 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
       if(!report)
         return report;
     }
+  }
   if constexpr(has_parameter<NamedParameters, internal_np::cell_stiffness_t>)
     deformation.set_stiffness(get_parameter(np, internal_np::cell_stiffness));
   if constexpr(has_parameter<NamedParameters, internal_np::cell_groups_t>)
@@ -123,9 +137,10 @@ auto insert_targets(const TargetRange& targets)
                 "as a std::map");
   return [&targets](auto& deformation, const auto& insert_target) {
     Outcome outcome(Status::success, "");
+    std::size_t k = 0;
     for(const auto& [v, target] : targets)
     {
-      outcome = insert_target(v);
+      outcome = of_element(insert_target(v), k++, "the targets");
       if(!outcome)
         break;
       deformation.set_target_position(v, target);
