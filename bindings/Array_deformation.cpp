@@ -91,12 +91,22 @@ public:
   const double* points() const override { return m_points.data()->data(); }
   const double* rest_points() const override { return m_rest.data()->data(); }
 
-  const Options& options() const override { return m_deformation.options(); }
-  void set_option(const std::string& name, const std::string& value) override
+  std::string option(const std::string& name) const override
   {
-    Options options = m_deformation.options();
-    require(ARAP::set_option(options, name, value));
-    const bool at_vertices = m_deformation.options().cells.has_vertex_cells();
+    return option_value(options(), name);
+  }
+
+  Options options_with(const Named_options& values) const override
+  {
+    Options options = this->options();
+    require(ARAP::set_options(options, values));
+    return options;
+  }
+
+  void set_options(const Named_options& values) override
+  {
+    const Options options = options_with(values);
+    const bool at_vertices = this->options().cells.has_vertex_cells();
     require(options.cells.has_vertex_cells() == at_vertices || !(m_has_stiffness || m_has_groups),
             std::string("cells: there is a stiffness or a group of each ") +
             (at_vertices ? "vertex" : "simplex") +
@@ -155,10 +165,13 @@ public:
       return std::nullopt;
     return Place{found->simplex, found->coordinates, found->distance};
   }
-  std::int32_t insert_point(std::size_t simplex, Numbers coordinates) override
+  std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) override
   {
+    if(simplex < 0 || static_cast<std::size_t>(simplex) >= m_simplices.size())
+      throw std::out_of_range("there is no simplex " + std::to_string(simplex));
     const auto inserted = m_deformation.insert_control_point(
-      simplex, std::vector<double>(coordinates.data, coordinates[coordinates.rows]));
+      static_cast<std::size_t>(simplex),
+      std::vector<double>(coordinates.data, coordinates[coordinates.rows]));
     require(inserted);
     return handle_of(inserted.point);
   }
@@ -404,6 +417,8 @@ private:
     const std::vector<Number> map(values.data, values[values.rows]);
     require(at_vertices ? f(map) : f(of_simplices(map)));
   }
+
+  const Options& options() const { return m_deformation.options(); }
 
   // For what has no outcome, and in a visitor would be left undone without a word. The options stay
   // as they are: setting them only tells.

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -82,8 +83,11 @@ public:
   // n x 3: the rest shape
   virtual const double* rest_points() const = 0;
 
-  virtual const Options& options() const = 0;
-  virtual void set_option(const std::string& name, const std::string& value) = 0;
+  // Options are texts by their names. All of them are set, or none.
+  using Named_options = std::map<std::string, std::string>;
+  virtual void set_options(const Named_options& values) = 0;
+  virtual std::string option(const std::string& name) const = 0;
+  virtual Options options_with(const Named_options& values) const = 0; // which are not set
 
   // All vertices are in the region of interest at first.
   virtual void set_region(Indices vertices) = 0;
@@ -98,7 +102,7 @@ public:
   // the place nearest to a point, if there is any
   virtual std::optional<Place> locate(const double* point) const = 0;
   // returns the handle of a new control point
-  virtual std::int32_t insert_point(std::size_t simplex, Numbers coordinates) = 0;
+  virtual std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) = 0;
   virtual void point_position(std::int32_t handle, double* point) const = 0;
 
   virtual void set_targets(Indices handles, Numbers targets) = 0; // k x 3

@@ -96,6 +96,31 @@ void add(const Report& report)
   add(report.energy);
 }
 
+void add(const Step_report& report)
+{
+  add(static_cast<const Report&>(report));
+  add(std::vector<double>{report.mass, report.kinetic_energy, report.elastic_energy});
+  add(report.center_of_mass);
+  add(report.momentum);
+  add(report.angular_momentum);
+}
+
+Array_deformation::Named_options options_of(const char* texts, std::size_t n)
+{
+  Array_deformation::Named_options options;
+  const auto next = [&] {
+    const std::string text = texts;
+    texts += text.size() + 1;
+    return text;
+  };
+  for(; n > 0; --n)
+  {
+    const std::string name = next();
+    options[name] = next();
+  }
+  return options;
+}
+
 } // namespace
 
 // the visitor that index.js has set; 0 to proceed, 1 to stop, 2 to cancel
@@ -108,6 +133,11 @@ namespace {
 Visitor_action visit(unsigned int iteration, double energy)
 {
   return static_cast<Visitor_action>(arap_visit(iteration, energy));
+}
+
+Array_deformation::Visitor visitor(bool visits)
+{
+  return visits ? visit : Array_deformation::Visitor();
 }
 
 } // namespace
@@ -138,9 +168,15 @@ ARAP_EXPORT void arap_delete(Array_deformation* d) { delete d; }
 ARAP_EXPORT const double* arap_points(const Array_deformation* d) { return d->points(); }
 ARAP_EXPORT const double* arap_rest_points(const Array_deformation* d) { return d->rest_points(); }
 
-ARAP_EXPORT bool arap_set_option(Array_deformation* d, const char* name, const char* value)
+// texts: a name, its value, the next name, ...
+ARAP_EXPORT bool arap_set_options(Array_deformation* d, const char* texts, std::size_t n)
 {
-  return answer_of([&] { d->set_option(name, value); });
+  return answer_of([&] { d->set_options(options_of(texts, n)); });
+}
+// the message is the value; empty for an unknown name
+ARAP_EXPORT bool arap_option(const Array_deformation* d, const char* name)
+{
+  return answer_of([&] { answer.message = d->option(name); });
 }
 
 ARAP_EXPORT bool arap_set_region(Array_deformation* d, const std::int32_t* vertices, std::size_t n)
@@ -183,7 +219,7 @@ ARAP_EXPORT bool arap_locate(const Array_deformation* d, double x, double y, dou
     }
   });
 }
-ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::size_t simplex,
+ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::int32_t simplex,
                                    const double* coordinates, std::size_t n)
 {
   return answer_of([&] {
@@ -247,24 +283,29 @@ ARAP_EXPORT bool arap_set_groups(Array_deformation* d, const std::int32_t* group
   return answer_of([&] { d->set_groups({groups, n}); });
 }
 
-// the iterations and the tolerance of the options
-ARAP_EXPORT bool arap_run(const Array_deformation* d)
-{
-  return answer_of([&] {
-    add(std::vector<double>{double(d->options().iterations), d->options().tolerance});
-  });
-}
 ARAP_EXPORT bool arap_preprocess(Array_deformation* d)
 {
   return answer_of([&] { d->preprocess(); });
 }
-ARAP_EXPORT bool arap_deform(Array_deformation* d, unsigned int iterations, double tolerance,
-                             bool visits)
+// with options for this call
+ARAP_EXPORT bool arap_deform(Array_deformation* d, const char* texts, std::size_t n, bool visits)
 {
   return answer_of([&] {
-    const Report report = d->deform(iterations, tolerance,
-                                    visits ? visit : Array_deformation::Visitor());
+    const Options options = d->options_with(options_of(texts, n));
+    const Report report = d->deform(options.iterations, options.tolerance, visitor(visits));
     answer.numbers.clear(); // of what a visitor may have asked
+    add(report);
+  });
+}
+ARAP_EXPORT bool arap_advance(Array_deformation* d, double time_step, double density,
+                              double modulus, double damping, const double* acceleration,
+                              const double* forces, std::size_t rows, bool visits)
+{
+  return answer_of([&] {
+    const Dynamics dynamics{time_step, density, modulus, damping,
+                            {acceleration[0], acceleration[1], acceleration[2]}};
+    const Step_report report = d->advance(dynamics, {forces, rows, 3}, visitor(visits));
+    answer.numbers.clear();
     add(report);
   });
 }

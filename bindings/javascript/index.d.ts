@@ -82,11 +82,33 @@ export interface Run {
   /** instead of those of the options */
   iterations?: number;
   tolerance?: number;
-  /**
-   * called with the initial guess, as iteration 0, and after each iteration; may end the run, or
-   * cancel it, which leaves all as it was. What it throws is thrown.
-   */
-  visitor?: (iteration: number, energy: number) => 'stop' | 'cancel' | void;
+  visitor?: Visitor;
+}
+
+/**
+ * Called with the initial guess, as iteration 0, and after each iteration; may end the run, or
+ * cancel it, which leaves all as it was. What it throws is thrown.
+ */
+export type Visitor = (
+  iteration: number,
+  energy: number,
+) => 'proceed' | 'stop' | 'cancel' | null | void;
+
+/** A time step of implicit Euler, in any consistent units. */
+export interface Step {
+  /** default 1 / 60 */
+  timeStep?: number;
+  /** mass per area, or per volume of tetrahedra; default 1 */
+  density?: number;
+  /** energy per area or volume; default 1 */
+  modulus?: number;
+  /** the rate at which velocities decay; default 0 */
+  damping?: number;
+  /** of all vertices, such as that of gravity */
+  acceleration?: Numbers;
+  /** n x 3 */
+  forces?: Numbers;
+  visitor?: Visitor;
 }
 
 export interface Report {
@@ -123,6 +145,16 @@ export interface Report {
     visitor: number;
     total: number;
   };
+}
+
+/** The mass, momenta and energies are those of the free vertices. */
+export interface StepReport extends Report {
+  mass: number;
+  centerOfMass: number[];
+  momentum: number[];
+  angularMomentum: number[];
+  kineticEnergy: number;
+  elasticEnergy: number;
 }
 
 export interface Place {
@@ -166,8 +198,9 @@ export interface Session {
   restPoints<T extends Float64Array | Float32Array>(out: T): T;
 
   setOption(name: keyof Options, value: string | number | boolean): void;
-  /** What is undefined stays as it is. */
+  /** Sets all of them, or none if they are not valid together. What is undefined stays as it is. */
   setOptions(options: Options): void;
+  option<Name extends keyof Options>(name: Name): NonNullable<Options[Name]>;
 
   /** All vertices are in the region of interest at first. */
   setRegion(vertices: Indices): void;
@@ -207,6 +240,7 @@ export interface Session {
   /** does what the next call of `deform()` needs, such as the factorization, before it is made */
   preprocess(): void;
   deform(run?: Run): Report;
+  advance(step?: Step): StepReport;
 
   reset(): void;
   /** of the present positions */
@@ -224,7 +258,7 @@ export interface Session {
 }
 
 export interface Arap {
-  session(points: Numbers, simplices: Indices, shape?: Shape): Session;
+  session(points: Numbers, simplices: Indices, options?: Shape & Options): Session;
   /** one deformation, without a session */
   deform(
     points: Numbers,

@@ -43,6 +43,49 @@ function numbersOf(values, what, Kind) {
   return result;
 }
 
+// one index, not a list
+function indexOf(value, what) {
+  if (typeof value !== 'number') throw new TypeError(`${what} must be a number`);
+  return numbersOf([value], what, Int32Array)[0];
+}
+
+function numberOf(value, what) {
+  if (typeof value !== 'number') throw new TypeError(`${what} is ${value}; it must be a number`);
+  return value;
+}
+
+function booleanOf(value, what) {
+  if (typeof value !== 'boolean') throw new TypeError(`${what} must be true or false`);
+  return value;
+}
+
+function refuseUnknown(rest, call) {
+  for (const name of Object.keys(rest)) throw new TypeError(`${call} has no option '${name}'`);
+}
+
+const actions = new Map([
+  [undefined, 0],
+  [null, 0],
+  ['proceed', 0],
+  ['stop', 1],
+  ['cancel', 2],
+]);
+
+function actionOf(answer) {
+  if (actions.has(answer)) return actions.get(answer);
+  const what = typeof answer === 'string' ? `'${answer}'` : String(answer);
+  throw new TypeError(
+    `a visitor returns nothing, 'proceed', 'stop' or 'cancel', and not ${what}` +
+      (typeof answer?.then === 'function' ? '; it cannot be asynchronous' : ''),
+  );
+}
+
+// an option as JavaScript has it
+function valueOf(text) {
+  if (text === 'true' || text === 'false') return text === 'true';
+  return Number.isNaN(Number(text)) ? text : Number(text);
+}
+
 function rowsOf(array, columns, what) {
   if (array.length % columns !== 0)
     throw new RangeError(`${what}: ${array.length} numbers are no rows of ${columns}`);
@@ -79,14 +122,69 @@ export async function load({ wasmBinary } = {}) {
       pointers.forEach((pointer) => module._free(pointer));
     }
   }
-  const withText = (strings, f) =>
-    withCopies(
-      strings.map((s) => new TextEncoder().encode(`${s}\0`)),
-      f,
-    );
+  function withText(values, f) {
+    const strings = values.map(String);
+    if (strings.some((s) => s.includes('\0'))) throw new TypeError('a text has a null character');
+    return withCopies([new TextEncoder().encode(strings.map((s) => `${s}\0`).join(''))], f);
+  }
+  function withOptions(options, f) {
+    const given = Object.entries(options).filter(([, value]) => value !== undefined);
+    return withText(given.flat(), (pointer) => f(pointer, given.length));
+  }
   const heapNumbers = (pointer, length) =>
     new Float64Array(module.HEAPU8.buffer, pointer >>> 0, length);
   const answer = () => heapNumbers(module._arap_numbers(), module._arap_size()).slice();
+
+  function reportOf(a) {
+    const firstEnergy = 24 + a[23],
+      energy = a.slice(firstEnergy);
+    return {
+      status: text(module._arap_status()),
+      message: text(module._arap_message()),
+      iterations: a[0],
+      energyScale: a[1],
+      roundingLevel: a[2],
+      estimatedRelativeGap: a[3],
+      freeVertices: a[4],
+      simplices: a[5],
+      invertedSimplices: a[6],
+      end: ends[a[19]],
+      saddlesLeft: a[20],
+      plateausLeft: a[21],
+      lookingIterations: a[22],
+      stages: {
+        region: !!a[7],
+        weights: !!a[8],
+        order: !!a[9],
+        factor: !!a[10],
+        border: !!a[11],
+      },
+      seconds: {
+        preprocess: a[12],
+        transfer: a[13],
+        initialGuess: a[14],
+        localSteps: a[15],
+        globalSteps: a[16],
+        visitor: a[17],
+        total: a[18],
+      },
+      unconstrainedComponents: Int32Array.from(a.subarray(24, firstEnergy)),
+      energy,
+      finalEnergy: energy.length > 0 ? energy.at(-1) : NaN,
+    };
+  }
+  function stepReportOf(numbers) {
+    const a = numbers.slice(-12);
+    return {
+      ...reportOf(numbers.subarray(0, -12)),
+      mass: a[0],
+      kineticEnergy: a[1],
+      elasticEnergy: a[2],
+      centerOfMass: [...a.subarray(3, 6)],
+      momentum: [...a.subarray(6, 9)],
+      angularMomentum: [...a.subarray(9, 12)],
+    };
+  }
 
   class State {
     constructor(pointer) {
@@ -105,7 +203,12 @@ export async function load({ wasmBinary } = {}) {
     #pointer = 0;
     #runs = 0;
 
-    constructor(points, simplices, { corners, volume = false, weights = 'safe_cotangent' } = {}) {
+    constructor(
+      points,
+      simplices,
+      { corners, volume = false, weights = 'safe_cotangent', ...options } = {},
+    ) {
+      booleanOf(volume, 'volume');
       corners ??= volume ? 4 : 3;
       const p = numbersOf(points, 'points', Float64Array),
         s = numbersOf(simplices, 'simplices', Int32Array);
@@ -122,6 +225,12 @@ export async function load({ wasmBinary } = {}) {
       this.isVolume = volume;
       const pointer = this.#pointer;
       forgotten.register(this, () => module._arap_delete(pointer), this);
+      try {
+        this.setOptions(options);
+      } catch (error) {
+        this.dispose();
+        throw error;
+      }
     }
 
     dispose() {
@@ -145,16 +254,18 @@ export async function load({ wasmBinary } = {}) {
       return module[`_arap_${name}`](this.#this(), ...rest) ? answer() : fail();
     }
     // arrays of indices, or of one of them
-    #indices(values, what = 'vertices') {
+    #indices(values, what) {
       return numbersOf(typeof values === 'number' ? [values] : values, what, Int32Array);
     }
-    #callWithIndices(name, values, ...rest) {
-      const indices = this.#indices(values);
+    #callWithIndices(name, what, values, ...rest) {
+      const indices = this.#indices(values, what);
       return withCopies([indices], (pointer) => this.#call(name, pointer, indices.length, ...rest));
     }
     #copy(name, out) {
       const view = heapNumbers(module[name](this.#this()), 3 * this.numberOfVertices);
       if (!out) return view.slice();
+      if (!ArrayBuffer.isView(out) || out.length !== view.length)
+        throw new RangeError(`points need a typed array of ${view.length} numbers`);
       out.set(view);
       return out;
     }
@@ -167,25 +278,30 @@ export async function load({ wasmBinary } = {}) {
     }
 
     setOption(name, value) {
-      withText([name, value], (n, v) => this.#call('set_option', n, v));
+      this.setOptions({ [name]: value });
     }
     setOptions(options) {
-      for (const [name, value] of Object.entries(options))
-        if (value !== undefined) this.setOption(name, value);
+      withOptions(options, (pointer, n) => this.#call('set_options', pointer, n));
+    }
+    option(name) {
+      withText([name], (pointer) => this.#call('option', pointer));
+      const value = text(module._arap_message());
+      if (!value) throw new ArapError('invalid_option', `the option '${name}' is not known`);
+      return valueOf(value);
     }
 
     setRegion(vertices) {
-      this.#callWithIndices('set_region', vertices);
+      this.#callWithIndices('set_region', 'vertices', vertices);
     }
     region() {
       return Int32Array.from(this.#call('region'));
     }
 
     insertHandles(vertices) {
-      this.#callWithIndices('insert_handles', vertices);
+      this.#callWithIndices('insert_handles', 'vertices', vertices);
     }
     eraseHandles(handles) {
-      this.#callWithIndices('erase_handles', handles);
+      this.#callWithIndices('erase_handles', 'handles', handles);
     }
     clearHandles() {
       this.#call('clear_handles');
@@ -201,12 +317,12 @@ export async function load({ wasmBinary } = {}) {
       return simplex === undefined ? null : { simplex, distance, coordinates };
     }
     insertPoint(simplex, coordinates) {
-      const [s] = this.#indices(simplex, 'the simplex');
-      const c = numbersOf(coordinates, 'coordinates', Float64Array);
+      const s = indexOf(simplex, 'the simplex'),
+        c = numbersOf(coordinates, 'coordinates', Float64Array);
       return withCopies([c], (pointer) => this.#call('insert_point', s, pointer, c.length))[0];
     }
     pointPosition(handle) {
-      return this.#call('point_position', this.#indices(handle)[0]);
+      return this.#call('point_position', indexOf(handle, 'the handle'));
     }
 
     setTargets(handles, targets) {
@@ -216,27 +332,31 @@ export async function load({ wasmBinary } = {}) {
       withCopies([h, t], (hp, tp) => this.#call('set_targets', hp, h.length, tp, rows));
     }
     target(handle) {
-      return this.#call('target', this.#indices(handle)[0]);
+      return this.#call('target', indexOf(handle, 'the handle'));
     }
-    transform(handles, matrix, { fromRest = false } = {}) {
+    transform(handles, matrix, { fromRest = false, ...rest } = {}) {
+      refuseUnknown(rest, 'transform()');
+      booleanOf(fromRest, 'fromRest');
       const h = this.#indices(handles, 'handles'),
         m = numbersOf(matrix, 'the matrix', Float64Array);
       const rows = rowsOf(m, 4, 'the matrix');
       withCopies([h, m], (hp, mp) => this.#call('transform', hp, h.length, mp, rows, fromRest));
     }
     setWeight(handles, weight) {
-      this.#callWithIndices('set_weight', handles, Number(weight));
+      this.#callWithIndices('set_weight', 'handles', handles, numberOf(weight, 'the weight'));
     }
     setRotation(vertices, matrix) {
       const m = numbersOf(matrix, 'the matrix', Float64Array);
       if (m.length !== 9) throw new RangeError('a rotation is a matrix of 3 x 3 numbers');
-      withCopies([m], (pointer) => this.#callWithIndices('set_rotation', vertices, pointer));
+      withCopies([m], (pointer) =>
+        this.#callWithIndices('set_rotation', 'vertices', vertices, pointer),
+      );
     }
     setRotationsOfMotion(vertices) {
-      this.#callWithIndices('set_rotations_of_motion', vertices);
+      this.#callWithIndices('set_rotations_of_motion', 'vertices', vertices);
     }
     eraseRotations(vertices) {
-      this.#callWithIndices('erase_rotations', vertices);
+      this.#callWithIndices('erase_rotations', 'vertices', vertices);
     }
 
     setStiffness(values) {
@@ -244,76 +364,74 @@ export async function load({ wasmBinary } = {}) {
       withCopies([v], (pointer) => this.#call('set_stiffness', pointer, v.length));
     }
     setGroups(groups) {
-      this.#callWithIndices('set_groups', groups ?? []);
+      this.#callWithIndices('set_groups', 'groups', groups ?? []);
     }
 
     preprocess() {
       this.#call('preprocess');
     }
-    deform({ iterations, tolerance, visitor } = {}) {
-      const run = this.#call('run');
-      iterations ??= run[0];
-      tolerance ??= run[1];
-      if (iterations >>> 0 !== iterations)
-        throw new TypeError(
-          `iterations is ${iterations}; it must be a whole number from 0 to 4294967295`,
-        );
-      if (typeof tolerance !== 'number')
-        throw new TypeError(`tolerance is ${tolerance}; it must be a number`);
+    deform({ iterations, tolerance, visitor, ...rest } = {}) {
+      refuseUnknown(rest, 'deform()');
+      if (iterations !== undefined) numberOf(iterations, 'iterations');
+      if (tolerance !== undefined) numberOf(tolerance, 'tolerance');
+      return withOptions({ iterations, tolerance }, (pointer, n) =>
+        this.#run(visitor, (visits) => reportOf(this.#call('deform', pointer, n, visits))),
+      );
+    }
+    advance({
+      timeStep = 1 / 60,
+      density = 1,
+      modulus = 1,
+      damping = 0,
+      acceleration = [0, 0, 0],
+      forces = [],
+      visitor,
+      ...rest
+    } = {}) {
+      refuseUnknown(rest, 'advance()');
+      const numbers = Object.entries({ timeStep, density, modulus, damping });
+      const a = numbersOf(acceleration, 'acceleration', Float64Array),
+        f = numbersOf(forces, 'forces', Float64Array);
+      if (a.length !== 3) throw new RangeError('acceleration has 3 coordinates');
+      const rows = rowsOf(f, 3, 'forces');
+      return withCopies([a, f], (ap, fp) =>
+        this.#run(visitor, (visits) =>
+          stepReportOf(
+            this.#call(
+              'advance',
+              ...numbers.map(([name, value]) => numberOf(value, name)),
+              ap,
+              fp,
+              rows,
+              visits,
+            ),
+          ),
+        ),
+      );
+    }
+    // f(visits) runs, with a visitor if there is one, and makes the report. What a visitor throws
+    // cancels the run, and is thrown.
+    #run(visitor, f) {
       let thrown = null;
       if (visitor)
         visitors.push((iteration, energy) => {
           try {
-            return { stop: 1, cancel: 2 }[visitor(iteration, energy)] ?? 0;
+            return actionOf(visitor(iteration, energy));
           } catch (error) {
             thrown = { error };
             return 2;
           }
         });
       ++this.#runs;
-      let a;
+      let report;
       try {
-        a = this.#call('deform', iterations, tolerance, !!visitor);
+        report = f(!!visitor);
       } finally {
         --this.#runs;
         if (visitor) visitors.pop();
       }
       if (thrown) throw thrown.error;
-      const firstEnergy = 24 + a[23];
-      return {
-        status: text(module._arap_status()),
-        message: text(module._arap_message()),
-        iterations: a[0],
-        energyScale: a[1],
-        roundingLevel: a[2],
-        estimatedRelativeGap: a[3],
-        freeVertices: a[4],
-        simplices: a[5],
-        invertedSimplices: a[6],
-        end: ends[a[19]],
-        saddlesLeft: a[20],
-        plateausLeft: a[21],
-        lookingIterations: a[22],
-        stages: {
-          region: !!a[7],
-          weights: !!a[8],
-          order: !!a[9],
-          factor: !!a[10],
-          border: !!a[11],
-        },
-        seconds: {
-          preprocess: a[12],
-          transfer: a[13],
-          initialGuess: a[14],
-          localSteps: a[15],
-          globalSteps: a[16],
-          visitor: a[17],
-          total: a[18],
-        },
-        unconstrainedComponents: Int32Array.from(a.subarray(24, firstEnergy)),
-        energy: a.slice(firstEnergy),
-        finalEnergy: a.length > firstEnergy ? a.at(-1) : NaN,
-      };
+      return report;
     }
 
     reset() {
@@ -361,10 +479,9 @@ export async function load({ wasmBinary } = {}) {
 
   return {
     session: (points, simplices, options) => new Session(points, simplices, options),
-    deform(points, simplices, handles, targets, { corners, volume, weights, ...options } = {}) {
-      const session = new Session(points, simplices, { corners, volume, weights });
+    deform(points, simplices, handles, targets, options) {
+      const session = new Session(points, simplices, options);
       try {
-        session.setOptions(options);
         session.insertHandles(handles);
         session.setTargets(handles, targets);
         const report = session.deform();

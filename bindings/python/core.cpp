@@ -14,8 +14,6 @@
 
 #include "../Array_deformation.h"
 
-#include <CGAL/ARAP_deformation/set_option.h>
-
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -29,6 +27,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -137,6 +136,40 @@ py::dict result(const Step_report& r)
   return d;
 }
 
+// Work without the GIL. Python must not end while there is some, by a daemon thread: that could not
+// take the GIL again. So at its end runs are cancelled, and what is at work is waited for.
+class Long_work
+{
+public:
+  Long_work()
+  {
+    ++s_count;
+    if(s_is_ending)
+    {
+      --s_count;
+      throw bindings::Deformation_error(Outcome(Status::cancelled, "Python is ending"));
+    }
+  }
+  ~Long_work() { --s_count; }
+  Long_work(const Long_work&) = delete;
+  Long_work& operator=(const Long_work&) = delete;
+
+  static bool is_ending() { return s_is_ending; }
+
+  // to be called with the GIL
+  static void end()
+  {
+    s_is_ending = true;
+    const py::gil_scoped_release release;
+    while(s_count > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+private:
+  static inline std::atomic<int> s_count{0};
+  static inline std::atomic<bool> s_is_ending{false};
+};
+
 // Calls a function of Python, and lets Python handle signals now and then: its exceptions end the
 // run, as a visitor's do.
 class Python_visitor
@@ -146,6 +179,8 @@ public:
 
   Visitor_action operator()(unsigned int iteration, double energy)
   {
+    if(Long_work::is_ending())
+      return Visitor_action::cancel;
     const auto now = std::chrono::steady_clock::now();
     if(m_function->is_none() && now - m_last < std::chrono::milliseconds(50))
       return Visitor_action::proceed;
@@ -178,6 +213,7 @@ public:
   {
     const auto p = rows(points);
     const auto s = rows(simplices);
+    const Long_work work;
     const py::gil_scoped_release release;
     m_deformation = bindings::make_array_deformation(p, s, is_volume, weights);
   }
@@ -194,9 +230,10 @@ public:
       std::atomic<bool>& is_at_work;
       ~Guard() { is_at_work = false; }
     } guard{m_is_at_work};
-    std::optional<py::gil_scoped_release> release;
-    if(is_long)
-      release.emplace();
+    if(!is_long)
+      return f(*m_deformation);
+    const Long_work work;
+    const py::gil_scoped_release release;
     return f(*m_deformation);
   }
 
@@ -251,15 +288,12 @@ auto bound_point(void (Array_deformation::*f)(std::int32_t, double*) const)
 }
 
 // with options for this call only
-py::dict deform(Session& session, const std::map<std::string, std::string>& options,
+py::dict deform(Session& session, const Array_deformation::Named_options& values,
                 const py::object& visitor)
 {
   return result(session.at_work([&](Array_deformation& d) {
-    Options changed = d.options();
-    for(const auto& [name, value] : options)
-      if(const Outcome outcome = set_option(changed, name, value); !outcome)
-        throw bindings::Deformation_error(outcome);
-    return d.deform(changed.iterations, changed.tolerance, Python_visitor(visitor));
+    const Options options = d.options_with(values);
+    return d.deform(options.iterations, options.tolerance, Python_visitor(visitor));
   }, true));
 }
 
@@ -289,6 +323,8 @@ PYBIND11_MODULE(_core, module)
     }
   });
 
+  py::module_::import("atexit").attr("register")(py::cpp_function(&Long_work::end));
+
   py::class_<State>(module, "State", "What state() returns, for restore().");
   using D = Array_deformation;
   py::class_<Session>(module, "Session")
@@ -299,10 +335,7 @@ PYBIND11_MODULE(_core, module)
         return std::vector<double>(d.rest_points(), d.rest_points() + 3 * d.number_of_vertices());
       }));
     })
-    .def("option", [](Session& s, const std::string& name) {
-      return s.at_work([&](D& d) { return option_value(d.options(), name); });
-    })
-    .def("set_option", bound(&D::set_option))
+    .def("option", bound(&D::option)).def("set_options", bound(&D::set_options))
     .def("region", bound(&D::region)).def("set_region", bound(&D::set_region))
     .def("handles", bound(&D::handles)).def("clear_handles", bound(&D::clear_handles))
     .def("insert_handles", bound(&D::insert_handles))

@@ -344,6 +344,19 @@ void test_options_by_name()
   }
   for(const auto& option : valid)
     CHECK(option_value(options, option.first) == option_value(before, option.first));
+
+  // several are valid together, whatever their order, or none is set
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  for(const Values& values : {Values{{"cells", "elements"}, {"bending_length", "0"}},
+                              Values{{"bending_length", "0.5"}, {"cells", "spokes"}}})
+  {
+    CHECK(CGAL::ARAP::set_options(options, values));
+    for(const auto& [name, value] : values)
+      CHECK(option_value(options, name) == value);
+  }
+  CHECK(!CGAL::ARAP::set_options(options, Values{{"threads", "2"}, {"cells", "elements"}}));
+  CHECK(!CGAL::ARAP::set_options(options, Values{{"threads", "2"}, {"cells", "rims"}}));
+  CHECK(option_value(options, "threads") == "0" && option_value(options, "cells") == "spokes");
 }
 
 // However small a motion is, the run goes on until the gap is as small as was asked for.

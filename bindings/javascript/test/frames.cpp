@@ -48,7 +48,7 @@ int main(int argc, char* argv[])
   }
   const auto session = CGAL::ARAP::bindings::make_array_deformation(
     {points.data(), n, 3}, {faces.data(), m, 3}, false, "safe_cotangent");
-  session->set_option("threads", "1");
+  session->set_options({{"threads", "1"}});
   session->insert_handles({held.data(), held.size()});
   double energy = 0;
   for(int frame = 0; frame < std::atoi(argv[3]); ++frame)

@@ -31,7 +31,7 @@ function compare(name, file, shape, status, matrices, options) {
   // the quasi-Newton method makes more and more of the differences of rounding
   const iterations = options.minimizer === 'quasi_newton' ? 8 : 20;
   const report = `${name}.json`;
-  const { weights = 'safe_cotangent', volume } = shape;
+  const { weights = 'safe_cotangent', volume, corners } = shape;
   execFileSync(command, [
     file,
     '-o',
@@ -52,8 +52,12 @@ function compare(name, file, shape, status, matrices, options) {
     ...Object.entries(options).flatMap(([key, value]) => [`--${key}`, value]),
   ]);
   const native = JSON.parse(readFileSync(report)).energy;
-  const session = arap.session(shape.points, shape.simplices, shape);
-  session.setOptions(options);
+  const session = arap.session(shape.points, shape.simplices, {
+    corners,
+    volume,
+    weights,
+    ...options,
+  });
   const of = (k) => Int32Array.from([...status.keys()].filter((v) => status[v] === k));
   session.insertHandles(of(0));
   matrices.forEach((matrix, k) => {
@@ -143,7 +147,8 @@ refuses(() => session.insertHandles([4]), ArapError, /no vertex 4/, 'misuse');
 refuses(() => session.insertHandles([-1]), ArapError, /no vertex -1/, 'misuse');
 refuses(() => session.insertHandles([0.5]), TypeError, /0\.5/);
 refuses(() => session.insertHandles(new Float64Array([NaN])), TypeError, /NaN/);
-refuses(() => session.insertHandles('0'), TypeError, /array/);
+refuses(() => session.insertHandles('0'), TypeError, /^vertices must be .*array/);
+refuses(() => session.eraseHandles('0'), TypeError, /^handles must be/);
 refuses(() => session.insertHandles([[0]]), TypeError, /flat/);
 refuses(() => session.setTargets([0], [0, 0, 0]), ArapError, /neither/);
 refuses(() => session.setOption('cells', 'rims'), ArapError, /rims/, 'invalid_option');
@@ -158,7 +163,8 @@ refuses(() => session.transform([], [1, 2, 3]), RangeError, /rows of 4/);
 refuses(() => session.restore({}), TypeError, /state\(\)/);
 refuses(() => session.qualityAtVertices('beauty'), RangeError, /beauty/);
 for (const iterations of [-1, NaN, 1.5, 2 ** 32])
-  refuses(() => session.deform({ iterations }), TypeError, new RegExp(iterations));
+  refuses(() => session.deform({ iterations }), ArapError, new RegExp(iterations));
+refuses(() => session.deform({ iterations: '1' }), TypeError, /iterations/);
 refuses(() => session.deform({ tolerance: '1' }), TypeError, /tolerance/);
 for (const tolerance of [-1, NaN])
   for (const f of [
@@ -166,6 +172,27 @@ for (const tolerance of [-1, NaN])
     () => session.setOption('tolerance', tolerance),
   ])
     refuses(f, ArapError, /tolerance/, 'invalid_option');
+refuses(() => session.deform({ itarations: 1 }), TypeError, /itarations/);
+refuses(() => session.advance({ dampin: 1 }), TypeError, /dampin/);
+refuses(() => session.advance({ damping: '1' }), TypeError, /damping/);
+refuses(() => session.advance({ damping: -1 }), ArapError, /damping/, 'invalid_option');
+refuses(() => session.advance({ forces: [1, 2] }), RangeError, /rows of 3/);
+refuses(() => session.advance({ forces: [1, 2, 3] }), ArapError, /forces/);
+refuses(() => session.transform([], [], { fromrest: true }), TypeError, /fromrest/);
+refuses(() => session.transform([], [], { fromRest: 'no' }), TypeError, /fromRest/);
+for (const weight of [null, '', '1', undefined])
+  refuses(() => session.setWeight([], weight), TypeError, /weight/);
+refuses(() => session.target([]), TypeError, /the handle must be a number/);
+refuses(() => session.pointPosition('0'), TypeError, /the handle must be a number/);
+refuses(() => session.insertPoint([], [1, 0, 0]), TypeError, /the simplex must be a number/);
+for (const simplex of [-1, 2])
+  refuses(() => session.insertPoint(simplex, [1, 0, 0]), ArapError, /no simplex (-1|2)/);
+refuses(() => session.points(new Float64Array(11)), RangeError, /12 numbers/);
+refuses(() => session.points([]), RangeError, /12 numbers/);
+refuses(() => session.setOption('cells\0', 'spokes'), TypeError, /null character/);
+refuses(() => session.option('colour'), ArapError, /colour/, 'invalid_option');
+refuses(() => arap.session(points, faces, { volume: 'no' }), TypeError, /volume/);
+refuses(() => arap.session(points, faces, { colour: 1 }), ArapError, /colour/, 'invalid_option');
 refuses(() => session.locate([0, 0]), RangeError, /3 coordinates, not 2/);
 refuses(() => arap.session([1, 2], faces), RangeError, /rows of 3/);
 refuses(() => arap.session(new BigInt64Array(3), faces), TypeError, /bigint/);
@@ -215,6 +242,13 @@ for (const change of [
 ])
   refuses(() => session.deform({ tolerance: 0, visitor: change }), ArapError, /visit/, 'in_a_run');
 assert.deepEqual([...session.handles()], [0, 1, 2]);
+for (const answer of ['Stop', true, 0, Promise.resolve('stop')])
+  refuses(() => session.deform({ tolerance: 0, visitor: () => answer }), TypeError, /a visitor/);
+for (const answer of [undefined, null, 'proceed'])
+  assert.equal(
+    session.deform({ iterations: 3, tolerance: 0, visitor: () => answer }).iterations,
+    3,
+  );
 let firstIterate = NaN;
 const stopped = session.deform({ tolerance: 0, visitor: (k) => ((firstIterate = k), 'stop') });
 assert.deepEqual([stopped.status, firstIterate], ['stopped', 0]);
@@ -232,6 +266,22 @@ assert.equal(looked.end, 'minimum');
 for (const count of ['saddlesLeft', 'plateausLeft', 'lookingIterations'])
   assert(Number.isInteger(looked[count]), count);
 assert.equal(session.deform({ iterations: 0 }).end, 'unknown');
+
+// options are set together, whatever their order, or not at all
+session.setOptions({ bending_length: 0, cells: 'elements' });
+session.setOptions({ bending_length: 0.25, cells: 'spokes' });
+assert.deepEqual(
+  ['cells', 'bending_length', 'coarse_metric'].map((name) => session.option(name)),
+  ['spokes', 0.25, true],
+);
+refuses(
+  () => session.setOptions({ bending_length: 1, cells: 'rims' }),
+  ArapError,
+  /rims/,
+  'invalid_option',
+);
+assert.equal(session.option('bending_length'), 0.25);
+session.setOptions({ bending_length: 0, cells: 'spokes_and_rims' });
 
 // motions of the targets add up, those of the rest shape do not
 const up = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.25];
@@ -260,6 +310,22 @@ assert.deepEqual(session.points(), before);
 assert.deepEqual([...session.restPoints()], points);
 state.dispose();
 refuses(() => session.restore(state), TypeError, /disposed/);
+
+// time steps: what falls freely keeps its shape, and the momentum is that of gravity
+const falling = arap.session(points, faces);
+let step;
+for (let k = 0; k < 3; ++k)
+  step = falling.advance({ timeStep: 0.1, density: 2, acceleration: [0, 0, -10] });
+assert(step.status === 'converged' || step.status === 'success', step.message);
+assert(Math.abs(step.mass - 2) < 1e-12, `mass ${step.mass}`);
+step.momentum.forEach((p, k) => assert(Math.abs(p - [0, 0, -6][k]) < 1e-9, `momentum ${p}`));
+assert(step.elasticEnergy < 1e-12 && Math.abs(step.kineticEnergy - 9) < 1e-9);
+assert(Math.abs(step.centerOfMass[2] + 0.6) < 1e-9, `center ${step.centerOfMass}`);
+assert.equal(step.energy.length, step.iterations + 1);
+let visits = 0;
+falling.advance({ visitor: () => (++visits, 'stop') });
+assert.equal(visits, 1);
+falling.dispose();
 
 // no memory is lost, although the heap may grow meanwhile
 const big = models.bar[1](),

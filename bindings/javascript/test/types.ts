@@ -2,7 +2,12 @@
 import { load, ArapError, type Report, type Status } from 'arap-deformation';
 
 const arap = await load();
-const session = arap.session(new Float64Array(9), [0, 1, 2], { weights: 'uniform' });
+const session = arap.session(new Float64Array(9), [0, 1, 2], {
+  weights: 'uniform',
+  cells: 'spokes',
+});
+const length: number = session.option('bending_length');
+const momentum: number[] = session.advance({ damping: 1 }).momentum;
 session.setOptions({ cells: 'k_ring:2', bending_length: 0.1, verify_minimum: false });
 session.setOption('coarse_metric', true);
 session.transform([0], [], { fromRest: true });
@@ -20,4 +25,4 @@ session.setOptions({ cells: 'rims' });
 session.setOption('itarations', 5);
 // @ts-expect-error indices are numbers
 session.insertHandles('all');
-export { status, end, points, ArapError };
+export { status, end, points, length, momentum, ArapError };

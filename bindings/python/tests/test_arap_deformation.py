@@ -1,12 +1,15 @@
 """The Python module: identities, the command's energies, and bad input."""
 
+import copy
 import gc
 import itertools
 import json
 import os
+import pickle
 import re
 import signal
 import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -197,6 +200,20 @@ def test_options():
     assert d.cells == "k_ring:2"
     with pytest.raises(AttributeError):
         d.itarations = 5
+    # several are valid or not together, and set or not together
+    both = arap.Deformation(*SHAPES["bar"], bending_length=1, cells="spokes")
+    assert (both.cells, both.bending_length) == ("spokes", 1)
+    with pytest.raises(arap.DeformationError, match="'colour' is not known"):
+        arap.Deformation(*SHAPES["bar"], colour=1)
+
+
+def test_values_are_compared_and_copied():
+    d = bent()
+    report, place = d.deform(), d.locate((0, 0, 0))
+    assert report == report and report != bent().deform() and place != d.locate((0, 0, 0))
+    for function in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="cannot be copied or pickled"):
+            function(d)
 
 
 def test_states():
@@ -367,6 +384,30 @@ def test_two_threads_on_one_object():
         thread.join()
     alone.deform(20, 0)
     assert reports[0].iterations == 20 and np.array_equal(d.vertices, alone.vertices)
+
+
+def test_python_ends_while_a_daemon_thread_works():
+    script = """
+import threading, numpy, arap_deformation as arap
+points = numpy.array([(x, y, x * y / 500) for x in range(100) for y in range(100)], float)
+square = numpy.array([(x * 100 + y, x * 100 + y + 100, x * 100 + y + 101, x * 100 + y + 1)
+                      for x in range(99) for y in range(99)])
+d = arap.Deformation(points, square, minimizer="local_global")
+d.insert_handles([0, 99, 9999])
+d.set_targets([9999], [[50, 50, 90]])
+begun = threading.Event()
+def work(visitor):
+    while True:
+        d.deform(10**9, 0, visitor)
+threading.Thread(target=work, args=(%s,), daemon=True).start()
+begun.wait(%s)
+print("the end")
+"""
+    for visitor, seconds in (("lambda k, _: begun.set()", 60), ("None", 0.3)):
+        run = subprocess.run([sys.executable, "-c", script % (visitor, seconds)], timeout=120,
+                             capture_output=True, text=True)
+        assert (run.returncode, run.stdout) == (0, "the end\n"), run.stderr
+        assert "terminate" not in run.stderr
 
 
 def test_an_interruption_ends_a_run_and_the_global_lock_is_released():

@@ -19,27 +19,43 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/session/option_text.h>
 
+#include <map>
 #include <string>
 
 namespace CGAL {
 namespace ARAP {
+
 /// \ingroup PkgARAPDeformationOptions
-/// \brief sets an option that is given by its name and its value as text, for programs that read
-/// options from a command line, a file or another language.
+/// \brief sets options that are given by their names and their values as text, for programs that
+/// read options from a command line, a file or another language.
 ///
 /// The names are those of the members of `Options` and of the enumerators; cells are `spokes`,
 /// `spokes_and_rims`, `elements` or `k_ring:K`. Returns `Status::invalid_option`, with a message
-/// that has the name and tells what is possible, and changes nothing, if there is no such option,
-/// the value is not one of it, or the options are not valid with it. They must be valid before.
-inline Outcome set_option(Options& options, const std::string& name, const std::string& value)
+/// that has the name and tells what is possible, and changes nothing, if there is no option of a
+/// name, a value is not one of it, or the options with all values are not valid.
+///
+/// \param options the options
+/// \param values a range of pairs of a name and a value, such as a
+///        `std::map<std::string, std::string>`
+template <typename NamedValueRange>
+Outcome set_options(Options& options, const NamedValueRange& values)
 {
   Options changed = options;
-  Outcome outcome = internal::with_option(changed, name, internal::Read_option{name, value});
-  if(outcome)
-    outcome = changed.check();
-  if(outcome)
+  for(const auto& [name, value] : values)
+    if(Outcome outcome =
+         internal::with_option(changed, name, internal::Read_option{name, value}); !outcome)
+      return outcome;
+  Outcome checked = changed.check();
+  if(checked)
     options = changed;
-  return outcome;
+  return checked;
+}
+
+/// \ingroup PkgARAPDeformationOptions
+/// \brief sets one option, as `set_options()` does several.
+inline Outcome set_option(Options& options, const std::string& name, const std::string& value)
+{
+  return set_options(options, std::map<std::string, std::string>{{name, value}});
 }
 
 /// \ingroup PkgARAPDeformationOptions

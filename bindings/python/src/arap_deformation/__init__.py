@@ -36,7 +36,7 @@ class DeformationError(RuntimeError):
 from ._core import Session as _Session, State  # noqa: E402  (which raises DeformationError)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # arrays have no truth value
 class Report:
     """What a call did. ``energy[k]`` is the energy after k iterations, ``seconds`` the time of each
     phase, ``stages`` what had to be prepared again; true if it was not cancelled."""
@@ -63,7 +63,7 @@ class Report:
         return self.status != "cancelled"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StepReport(Report):
     """A time step: also the mass, momenta and energies of the free vertices."""
 
@@ -88,7 +88,7 @@ class Quality:
     inverted_simplices: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Place:
     """A place in a simplex: its number, barycentric coordinates, and the distance to it."""
 
@@ -151,7 +151,7 @@ def _text(value: Any) -> str:
 
 def _option(name: str, kind: Callable[[str], Any], doc: str) -> Any:
     return property(lambda self: kind(self._session.option(name)),
-                    lambda self, value: self._session.set_option(name, _text(value)), doc=doc)
+                    lambda self, value: self._session.set_options({name: _text(value)}), doc=doc)
 
 
 class Deformation:
@@ -185,8 +185,11 @@ class Deformation:
         self._session = _Session(_floats("vertices", vertices, None, 3),
                                  _integers("simplices", simplices, None, 4 if tetrahedra else None),
                                  bool(tetrahedra), str(weights))
-        for name, value in options.items():
-            self._session.set_option(name, _text(value))
+        self._session.set_options({name: _text(value) for name, value in options.items()})
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError("a Deformation cannot be copied or pickled; construct another one from its "
+                        "rest_vertices, or use state() and restore()")
 
     @property
     def vertices(self) -> Floats:
@@ -224,12 +227,15 @@ class Deformation:
         self._session.clear_handles()
 
     def locate(self, point: ArrayLike) -> Optional[Place]:
-        """The place in a simplex that is nearest to a point (3,), if there is a simplex."""
+        """The place in a simplex that is nearest to a point (3,). For a point outside of all
+        tetrahedra that of the point itself: some coordinates are negative. None if there is no
+        simplex, or if the point is not finite."""
         found = self._session.locate(_floats("point", point, 3))
         return None if found is None else Place(*found)
 
     def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
-        """The handle of a new control point with barycentric coordinates (k,) in a simplex."""
+        """The handle of a new control point with barycentric coordinates (k,) in a simplex.
+        Messages number control points from 1."""
         number = _integers("simplex", simplex)
         return self._session.insert_point(int(number), _floats("coordinates", coordinates, None))
 
@@ -311,7 +317,8 @@ class Deformation:
         self._session.make_rest_shape()
 
     def state(self) -> State:
-        """Positions, targets, region and rest shape as a value, for undo; not the options."""
+        """Positions, velocities, region, rest shape, and handles with targets, weights and
+        rotations, as a value, for undo; not the options, the stiffness and the groups."""
         return self._session.state()
 
     def restore(self, state: State) -> None:
@@ -326,7 +333,8 @@ class Deformation:
         return self._session.energy()
 
     def rotations(self) -> Floats:
-        """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells."""
+        """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells; identities
+        outside the region, and until the first run after a change of the region or the cells."""
         return self._session.rotations().reshape(-1, 3, 3)
 
     def quality(self) -> Quality:
@@ -345,7 +353,8 @@ def deform(vertices: ArrayLike, simplices: ArrayLike, fixed: ArrayLike, targets:
            tetrahedra: bool = False, weights: str = "safe_cotangent", **options: Any) -> Floats:
     """The deformed vertices (n, 3). ``fixed`` are indices of vertices that stay; ``targets`` is a
     dict of points by vertices, or a pair of k indices and points (k, 3), and prevails over
-    ``fixed``. The other arguments are those of ``Deformation``."""
+    ``fixed``. The other arguments are those of ``Deformation``, which also tells by a report
+    whether the run converged."""
     session = Deformation(vertices, simplices, tetrahedra=tetrahedra, weights=weights, **options)
     handles, points = _targets(targets)
     session.insert_handles(_indices("fixed", fixed))
