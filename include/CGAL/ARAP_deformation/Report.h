@@ -49,7 +49,8 @@ enum class End
            ///< than a hundredth of what the tolerance allows
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
             ///< exclude a negative curvature; or by the second derivative the gap is larger, but
-            ///< the energy does not fall, up to rounding
+            ///< the energy does not fall, up to rounding; or it falls slowly along a curved valley,
+            ///< where the second derivative tells little
 };
 
 /// \ingroup PkgARAPDeformationRun

@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -71,16 +72,12 @@ public:
     }
     if(finding == Second_look::Finding::failure) // a lost chance, and no more
       return Status::converged;
-    const bool is_saddle = finding == Second_look::Finding::negative_curvature;
-    for(unsigned int k = 0; is_saddle && k < 30 && !has_no_iterations_left(); ++k)
-    {
-      if(!look.sharpen())
-        break;
-      ++report.looking_iterations;
-      if(const auto status = m_run.same_iterate())
+    bool is_saddle = finding == Second_look::Finding::negative_curvature;
+    if(is_saddle)
+      if(const auto status = sharpen(look))
         return status;
-    }
     const double gap = look.gap();
+    bool does_hold = false;
     if(gap <= tolerated)
     {
       report.end = is_saddle ? End::flat
@@ -89,12 +86,29 @@ public:
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(report.end == End::undecided && has_no_iterations_left())
         return without_look();
-      if(m_number_of_moves >= most_moves || m_small_gains >= most_small_gains ||
-         (!is_saddle && does_model_hold(look, tolerated)))
-        return Status::converged; // the gap is certain, or as certain as it becomes
+      does_hold = !is_saddle && does_model_hold(look, tolerated);
+      if(m_number_of_moves >= most_moves ||
+         m_small_gains >= (is_saddle ? 2 : 1) * most_small_gains)
+      {
+        if(!is_saddle && !does_hold)
+          report.end = End::undecided;
+        return Status::converged; // the gap is as certain as it becomes
+      }
     }
 
-    bool is_lower = gap > 0 && descend_along(look.solution(), 1, 1, 0);
+    bool is_lower = gap > 0 && !does_hold && descend_along(look.solution(), 1, 1, 0);
+    if(!is_saddle && !is_lower)
+    {
+      const End end = std::exchange(report.end, End::unknown); // while it looks
+      look.turn_to_solution();
+      if(const auto status = sharpen(look))
+        return status;
+      is_saddle = look.curvature_along_direction() < 0;
+      report.end = end == End::unknown        ? end
+                 : is_saddle                ? End::flat
+                 : has_no_iterations_left() ? End::undecided : end;
+      is_lower = !is_saddle && descend_along_soft_direction(look, tolerated);
+    }
     if(is_saddle)
     {
       const Array<Coordinates>& direction = look.direction();
@@ -123,9 +137,21 @@ public:
 
 private:
   static constexpr unsigned int most_steps = 200; // of a look
+  static constexpr int most_turns = 30; // of a direction, toward the least curvature
   static constexpr unsigned int most_moves = 10; // if the gap is small
   static constexpr unsigned int most_small_gains = 2; // by moves in a row
   static constexpr int relaxing_steps = 2; // from places along a direction of negative curvature
+
+  std::optional<Status> sharpen(Second_look& look)
+  {
+    for(int k = 0; k < most_turns && !has_no_iterations_left() && look.sharpen(); ++k)
+    {
+      ++m_run.report.looking_iterations;
+      if(const auto status = m_run.same_iterate())
+        return status;
+    }
+    return std::nullopt;
+  }
 
   // the last one may be needed to move on
   bool has_no_iterations_left() const
@@ -161,15 +187,19 @@ private:
     double energy = energy_at(before, direction, t);
     Array<Coordinates> step;
     for(int k = 0; k < steps; ++k)
-    {
-      {
-        Scoped_seconds global(m_run.report.seconds.global_steps);
-        if(!m_run.solve(step))
-          break;
-      }
-      energy = energy_at(m_run.x, step, 1);
-    }
+      energy = energy_after_step(step);
     return energy;
+  }
+
+  // moves x by a step of local/global, if the solver does not fail
+  double energy_after_step(Array<Coordinates>& step)
+  {
+    {
+      Scoped_seconds global(m_run.report.seconds.global_steps);
+      if(!m_run.solve(step))
+        return m_run.value();
+    }
+    return energy_at(m_run.x, step, 1);
   }
 
   // Whether the model of the energy holds behind its minimum, as far from it as x is, where it has
@@ -185,6 +215,39 @@ private:
     const double error = std::abs(change - predicted);
     return error <= 0.1 * tolerated &&
            error <= (std::max)(0.2 * std::abs(predicted), 1e-3 * tolerated);
+  }
+
+  // Where the curvature is small, the model may have a minimum that the energy has not: this falls
+  // further on. Goes along the direction to where the model has risen by what is tolerated, and from
+  // there by steps of local/global, as long as these promise to lead below the minimum of the model.
+  bool descend_along_soft_direction(Second_look& look, double tolerated)
+  {
+    constexpr int least_steps = 6, most_steps_down = 40;
+    const Array<Coordinates>& direction = look.direction();
+    const double farthest = 0.1 * m_run.diameter /
+                            largest_entry(direction.data(), direction.size());
+    const double length =
+      (std::min)(std::sqrt(tolerated / look.curvature_along_direction()), farthest);
+    const double sign = look.is_along_force() ? 1 : -1;
+    const Array<Coordinates> before = m_run.x;
+    const double below = m_run.value() - 2 * (std::max)(look.gap(), 0.0) -
+                         4 * energy_resolution(m_run.value(), m_run.report);
+    Array<Coordinates> step;
+    for(const double t : {sign * length, -sign * length})
+    {
+      double energy = energy_at(before, direction, t), fall = 0;
+      for(int k = 0; k < most_steps_down && (k < least_steps || energy - below < 20 * fall); ++k)
+      {
+        const double last = energy;
+        energy = energy_after_step(step);
+        if(energy < below)
+          return true;
+        fall = last - energy;
+      }
+    }
+    energy_at(before, direction, 0);
+    m_run.keep_energy();
+    return false;
   }
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
