@@ -218,8 +218,8 @@ private:
   }
 
   // Where the curvature is small, the model may have a minimum that the energy has not: this falls
-  // further on. Goes along the direction to where the model has risen by what is tolerated, and from
-  // there by steps of local/global, as long as these promise to lead below the minimum of the model.
+  // further on. Goes along the direction to where the model has risen by what is tolerated, and
+  // from there by steps of local/global, as long as these promise to lead below that minimum.
   bool descend_along_soft_direction(Second_look& look, double tolerated)
   {
     constexpr int least_steps = 6, most_steps_down = 40;
