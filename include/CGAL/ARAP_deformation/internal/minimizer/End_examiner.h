@@ -103,7 +103,7 @@ public:
       look.turn_to_solution();
       if(const auto status = sharpen(look))
         return status;
-      is_saddle = look.curvature_along_direction() < 0;
+      is_saddle = look.is_curvature_negative();
       report.end = end == End::unknown        ? end
                  : is_saddle                ? End::flat
                  : has_no_iterations_left() ? End::undecided : end;
@@ -224,10 +224,12 @@ private:
   {
     constexpr int least_steps = 6, most_steps_down = 40;
     const Array<Coordinates>& direction = look.direction();
-    const double farthest = 0.1 * m_run.diameter /
-                            largest_entry(direction.data(), direction.size());
-    const double length =
-      (std::min)(std::sqrt(tolerated / look.curvature_along_direction()), farthest);
+    const double curvature = look.curvature_along_direction();
+    double length = 0.1 * m_run.diameter / largest_entry(direction.data(), direction.size());
+    if(curvature > 0)
+      length = (std::min)(length, std::sqrt(tolerated / curvature));
+    if(!(length > 0) || !std::isfinite(length) || !std::isfinite(curvature))
+      return false;
     const double sign = look.is_along_force() ? 1 : -1;
     const Array<Coordinates> before = m_run.x;
     const double below = m_run.value() - 2 * (std::max)(look.gap(), 0.0) -

@@ -86,7 +86,7 @@ public:
     const std::size_t n = m_run.number_of_vertices;
     m_run.change_of_force(m_p, m_z); // - A p
     const double pap = -dot_product(m_p, m_z);
-    if(!(pap > 1e-9 * m_p_square))
+    if(!(pap > least_curvature * m_p_square))
       return std::isfinite(pap) ? Finding::negative_curvature : Finding::failure;
     const double alpha = m_r_square / pap;
     m_curvature += alpha * m_r_square;
@@ -152,7 +152,12 @@ public:
     return true;
   }
 
-  double curvature_along_direction() const { return dot_product(m_p, m_ap); } // once sharpened
+  // of the direction, once it is sharpened
+  double curvature_along_direction() const { return dot_product(m_p, m_ap); }
+  bool is_curvature_negative() const
+  {
+    return curvature_along_direction() < -least_curvature * dot_product(m_p, m_mp);
+  }
 
   // the last direction, for all vertices of the region
   const Array<Coordinates>& direction() const { return m_p; }
@@ -173,6 +178,8 @@ public:
   double curvature() const { return m_curvature; } // s A s, of the solution s
 
 private:
+  static constexpr double least_curvature = 1e-9; // relative to the metric; else rounding errors
+
   void begin_sharpening()
   {
     m_ap.swap(m_z); // where step() has left - A p
