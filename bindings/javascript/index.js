@@ -264,7 +264,9 @@ export async function load({ wasmBinary } = {}) {
     #copy(name, out) {
       const view = heapNumbers(module[name](this.#this()), 3 * this.numberOfVertices);
       if (!out) return view.slice();
-      if (!ArrayBuffer.isView(out) || out.length !== view.length)
+      if (!(out instanceof Float64Array || out instanceof Float32Array))
+        throw new TypeError('points need a Float64Array or a Float32Array');
+      if (out.length !== view.length)
         throw new RangeError(`points need a typed array of ${view.length} numbers`);
       out.set(view);
       return out;
@@ -278,6 +280,7 @@ export async function load({ wasmBinary } = {}) {
     }
 
     setOption(name, value) {
+      if (value === undefined) throw new TypeError(`the option ${name} has no value`);
       this.setOptions({ [name]: value });
     }
     setOptions(options) {

@@ -24,7 +24,6 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
-#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -137,7 +136,8 @@ py::dict result(const Step_report& r)
 }
 
 // Work without the GIL. Python must not end while there is some, by a daemon thread: that could not
-// take the GIL again. So at its end runs are cancelled, and what is at work is waited for.
+// take the GIL again. So at its end runs are cancelled, and what is at work is waited for: for five
+// seconds at most, as it may itself wait for what ends.
 class Long_work
 {
 public:
@@ -161,7 +161,9 @@ public:
   {
     s_is_ending = true;
     const py::gil_scoped_release release;
-    while(s_count > 0)
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point latest = Clock::now() + std::chrono::seconds(5);
+    while(s_count > 0 && Clock::now() < latest)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 

@@ -53,14 +53,14 @@ namespace CGAL {
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_point_map}
-///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written; ignored
-///                          for other shapes, whose domain defines the points}
+///     \cgalParamDescription{the points of the vertices of a `FaceGraph`, read and written. Other
+///                          shapes, whose domain defines the points, do not take it}
 ///     \cgalParamType{a model of `ReadWritePropertyMap`}
 ///     \cgalParamDefault{`boost::get(CGAL::vertex_point, mesh)`}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_index_map}
-///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, starting from 0;
-///                          ignored for other shapes}
+///     \cgalParamDescription{a unique index for each vertex of a `FaceGraph`, starting from 0.
+///                          Other shapes do not take it}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd

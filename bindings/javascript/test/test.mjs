@@ -188,7 +188,9 @@ refuses(() => session.insertPoint([], [1, 0, 0]), TypeError, /the simplex must b
 for (const simplex of [-1, 2])
   refuses(() => session.insertPoint(simplex, [1, 0, 0]), ArapError, /no simplex (-1|2)/);
 refuses(() => session.points(new Float64Array(11)), RangeError, /12 numbers/);
-refuses(() => session.points([]), RangeError, /12 numbers/);
+refuses(() => session.points([]), TypeError, /Float64Array/);
+refuses(() => session.points(new Int32Array(12)), TypeError, /Float64Array/);
+refuses(() => session.setOption('cells', undefined), TypeError, /no value/);
 refuses(() => session.setOption('cells\0', 'spokes'), TypeError, /null character/);
 refuses(() => session.option('colour'), ArapError, /colour/, 'invalid_option');
 refuses(() => arap.session(points, faces, { volume: 'no' }), TypeError, /volume/);

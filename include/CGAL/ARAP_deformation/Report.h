@@ -131,7 +131,7 @@ struct Report : Outcome
   unsigned int saddles_left = 0;
 
   /// the number of plateaus that the run has left likewise: there the gap was larger than
-  /// estimated, or the second derivative could not tell it.
+  /// estimated, or the second derivative did not tell it.
   unsigned int plateaus_left = 0;
 
   /// the number of iterations that looked at the second derivative, and moved nothing.

@@ -31,8 +31,8 @@ namespace ARAP {
 ///
 /// The names are those of the members of `Options` and of the enumerators; cells are `spokes`,
 /// `spokes_and_rims`, `elements` or `k_ring:K`. Returns `Status::invalid_option`, with a message
-/// that has the name and tells what is possible, and changes nothing, if there is no option of a
-/// name, a value is not one of it, or the options with all values are not valid.
+/// that has the name and tells what is possible, and changes nothing, if a name is unknown, a value
+/// is not one of its option, or the options are not valid together.
 ///
 /// \param options the options
 /// \param values a range of pairs of a name and a value, such as a

@@ -228,7 +228,7 @@ class Deformation:
 
     def locate(self, point: ArrayLike) -> Optional[Place]:
         """The place in a simplex that is nearest to a point (3,). For a point outside of all
-        tetrahedra that of the point itself: some coordinates are negative. None if there is no
+        tetrahedra the coordinates are those of the point itself: some are negative. None if there is no
         simplex, or if the point is not finite."""
         found = self._session.locate(_floats("point", point, 3))
         return None if found is None else Place(*found)

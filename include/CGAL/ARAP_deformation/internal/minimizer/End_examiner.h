@@ -120,6 +120,8 @@ public:
     }
     if(!is_lower) // rounding errors are all that is left
     {
+      if(report.end == End::undecided && has_no_iterations_left())
+        return without_look();
       if(gap > tolerated)
         report.end = is_saddle ? End::flat : End::undecided;
       return Status::converged;

@@ -32,7 +32,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <random>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -68,6 +70,7 @@ public:
   {
     const std::size_t n = m_run.number_of_vertices;
     m_r.resize(n);
+    count_copies();
     set_pseudorandom(m_r);
     if(!solve_laplacian())
       return Finding::failure;
@@ -101,8 +104,8 @@ public:
     return next_direction();
   }
 
-  // Instead of the last direction, takes the solution, of which what has the least curvature has
-  // the largest share.
+  // Instead of the last direction, takes the solution, in which directions of little curvature
+  // dominate.
   void turn_to_solution()
   {
     std::copy(m_s.begin(), m_s.end(), m_p.begin());
@@ -188,23 +191,41 @@ private:
     m_q = m_aq = m_mq = Array<Coordinates>(m_run.number_of_vertices, Coordinates{0, 0, 0});
   }
 
-  // Depends on the rest shape, not on the order of its vertices.
+  // Vertices at the same place, as in two layers, are told apart by how many come before.
+  void count_copies()
+  {
+    const Array<Coordinates>& rest = m_run.rest();
+    std::vector<std::size_t> order(m_run.number_of_vertices);
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return rest[a] != rest[b] ? rest[a] < rest[b] : a < b;
+    });
+    for(std::size_t k = 1; k < order.size(); ++k)
+      if(rest[order[k]] == rest[order[k - 1]])
+      {
+        m_copies.resize(order.size(), 0);
+        m_copies[order[k]] = m_copies[order[k - 1]] + 1;
+      }
+  }
+
+  // Depends on the rest shape, not on the order of its vertices, but for those at the same place.
   void set_pseudorandom(Array<Coordinates>& forces) const
   {
     for_each_block(forces.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
-        forces[v] = pseudorandom(m_run.rest()[v]);
+        forces[v] = pseudorandom(m_run.rest()[v], m_copies.empty() ? 0 : m_copies[v]);
     });
     m_run.leave_free(forces);
   }
 
   // three numbers between -1/2 and 1/2
-  static Coordinates pseudorandom(const Coordinates& seed)
+  static Coordinates pseudorandom(const Coordinates& seed, std::uint32_t copy)
   {
     const Coordinates place = {seed[0] + 0., seed[1] + 0., seed[2] + 0.}; // -0 is 0
     std::array<std::uint32_t, 6> words;
     static_assert(sizeof(words) == sizeof(place));
     std::memcpy(words.data(), place.data(), sizeof(words));
+    words[0] += copy;
     std::seed_seq(words.begin(), words.end()).generate(words.begin(), words.begin() + 3);
     Coordinates result;
     for(std::size_t k = 0; k < result.size(); ++k)
@@ -295,6 +316,7 @@ private:
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric
   double m_curvature = 0;
   double m_factor = 0; // of the pseudorandom force
+  std::vector<std::uint32_t> m_copies; // none if no vertices are at the same place
 };
 
 } // namespace internal

@@ -72,9 +72,10 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
   insert_constrained_vertices(deformation, np);
   // a number or a map, which is copied, or none
   [[maybe_unused]] const auto& weight = get_parameter(np, internal_np::target_weight);
+  const Outcome no_vertex(Status::not_a_control_vertex, "the mesh has no such vertex");
   const auto insert_target = [&](auto v) {
     if(!is_vertex_of(domain, v))
-      return Outcome(Status::not_a_control_vertex, "the mesh has no such vertex");
+      return no_vertex;
     Outcome outcome(Status::success, "");
     deformation.insert_control_vertex(v);
     if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
@@ -95,9 +96,17 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
         static_cast<Outcome&>(report) = deformation.set_target_set(v, projection);
     }
   if constexpr(has_parameter<NamedParameters, internal_np::target_rotations_t>)
+  {
+    k = 0;
     for(const auto& [v, rotation] : get_parameter(np, internal_np::target_rotations))
+    {
+      if(report && !is_vertex_of(domain, v))
+        static_cast<Outcome&>(report) = of_element(no_vertex, k, "target_rotations");
       if(report)
         static_cast<Outcome&>(report) = deformation.set_target_rotation(v, rotation);
+      ++k;
+    }
+  }
   if(!report)
     return report;
   if constexpr(has_parameter<NamedParameters, internal_np::control_points_t>)
