@@ -35,7 +35,8 @@ namespace internal {
 CGAL_ARAP_INLINE_FUNCTION
 Sparse_matrix Constrained_system::with_rows(const Weighted_rows& rows) const
 {
-  Sparse_matrix matrix = m_laplacian.matrix;
+  Sparse_matrix matrix; // assigned: Eigen's constructors leak where memory runs out
+  matrix = m_laplacian.matrix;
   if(rows.is_diagonal())
     rows.for_each_entry([&](int v, int, double entry) { diagonal_entry(matrix, v) += entry; });
   else
