@@ -430,6 +430,17 @@ void test_deformation()
   std::size_t k = 0;
   for(const Epick::Point_3& p : range)
     CHECK_AT_MOST(CGAL::squared_distance(p, before[k++] + Epick::Vector_3(1, 2, 3)), 1e-28);
+
+  std::vector<Epick::Weighted_point_3> spheres;
+  for(const Epick::Point_3& p : before)
+    spheres.emplace_back(p, 0.25 + p.x());
+  corners.put_points(spheres);
+  for(std::size_t i = 0; i < spheres.size(); ++i)
+  {
+    CHECK_AT_MOST(
+      CGAL::squared_distance(spheres[i].point(), before[i] + Epick::Vector_3(1, 2, 3)), 1e-28);
+    CHECK(spheres[i].weight() == 0.25 + before[i].x());
+  }
 }
 
 template <typename Simplices>

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
+#include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
@@ -116,7 +117,7 @@ public:
   }
 
   /// \brief assigns all positions to the points of a range, in the order of the embedded points.
-  /// Linear time.
+  /// Points that have weights keep them. Linear time.
   ///
   /// \param points a range of points, for example the one that was embedded
   /// \pre the range has `size()` points; in Release nothing is written otherwise
@@ -130,10 +131,11 @@ public:
       return;
     std::vector<Point> moved; // all before the first is assigned: an exception changes none
     moved.reserve(size());
-    for(std::size_t k = 0; k < size(); ++k)
+    for(const Point& point : points)
     {
-      const Coordinates c = position(k);
-      moved.push_back(internal::construct_point<Point>(c[0], c[1], c[2]));
+      const Coordinates c = position(moved.size());
+      moved.push_back(internal::with_weight_of(
+        point, internal::construct_point<internal::Bare_point_of<Point>>(c[0], c[1], c[2])));
     }
     std::move(moved.begin(), moved.end(), std::begin(points));
   }

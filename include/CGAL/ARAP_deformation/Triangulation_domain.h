@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/triangulation_caches.h>
+#include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 
 #include <array>
 #include <cstddef>
@@ -92,7 +93,7 @@ public:
   std::size_t index(vertex_descriptor v) const { return m_indices->at(v); }
 
   /// returns the point of `v`.
-  Point point(vertex_descriptor v) const { return internal::bare_point<Point>(v->point()); }
+  Point point(vertex_descriptor v) const { return internal::bare_point(v->point()); }
 
   /// sets the point of `v`, which keeps its weight, and invalidates the caches of the cells at `v`.
   void set_point(vertex_descriptor v, const Point& point) const

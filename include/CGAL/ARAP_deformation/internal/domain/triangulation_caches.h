@@ -38,24 +38,6 @@ using Call_invalidate_weighted_circumcenter_cache =
 template <typename Cell>
 using Call_reset_cache_validity = decltype(std::declval<Cell&>().reset_cache_validity());
 
-template <typename Bare_point, typename Point>
-Bare_point bare_point(const Point& point)
-{
-  if constexpr(std::is_same_v<Bare_point, Point>)
-    return point;
-  else
-    return point.point();
-}
-
-template <typename Point, typename Bare_point>
-Point with_weight_of(const Point& point, const Bare_point& place)
-{
-  if constexpr(std::is_same_v<Bare_point, Point>)
-    return place;
-  else
-    return Point(place, point.weight());
-}
-
 // whether the subdomain index of a cell, if it has one, does not denote the outside
 template <typename Cell>
 bool is_in_a_subdomain([[maybe_unused]] const Cell& cell)

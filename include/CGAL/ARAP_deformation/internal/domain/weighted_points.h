@@ -1,0 +1,55 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_WEIGHTED_POINTS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_WEIGHTED_POINTS_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <CGAL/ARAP_deformation/internal/is_valid.h>
+
+#include <utility>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+template <typename Point>
+using Call_weight = decltype(std::declval<const Point&>().weight());
+
+// the point without the weight that it may have
+template <typename Point>
+auto bare_point(const Point& point)
+{
+  if constexpr(is_valid<Call_weight, Point>)
+    return point.point();
+  else
+    return point;
+}
+
+template <typename Point>
+using Bare_point_of = decltype(bare_point(std::declval<const Point&>()));
+
+// another place, with the weight of the point if it has one
+template <typename Point>
+Point with_weight_of(const Point& point, const Bare_point_of<Point>& place)
+{
+  if constexpr(is_valid<Call_weight, Point>)
+    return Point(place, point.weight());
+  else
+    return place;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_WEIGHTED_POINTS_H
