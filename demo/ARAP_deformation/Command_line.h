@@ -29,6 +29,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <regex>
 #include <stdexcept>
@@ -420,15 +421,19 @@ inline void read_models(const boost::program_options::variables_map& values, Com
 // Reads what are options of the library, too.
 inline void read_options(const boost::program_options::variables_map& values, Options& options)
 {
+  std::map<std::string, std::string> named = {
+    {"bending_length", value_of("bending", values)},
+    {"smoothing_length", value_of("smoothing", values)}};
   for(const char* name :
       {"cells", "minimizer", "initial_guess", "iterations", "threads", "tolerance",
         "verify_minimum", "coarse_metric"})
-    if(const Outcome set = set_option(options, name, value_of(name, values)); !set)
-      throw Usage_error((set.message.find(name) == 0 ? "--" : "") + with_options(set.message));
-  options.bending_length = number<double>("bending", value_of("bending", values));
-  options.smoothing_length = number<double>("smoothing", value_of("smoothing", values));
-  if(const Outcome checked = options.check(); !checked)
-    throw Usage_error(with_options(checked.message));
+    named[name] = value_of(name, values);
+  if(const Outcome set = set_options(options, named); !set)
+  {
+    const std::string message = with_options(set.message);
+    const bool begins_with_name = values.count(message.substr(0, message.find(' '))) > 0;
+    throw Usage_error((begins_with_name ? "--" : "") + message);
+  }
 }
 
 // The arguments of the command, where the names of options may be written with - for _.

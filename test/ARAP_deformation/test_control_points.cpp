@@ -1219,9 +1219,15 @@ void test_function()
   CHECK(same_points(by_function, by_class));
   CHECK(by_class.point(Vertex(5)) == points[0].second);
   CHECK(by_class.point(Vertex(12)) != points[1].second);
-  CHECK(CGAL::arap_deform(by_function, points, CGAL::parameters::target_weight(
-    weights, CGAL::parameters::target_sets(sets(10), CGAL::parameters::control_points(held))))
-          .status == Status::invalid_weight); // 10 has an infinite one
+  const auto hard = CGAL::arap_deform(by_function, points, CGAL::parameters::target_weight(
+    weights, CGAL::parameters::target_sets(sets(10), CGAL::parameters::control_points(held))));
+  CHECK(hard.status == Status::invalid_weight); // 10 has an infinite one
+  CHECK(hard.message.find("element 0 of target_sets: ") == 0);
+  const auto negative = CGAL::arap_deform(
+    by_function, std::map<Vertex, Point>(),
+    CGAL::parameters::target_weight(-1.0, CGAL::parameters::control_points(held)));
+  CHECK(negative.status == Status::invalid_weight);
+  CHECK(negative.message.find("element 0 of control_points: ") == 0);
   CHECK(same_points(by_function, by_class));
 }
 

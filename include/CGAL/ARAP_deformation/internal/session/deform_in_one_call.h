@@ -39,12 +39,22 @@ namespace internal {
 template <typename Range>
 using Pair_of = decltype(std::begin(std::declval<const Range&>())->second);
 
-// names the element of a range that was refused
-inline Outcome of_element(Outcome outcome, std::size_t k, const std::string& range)
+// Calls a function for each element of a range. The outcome is that of the first one that is
+// refused, and names it.
+template <typename Range, typename Function>
+Outcome for_each_element(const Range& range, const std::string& name, const Function& function)
 {
-  if(!outcome)
-    outcome.message = "element " + std::to_string(k) + " of " + range + ": " + outcome.message;
-  return outcome;
+  std::size_t k = 0;
+  for(const auto& element : range)
+  {
+    if(Outcome outcome = function(element); !outcome)
+    {
+      outcome.message = "element " + std::to_string(k) + " of " + name + ": " + outcome.message;
+      return outcome;
+    }
+    ++k;
+  }
+  return Outcome(Status::success, "");
 }
 
 // `insert(deformation, insert_target)` makes the control vertices, by `insert_target(v)` those with
@@ -85,48 +95,42 @@ Report deform_in_one_call(Shape& shape, const Options& options, const NamedParam
                  [&](double w) { outcome = deformation.set_target_weight(v, w); });
     return outcome;
   };
-  static_cast<Outcome&>(report) = insert(deformation, insert_target);
-  [[maybe_unused]] std::size_t k = 0;
+  Outcome& outcome = report;
+  outcome = insert(deformation, insert_target);
   if constexpr(has_parameter<NamedParameters, internal_np::target_sets_t>)
-    for(const auto& [v, projection] : get_parameter(np, internal_np::target_sets))
-    {
-      if(report)
-        static_cast<Outcome&>(report) = of_element(insert_target(v), k++, "target_sets");
-      if(report)
-        static_cast<Outcome&>(report) = deformation.set_target_set(v, projection);
-    }
+    if(outcome)
+      outcome = for_each_element(
+        get_parameter(np, internal_np::target_sets), "target_sets", [&](const auto& element) {
+          const auto& [v, projection] = element;
+          const Outcome inserted = insert_target(v);
+          return inserted ? deformation.set_target_set(v, projection) : inserted;
+        });
   if constexpr(has_parameter<NamedParameters, internal_np::target_rotations_t>)
-  {
-    k = 0;
-    for(const auto& [v, rotation] : get_parameter(np, internal_np::target_rotations))
-    {
-      if(report && !is_vertex_of(domain, v))
-        static_cast<Outcome&>(report) = of_element(no_vertex, k, "target_rotations");
-      if(report)
-        static_cast<Outcome&>(report) = deformation.set_target_rotation(v, rotation);
-      ++k;
-    }
-  }
-  if(!report)
-    return report;
+    if(outcome)
+      outcome = for_each_element(
+        get_parameter(np, internal_np::target_rotations), "target_rotations",
+        [&](const auto& element) {
+          const auto& [v, rotation] = element;
+          return is_vertex_of(domain, v) ? deformation.set_target_rotation(v, rotation) : no_vertex;
+        });
   if constexpr(has_parameter<NamedParameters, internal_np::control_points_t>)
-  {
-    k = 0;
-    for(const auto& [simplex, coordinates, target] :
-        get_parameter(np, internal_np::control_points))
-    {
-      const Control_point_insertion inserted =
-        deformation.insert_control_point(simplex, coordinates);
-      static_cast<Outcome&>(report) = of_element(inserted, k++, "control_points");
-      if(report)
-        deformation.set_target_position(inserted.point, target);
-      if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
-        if(report)
-          static_cast<Outcome&>(report) = deformation.set_target_weight(inserted.point, weight);
-      if(!report)
-        return report;
-    }
-  }
+    if(outcome)
+      outcome = for_each_element(
+        get_parameter(np, internal_np::control_points), "control_points",
+        [&](const auto& element) -> Outcome {
+          const auto& [simplex, coordinates, target] = element;
+          const Control_point_insertion inserted =
+            deformation.insert_control_point(simplex, coordinates);
+          if(!inserted)
+            return inserted;
+          deformation.set_target_position(inserted.point, target);
+          if constexpr(has_number<NamedParameters, internal_np::target_weight_t>)
+            return deformation.set_target_weight(inserted.point, weight);
+          else
+            return inserted;
+        });
+  if(!outcome)
+    return report;
   if constexpr(has_parameter<NamedParameters, internal_np::cell_stiffness_t>)
     deformation.set_stiffness(get_parameter(np, internal_np::cell_stiffness));
   if constexpr(has_parameter<NamedParameters, internal_np::cell_groups_t>)
@@ -145,16 +149,13 @@ auto insert_targets(const TargetRange& targets)
                 "arap_deform: the targets must be a range of pairs of a vertex and a point, such "
                 "as a std::map");
   return [&targets](auto& deformation, const auto& insert_target) {
-    Outcome outcome(Status::success, "");
-    std::size_t k = 0;
-    for(const auto& [v, target] : targets)
-    {
-      outcome = of_element(insert_target(v), k++, "the targets");
-      if(!outcome)
-        break;
-      deformation.set_target_position(v, target);
-    }
-    return outcome;
+    return for_each_element(targets, "the targets", [&](const auto& element) {
+      const auto& [v, target] = element;
+      Outcome inserted = insert_target(v);
+      if(inserted)
+        deformation.set_target_position(v, target);
+      return inserted;
+    });
   };
 }
 
