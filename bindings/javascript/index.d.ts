@@ -43,7 +43,8 @@ export type Status =
   | 'misuse';
 
 /** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a
- *  TypeError, of other lengths a RangeError. */
+ *  TypeError, and those whose lengths are wrong by themselves a RangeError; where there are as many
+ *  rows as something else has, another number is 'misuse'. */
 export class ArapError extends Error {
   status: Status;
 }
