@@ -98,10 +98,9 @@ struct Options
 
   /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
   /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
-  /// \ref ARAPDeformation_Ends. A look costs some tens of iterations, up to 230, and then up to 80
-  /// steps that no visitor sees, typically a dozen; a run may look several times. In place of what
-  /// the quasi-Newton steps need it takes some 400 bytes for each vertex. Local/global runs, time
-  /// steps and runs with `smoothing_length` do not look.
+  /// \ref ARAPDeformation_Ends. A look takes some tens of iterations, at most about 310; a run may
+  /// look several times. In place of what the quasi-Newton steps need it takes some 400 bytes for
+  /// each vertex. Local/global runs, time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of

@@ -48,9 +48,9 @@ enum class End
   flat,    ///< there is a direction of negative curvature, but following the last ones gained less
            ///< than a hundredth of what the tolerance allows
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
-            ///< exclude a negative curvature; or by the second derivative the gap is larger, but
-            ///< the energy does not fall, up to rounding; or it falls slowly along a curved valley,
-            ///< where the second derivative tells little
+            ///< exclude a negative curvature, or there is one of zero, up to rounding; or by the
+            ///< second derivative the gap is larger, but the energy does not fall, up to rounding;
+            ///< or it falls slowly along a curved valley, where the second derivative tells little
 };
 
 /// \ingroup PkgARAPDeformationRun
@@ -89,7 +89,7 @@ struct Stages
 /// If `succeeded(status)` is `false`, the mesh and the object are as they were before the call.
 struct Report : Outcome
 {
-  unsigned int iterations = 0; ///< the number of iterations, each with one solve
+  unsigned int iterations = 0; ///< the number of iterations; each costs about one solve
 
   /// returns the last of the energies below; not a number if the call failed before the first one.
   double final_energy() const
@@ -134,7 +134,8 @@ struct Report : Outcome
   /// estimated, or the second derivative did not tell it.
   unsigned int plateaus_left = 0;
 
-  /// the number of iterations that looked at the second derivative, and moved nothing.
+  /// the number of iterations that looked at the second derivative, or tried where it leads, and
+  /// moved nothing.
   unsigned int looking_iterations = 0;
 
   std::size_t free_vertices = 0; ///< the number of vertices that were solved for

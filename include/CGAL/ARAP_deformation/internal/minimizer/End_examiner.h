@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Pseudorandom_vectors.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
@@ -31,7 +32,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -54,81 +54,66 @@ public:
     if(report.end == End::minimum || !m_run.options.verify_minimum ||
        !m_run.has_second_derivative())
       return Status::converged;
-
     if(has_no_iterations_left())
-      return without_look();
+      return finish(End::undecided);
+
     const double tolerated = m_run.tolerated_decrease(), start = m_run.value();
     m_small_gains = m_last_energy - start < 0.01 * tolerated ? m_small_gains + 1 : 0;
-    Second_look look(m_run);
-    auto finding = look.begin(1e-3 * tolerated);
-    for(unsigned int k = 0; k < most_steps && finding == Second_look::Finding::nothing_yet; ++k)
-    {
-      if(has_no_iterations_left())
-        break;
-      finding = look.step();
-      ++report.looking_iterations;
-      if(const auto status = m_run.same_iterate())
-        return status;
-    }
-    if(finding == Second_look::Finding::failure) // a lost chance, and no more
-      return Status::converged;
+    if(!m_disturbance)
+      m_disturbance.emplace(m_run.rest(), m_run.number_of_vertices);
+    Second_look look(m_run, *m_disturbance);
+    const Second_look::Finding finding = search(look, 1e-3 * tolerated);
     bool is_saddle = finding == Second_look::Finding::negative_curvature;
     if(is_saddle)
-      if(const auto status = sharpen(look))
-        return status;
+    {
+      look.turn_to_direction();
+      sharpen(look);
+    }
+    if(m_interruption)
+      return m_interruption;
+    if(finding == Second_look::Finding::failure) // a lost chance, and no more
+      return Status::converged;
+
+    Array<Coordinates> iterate = m_run.x;
     const double gap = look.gap();
+    End end = is_saddle ? end_at_saddle(look)
+            : gap > tolerated || finding == Second_look::Finding::nothing_yet ? End::undecided
+                                                                            : End::minimum;
     bool does_hold = false;
     if(gap <= tolerated)
     {
-      report.end = is_saddle ? End::flat
-                 : finding == Second_look::Finding::nothing_yet ? End::undecided : End::minimum;
       report.estimated_relative_gap =
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
-      if(report.end == End::undecided && has_no_iterations_left())
-        return without_look();
-      does_hold = !is_saddle && does_model_hold(look, tolerated);
+      if(end == End::undecided && has_no_iterations_left())
+        return finish(end);
+      does_hold = !is_saddle && does_model_hold(iterate, look, tolerated);
       if(m_number_of_moves >= most_moves ||
          m_small_gains >= (is_saddle ? 2 : 1) * most_small_gains)
-      {
-        if(!is_saddle && !does_hold)
-          report.end = End::undecided;
-        return Status::converged; // the gap is as certain as it becomes
-      }
+        return finish(is_saddle || does_hold ? end : End::undecided); // as certain as it becomes
     }
 
-    bool is_lower = gap > 0 && !does_hold && descend_along(look.solution(), 1, 1, 0);
+    bool is_lower = gap > 0 && !does_hold && descend_along(iterate, look.solution(), 1, 1, 0);
     if(!is_saddle && !is_lower)
     {
-      const End end = std::exchange(report.end, End::unknown); // while it looks
       look.turn_to_solution();
-      if(const auto status = sharpen(look))
-        return status;
+      sharpen(look);
       is_saddle = look.is_curvature_negative();
-      report.end = end == End::unknown        ? end
-                 : is_saddle                ? End::flat
-                 : has_no_iterations_left() ? End::undecided : end;
-      is_lower = !is_saddle && descend_along_soft_direction(look, tolerated);
+      if(is_saddle)
+        end = End::flat;
+      else
+        is_lower = descend_along_soft_direction(iterate, look, tolerated);
     }
     if(is_saddle)
+      is_lower |= descend_from_saddle(iterate, look);
+    if(m_interruption)
     {
-      const Array<Coordinates>& direction = look.direction();
-      const double first = 0.01 * m_run.diameter /
-                           largest_entry(direction.data(), direction.size());
-      const double sign = look.is_along_force() ? 1 : -1;
-      is_lower |= descend_along(direction, sign * first, 100 * first, relaxing_steps) ||
-                  descend_along(direction, -sign * first, 100 * first, relaxing_steps);
+      return_to(iterate);
+      return m_interruption;
     }
     if(!is_lower) // rounding errors are all that is left
-    {
-      if(report.end == End::undecided && has_no_iterations_left())
-        return without_look();
-      if(gap > tolerated)
-        report.end = is_saddle ? End::flat : End::undecided;
-      return Status::converged;
-    }
+      return finish(end);
     ++m_number_of_moves;
-    ++(is_saddle ? report.saddles_left : report.plateaus_left);
-    report.end = End::unknown;
+    ++(end == End::flat ? report.saddles_left : report.plateaus_left);
     m_last_energy = start;
     m_run.distrust_gap();
     const std::optional<Status> status = m_run.next_iterate(start - m_run.value());
@@ -142,18 +127,6 @@ private:
   static constexpr int most_turns = 30; // of a direction, toward the least curvature
   static constexpr unsigned int most_moves = 10; // if the gap is small
   static constexpr unsigned int most_small_gains = 2; // by moves in a row
-  static constexpr int relaxing_steps = 2; // from places along a direction of negative curvature
-
-  std::optional<Status> sharpen(Second_look& look)
-  {
-    for(int k = 0; k < most_turns && !has_no_iterations_left() && look.sharpen(); ++k)
-    {
-      ++m_run.report.looking_iterations;
-      if(const auto status = m_run.same_iterate())
-        return status;
-    }
-    return std::nullopt;
-  }
 
   // the last one may be needed to move on
   bool has_no_iterations_left() const
@@ -161,16 +134,58 @@ private:
     return m_run.report.iterations + 1 >= m_run.options.iterations;
   }
 
-  // An estimate of the gap that was wrong before is not believed.
-  Status without_look()
+  // Nothing lower was found. Where that may be for lack of iterations, an estimate of the gap that
+  // was wrong is not believed.
+  Status finish(End end)
   {
-    m_run.report.end = End::undecided;
-    return m_number_of_moves > 0 ? Status::iteration_limit : Status::converged;
+    const bool is_cut_off = has_no_iterations_left();
+    m_run.report.end = is_cut_off ? End::undecided : end;
+    return is_cut_off && (end == End::flat || m_number_of_moves > 0) ? Status::iteration_limit
+                                                                    : Status::converged;
+  }
+
+  static End end_at_saddle(const Second_look& look)
+  {
+    return look.is_curvature_negative() ? End::flat : End::undecided; // where it is zero
+  }
+
+  // Counts an iteration that looked, and moved nothing.
+  void count_look()
+  {
+    ++m_run.report.looking_iterations;
+    m_interruption = m_run.same_iterate();
+  }
+
+  // The same where x is not the iterate.
+  void count_trial(Array<Coordinates>& iterate)
+  {
+    m_run.x.swap(iterate);
+    count_look();
+    m_run.x.swap(iterate);
+  }
+
+  bool goes_on() const { return !m_interruption && !has_no_iterations_left(); }
+
+  Second_look::Finding search(Second_look& look, double disturbance)
+  {
+    auto finding = look.begin(disturbance);
+    for(unsigned int k = 0;
+        k < most_steps && finding == Second_look::Finding::nothing_yet && goes_on(); ++k)
+    {
+      finding = look.step();
+      count_look();
+    }
+    return finding;
+  }
+
+  void sharpen(Second_look& look)
+  {
+    for(int k = 0; k < most_turns && goes_on() && look.sharpen(); ++k)
+      count_look();
   }
 
   // moves x
-  double energy_at(const Array<Coordinates>& before,
-                   const Array<Coordinates>& direction, double t)
+  double energy_at(const Array<Coordinates>& before, const Array<Coordinates>& direction, double t)
   {
     for_each_block(m_run.number_of_vertices, [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
@@ -180,17 +195,6 @@ private:
       }
     });
     return m_run.evaluate();
-  }
-
-  // The same after steps of local/global, which lead back into a curved valley.
-  double energy_at(const Array<Coordinates>& before, const Array<Coordinates>& direction, double t,
-                   int steps)
-  {
-    double energy = energy_at(before, direction, t);
-    Array<Coordinates> step;
-    for(int k = 0; k < steps; ++k)
-      energy = energy_after_step(step);
-    return energy;
   }
 
   // moves x by a step of local/global, if the solver does not fail
@@ -204,15 +208,21 @@ private:
     return energy_at(m_run.x, step, 1);
   }
 
+  // makes x the iterate again
+  void return_to(const Array<Coordinates>& iterate)
+  {
+    std::copy(iterate.begin(), iterate.end(), m_run.x.begin());
+    m_run.evaluate();
+    m_run.keep_energy();
+  }
+
   // Whether the model of the energy holds behind its minimum, as far from it as x is, where it has
   // the value that it has at x. If not, as in a curved valley, it does not tell what is left.
-  bool does_model_hold(const Second_look& look, double tolerated)
+  bool does_model_hold(const Array<Coordinates>& iterate, const Second_look& look, double tolerated)
   {
     const double value = m_run.value();
-    const Array<Coordinates> before = m_run.x;
-    const double change = energy_at(before, look.solution(), 2) - value;
-    energy_at(before, look.solution(), 0);
-    m_run.keep_energy();
+    const double change = energy_at(iterate, look.solution(), 2) - value;
+    return_to(iterate);
     const double predicted = 4 * (look.curvature() - look.gap());
     const double error = std::abs(change - predicted);
     return error <= 0.1 * tolerated &&
@@ -221,10 +231,16 @@ private:
 
   // Where the curvature is small, the model may have a minimum that the energy has not: this falls
   // further on. Goes along the direction to where the model has risen by what is tolerated, and
-  // from there by steps of local/global, as long as these promise to lead below that minimum.
-  bool descend_along_soft_direction(Second_look& look, double tolerated)
+  // from there by steps of local/global, as long as these promise to lead below that minimum, and
+  // by more than a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
+  // were at most 0.0085 of that of the Laplacian.
+  bool descend_along_soft_direction(Array<Coordinates>& iterate, Second_look& look,
+                                    double tolerated)
   {
+    constexpr double largest_curvature = 0.03;
     constexpr int least_steps = 6, most_steps_down = 40;
+    if(!look.has_coarse_metric() && look.relative_curvature() > largest_curvature)
+      return false;
     const Array<Coordinates>& direction = look.direction();
     const double curvature = look.curvature_along_direction();
     double length = 0.1 * m_run.diameter / largest_entry(direction.data(), direction.size());
@@ -233,56 +249,80 @@ private:
     if(!(length > 0) || !std::isfinite(length) || !std::isfinite(curvature))
       return false;
     const double sign = look.is_along_force() ? 1 : -1;
-    const Array<Coordinates> before = m_run.x;
-    const double below = m_run.value() - 2 * (std::max)(look.gap(), 0.0) -
-                         4 * energy_resolution(m_run.value(), m_run.report);
     Array<Coordinates> step;
+    const double below = m_run.value() - (std::max)(2 * look.gap(), 0.01 * tolerated) -
+                         4 * energy_resolution(m_run.value(), m_run.report);
     for(const double t : {sign * length, -sign * length})
     {
-      double energy = energy_at(before, direction, t), fall = 0;
-      for(int k = 0; k < most_steps_down && (k < least_steps || energy - below < 20 * fall); ++k)
+      double energy = energy_at(iterate, direction, t), fall = 0;
+      for(int k = 0;
+          k < most_steps_down && (k < least_steps || energy - below < 20 * fall) && goes_on(); ++k)
       {
         const double last = energy;
         energy = energy_after_step(step);
         if(energy < below)
           return true;
+        count_trial(iterate);
         fall = last - energy;
       }
     }
-    energy_at(before, direction, 0);
-    m_run.keep_energy();
+    return_to(iterate);
     return false;
+  }
+
+  bool descend_from_saddle(Array<Coordinates>& iterate, Second_look& look)
+  {
+    constexpr int relaxing_steps = 2; // they lead back into a curved valley
+    const Array<Coordinates>& direction = look.direction();
+    const double first = 0.01 * m_run.diameter /
+                         largest_entry(direction.data(), direction.size());
+    const double sign = look.is_along_force() ? 1 : -1;
+    return descend_along(iterate, direction, sign * first, 100 * first, relaxing_steps) ||
+           descend_along(iterate, direction, -sign * first, 100 * first, relaxing_steps);
   }
 
   // Moves x by a multiple of a direction to where the energy is lower, if there is such a point, as
   // far as it goes on falling when the step is doubled, or until that is `longest`. Energies are
   // compared after some steps of local/global.
-  bool descend_along(const Array<Coordinates>& direction, double first, double longest,
-                     int steps)
+  bool descend_along(Array<Coordinates>& iterate, const Array<Coordinates>& direction, double first,
+                     double longest, int steps)
   {
     if(!std::isfinite(first))
       return false;
     const Array<Coordinates> before = m_run.x;
-    double lowest = m_run.value() - 4 * energy_resolution(m_run.value(), m_run.report);
-    double best = 0;
-    for(double t = first; std::abs(t) > 1e-4 * std::abs(first); t *= best != 0 ? 2 : 0.25)
+    Array<Coordinates> lowest, step;
+    double lowest_energy = m_run.value() - 4 * energy_resolution(m_run.value(), m_run.report);
+    for(double t = first; std::abs(t) > 1e-4 * std::abs(first) && (steps == 0 || goes_on());
+        t *= lowest.empty() ? 0.25 : 2)
     {
-      const double energy = energy_at(before, direction, t, steps);
-      if(energy < lowest)
+      double energy = energy_at(before, direction, t);
+      for(int k = 0; k < steps && goes_on(); ++k)
       {
-        lowest = energy;
-        best = t;
+        energy = energy_after_step(step);
+        count_trial(iterate);
       }
-      if(best != 0 && (best != t || 2 * std::abs(t) > longest))
+      const bool is_lowest = energy < lowest_energy;
+      if(is_lowest)
+      {
+        lowest_energy = energy;
+        lowest = m_run.x;
+      }
+      if(!lowest.empty() && (!is_lowest || 2 * std::abs(t) > longest))
         break;
     }
-    energy_at(before, direction, best, best != 0 ? steps : 0);
-    if(best == 0)
-      m_run.keep_energy();
-    return best != 0;
+    if(lowest.empty())
+    {
+      return_to(before);
+      return false;
+    }
+    std::copy(lowest.begin(), lowest.end(), m_run.x.begin());
+    m_run.evaluate();
+    return true;
   }
 
   Minimization& m_run;
+  std::optional<Pseudorandom_vectors> m_disturbance; // once a look needs it
+  std::optional<Status> m_interruption; // by the visitor
   unsigned int m_number_of_moves = 0;
   unsigned int m_small_gains = 0; // how many of the last moves gained next to nothing
   double m_last_energy = std::numeric_limits<double>::infinity(); // where it last moved on from

@@ -299,11 +299,12 @@ public:
     return std::nullopt;
   }
 
-  // Makes x the next iterate once more, after an iteration that moved nothing.
+  // Counts an iteration that moved nothing; x is the iterate.
   std::optional<Status> same_iterate()
   {
     ++report.iterations;
-    report.energy.push_back(m_value);
+    const double energy = report.energy.back();
+    report.energy.push_back(energy);
     return observe();
   }
 
@@ -340,7 +341,7 @@ private:
   {
     const Visitor_action action = [this] {
       Scoped_seconds visitor(report.seconds.visitor);
-      return m_observe(report.iterations, m_value);
+      return m_observe(report.iterations, report.energy.back());
     }();
     if(action == Visitor_action::proceed)
       return std::nullopt;

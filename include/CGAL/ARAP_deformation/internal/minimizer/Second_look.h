@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Pseudorandom_vectors.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -27,14 +28,8 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <numeric>
-#include <random>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -53,7 +48,8 @@ class Second_look
 public:
   enum class Finding { nothing_yet, negative_curvature, positive_curvature, failure };
 
-  explicit Second_look(Minimization& run) : m_run(run)
+  Second_look(Minimization& run, const Pseudorandom_vectors& disturbance)
+    : m_run(run), m_disturbance(disturbance)
   {
     {
       Scoped_seconds global(m_run.report.seconds.global_steps);
@@ -65,17 +61,16 @@ public:
   Second_look(const Second_look&) = delete;
   Second_look& operator=(const Second_look&) = delete;
 
-  // `disturbance` is by how much L would let e decrease the energy.
-  Finding begin(double disturbance)
+  // `decrease` is by how much L would let e decrease the energy.
+  Finding begin(double decrease)
   {
     const std::size_t n = m_run.number_of_vertices;
     m_r.resize(n);
-    count_copies();
-    set_pseudorandom(m_r);
+    set_disturbance(m_r);
     if(!solve_laplacian())
       return Finding::failure;
     const double square = dot_product(m_r, m_z);
-    m_factor = square > 0 ? std::sqrt(disturbance / square) : 0;
+    m_factor = square > 0 ? std::sqrt(decrease / square) : 0;
     combine(m_r, m_factor, m_r, 1, m_run.force());
     m_p.assign(m_run.x.size(), Coordinates{0, 0, 0});
     m_mp.assign(n, Coordinates{0, 0, 0});
@@ -104,25 +99,31 @@ public:
     return next_direction();
   }
 
-  // Instead of the last direction, takes the solution, in which directions of little curvature
-  // dominate.
+  // Begins to turn the last direction, the one of negative curvature.
+  void turn_to_direction()
+  {
+    m_ap.swap(m_z); // where step() has left - A p
+    combine(m_ap, -1, m_ap, 0, m_ap);
+    m_w.assign(m_p.size(), Coordinates{0, 0, 0});
+    m_q = m_aq = m_mq = Array<Coordinates>(m_run.number_of_vertices, Coordinates{0, 0, 0});
+  }
+
+  // The same for the solution, in which directions of little curvature dominate.
   void turn_to_solution()
   {
     std::copy(m_s.begin(), m_s.end(), m_p.begin());
     m_mp = m_ms;
     m_run.change_of_force(m_p, m_z);
-    begin_sharpening();
+    turn_to_direction();
   }
 
-  // A direction is a mix of many. Turns it toward the one with the least curvature, by a step of
+  // The direction is a mix of many. Turns it toward the one with the least curvature, by a step of
   // the locally optimal preconditioned conjugate gradients of Knyazev (2001): to the best
   // combination of the direction p, of w = M^-1 (A p - c M p) with its curvature c, and of the
   // change q in the last step. False if there is little left to turn, or if it fails.
   bool sharpen()
   {
-    if(m_q.empty())
-      begin_sharpening();
-    const double c = curvature_along_direction() / dot_product(m_p, m_mp);
+    const double c = relative_curvature();
     combine(m_r, 1, m_ap, -c, m_mp);
     if(!solve())
       return false;
@@ -155,12 +156,15 @@ public:
     return true;
   }
 
-  // of the direction, once it is sharpened
+  // of the direction that is turned
   double curvature_along_direction() const { return dot_product(m_p, m_ap); }
-  bool is_curvature_negative() const
+  double relative_curvature() const // to the metric
   {
-    return curvature_along_direction() < -least_curvature * dot_product(m_p, m_mp);
+    return curvature_along_direction() / dot_product(m_p, m_mp);
   }
+  bool is_curvature_negative() const { return relative_curvature() < -least_curvature; }
+
+  bool has_coarse_metric() const { return m_coarse_metric != nullptr; }
 
   // the last direction, for all vertices of the region
   const Array<Coordinates>& direction() const { return m_p; }
@@ -169,7 +173,7 @@ public:
   // it. The force alone would leave to rounding errors what symmetry leaves open.
   bool is_along_force()
   {
-    set_pseudorandom(m_r);
+    set_disturbance(m_r);
     return dot_product(m_run.force(), m_p) + m_factor * dot_product(m_r, m_p) >= 0;
   }
 
@@ -183,54 +187,13 @@ public:
 private:
   static constexpr double least_curvature = 1e-9; // relative to the metric; else rounding errors
 
-  void begin_sharpening()
-  {
-    m_ap.swap(m_z); // where step() has left - A p
-    combine(m_ap, -1, m_ap, 0, m_ap);
-    m_w.assign(m_p.size(), Coordinates{0, 0, 0});
-    m_q = m_aq = m_mq = Array<Coordinates>(m_run.number_of_vertices, Coordinates{0, 0, 0});
-  }
-
-  // Vertices at the same place, as in two layers, are told apart by how many come before.
-  void count_copies()
-  {
-    const Array<Coordinates>& rest = m_run.rest();
-    std::vector<std::size_t> order(m_run.number_of_vertices);
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return rest[a] != rest[b] ? rest[a] < rest[b] : a < b;
-    });
-    for(std::size_t k = 1; k < order.size(); ++k)
-      if(rest[order[k]] == rest[order[k - 1]])
-      {
-        m_copies.resize(order.size(), 0);
-        m_copies[order[k]] = m_copies[order[k - 1]] + 1;
-      }
-  }
-
-  // Depends on the rest shape, not on the order of its vertices, but for those at the same place.
-  void set_pseudorandom(Array<Coordinates>& forces) const
+  void set_disturbance(Array<Coordinates>& forces) const
   {
     for_each_block(forces.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)
-        forces[v] = pseudorandom(m_run.rest()[v], m_copies.empty() ? 0 : m_copies[v]);
+        forces[v] = m_disturbance(v);
     });
     m_run.leave_free(forces);
-  }
-
-  // three numbers between -1/2 and 1/2
-  static Coordinates pseudorandom(const Coordinates& seed, std::uint32_t copy)
-  {
-    const Coordinates place = {seed[0] + 0., seed[1] + 0., seed[2] + 0.}; // -0 is 0
-    std::array<std::uint32_t, 6> words;
-    static_assert(sizeof(words) == sizeof(place));
-    std::memcpy(words.data(), place.data(), sizeof(words));
-    words[0] += copy;
-    std::seed_seq(words.begin(), words.end()).generate(words.begin(), words.begin() + 3);
-    Coordinates result;
-    for(std::size_t k = 0; k < result.size(); ++k)
-      result[k] = words[k] / 4294967296.0 - 0.5;
-    return result;
   }
 
   // result := a x + b y, for the movable vertices; it may be one of them
@@ -308,6 +271,7 @@ private:
   }
 
   Minimization& m_run;
+  const Pseudorandom_vectors& m_disturbance;
   Coarse_metric* m_coarse_metric = nullptr; // if there is one
   Array<Coordinates> m_r, m_z;      // residual and M^-1 times it
   Array<Coordinates> m_s, m_ms;     // solution and M s
@@ -315,8 +279,7 @@ private:
   Array<Coordinates> m_ap, m_w, m_q, m_aq, m_mq; // of sharpen(): A p and so on
   double m_r_square = 0, m_first_r_square = 0, m_p_square = 0; // in the metric
   double m_curvature = 0;
-  double m_factor = 0; // of the pseudorandom force
-  std::vector<std::uint32_t> m_copies; // none if no vertices are at the same place
+  double m_factor = 0; // of the disturbance
 };
 
 } // namespace internal
