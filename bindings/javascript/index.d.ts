@@ -43,8 +43,8 @@ export type Status =
   | 'misuse';
 
 /** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a
- *  TypeError, and those whose lengths are wrong by themselves a RangeError; where there are as many
- *  rows as something else has, another number is 'misuse'. */
+ *  TypeError, and those of an impossible length a RangeError; a number of rows that does not match
+ *  that of another array is 'misuse'. */
 export class ArapError extends Error {
   status: Status;
 }
@@ -130,7 +130,8 @@ export interface Report {
   /** how many saddle points, and plateaus, the run would have ended at, and has left */
   saddlesLeft: number;
   plateausLeft: number;
-  /** how many iterations looked at the second derivative, and moved nothing */
+  /** how many iterations looked at the second derivative, or tried where it leads, and moved
+   *  nothing */
   lookingIterations: number;
   /** the smallest vertex of each part that nothing holds; these stay where they are */
   unconstrainedComponents: Int32Array;

@@ -477,41 +477,52 @@ void test_minimum()
 
 // What a look tries is not shown: iterations that look show the iterate before once more. A run
 // that is stopped there leaves that iterate, one that is cancelled no trace.
-void test_trials(const Shape& shape, double share, Options options)
+void test_trials(const Shape& shape, double share, const Options& options,
+                 const std::vector<Mesh::Face_index>& control_points = {})
 {
   test_case() = "trials " + shape.name;
-  options.threads = 1;
   const Scenario s = push(shape, share);
   const Mesh first = make_mesh<Mesh>(shape);
+  Mesh mesh = first;
+  Deformation d(mesh);
+  CHECK(d.set_options(options));
+  prepare(d, s, all_vertices(mesh));
+  for(auto f : control_points)
+    CHECK(d.insert_control_point(f, std::array{0.2, 0.3, 0.5}));
+  const Deformation::State start = d.state();
   std::vector<Mesh> iterates;
-  const Run whole(shape, s, options, [&](const auto& iterate) {
+  const Report report = d.deform([&](const auto& iterate) {
     CHECK(iterate.iteration() == iterates.size());
     iterates.push_back(first);
     iterate.put_points(iterates.back().points());
     return Visitor_action::proceed;
   });
-  const Report& report = whole.report;
   CHECK(report.status == Status::converged);
-  CHECK(iterates.size() == report.iterations + 1);
-  unsigned int number_of_looks = 0;
-  for(std::size_t k = 1; k < iterates.size(); ++k)
-    number_of_looks += same_points(iterates[k], iterates[k - 1]);
   CHECK(report.saddles_left + report.plateaus_left > 0);
-  CHECK(number_of_looks == report.looking_iterations);
-  const unsigned int distance = report.iterations / 6;
-  for(unsigned int k = 1; k < 7; ++k)
+  if(!CHECK(iterates.size() == report.iterations + 1))
+    return;
+  const auto looks = [&](unsigned int k) {
+    return k > 0 && k < iterates.size() && same_points(iterates[k], iterates[k - 1]);
+  };
+  unsigned int number_of_looks = 0;
+  for(unsigned int k = 1; k <= report.iterations; ++k)
   {
-    const unsigned int last = k * distance;
-    const bool stops = k % 2 == 0;
-    const Run run(shape, s, options, [&](const auto& iterate) {
-      return iterate.iteration() < last ? Visitor_action::proceed
-           : stops ? Visitor_action::stop : Visitor_action::cancel;
-    });
-    CHECK(run.report.iterations == last);
-    CHECK(run.report.energy.back() == report.energy[last]);
-    CHECK(run.report.end == End::unknown);
-    CHECK(same_points(run.mesh, stops ? iterates[last] : first));
+    number_of_looks += looks(k);
+    if(!looks(k) || looks(k + 1)) // the last of a look, which are trials
+      continue;
+    for(const auto& [last, action] :
+        {std::pair(k - 1, Visitor_action::cancel), std::pair(k, Visitor_action::stop)})
+    {
+      CHECK(d.restore(start));
+      const Report ended = d.deform([last = last, action = action](const auto& iterate) {
+        return iterate.iteration() < last ? Visitor_action::proceed : action;
+      });
+      CHECK(ended.iterations == last && ended.end == End::unknown);
+      CHECK(ended.energy.back() == report.energy[last]);
+      CHECK(same_points(mesh, action == Visitor_action::stop ? iterates[last] : first));
+    }
   }
+  CHECK(number_of_looks == report.looking_iterations);
 }
 
 void test_all_trials()
@@ -519,8 +530,10 @@ void test_all_trials()
   Options options;
   options.cells = Cell_scheme::spokes();
   test_trials(strip(), 0.2, options); // from a saddle point
+  test_trials(strip(), 0.2, options, {Mesh::Face_index(120), Mesh::Face_index(160)});
   const Tube tube{23, 11, 0.016, 6.7, 4.1, 0.21, Cell_scheme::spokes_and_rims(), 1e-3};
   options.cells = tube.cells;
+  options.tolerance = tube.tolerance;
   test_trials(slit(tube), tube.share, options); // from plateaus
 }
 
@@ -551,9 +564,29 @@ void test_visitor()
   CHECK(limited.report.status == Status::converged && limited.report.end == End::undecided);
   CHECK_AT_MOST(limited.report.iterations, last);
   CHECK(same_points(limited.mesh, whole.mesh));
-  options.iterations = 10; // too few to move on from the saddle point
+  // that end before, in, and after the look at a saddle point
   const Shape flat = strip();
-  CHECK_AT_MOST(Run(flat, push(flat, 0.2), options).report.iterations, 10);
+  const Scenario pushed = push(flat, 0.2);
+  options = options_for(Cell_scheme::spokes());
+  const Run buckled(flat, pushed, options);
+  int number_of_saddles = 0;
+  for(unsigned int limit = 5; limit < buckled.report.iterations + 3; limit += 3)
+  {
+    options.iterations = limit;
+    const Report cut = Run(flat, pushed, options).report;
+    CHECK_AT_MOST(cut.iterations, limit);
+    if(cut.status == Status::iteration_limit)
+    {
+      CHECK(cut.end == End::unknown && cut.iterations + 1 >= limit);
+      number_of_saddles += cut.iterations < limit && cut.saddles_left == 0;
+      CHECK(cut.iterations == limit || cut.estimated_relative_gap > 1);
+    }
+    else
+      CHECK(cut.status == Status::converged);
+  }
+  CHECK(number_of_saddles > 0);
+  options.iterations = buckled.report.iterations + 1;
+  CHECK(Run(flat, pushed, options).report.end == End::minimum);
 }
 
 // To which side a flat strip buckles does not depend on the order of its vertices.
@@ -595,17 +628,19 @@ void test_order()
 void test_hinge()
 {
   test_case() = "hinge";
-  const Shape shape = strip();
+  const Shape shape =
+    grid("strip", 12, 2, [](double u, double v) { return Eigen::Vector3d(4 * u, v, 0); });
   Scenario s = push(shape, 0);
   for(std::size_t v = 0; v < shape.points.size(); ++v)
   {
     const double x = shape.points[v].x();
-    s.selection[v] = x < 0.25 ? 0 : std::abs(x - 2) < 0.1 ? 2 : 1;
+    s.selection[v] = x < 0.25 ? 0 : std::abs(x - 2) < 0.2 ? 2 : 1;
     s.targets[v].x() += 0.2;
   }
   const Run run(shape, s, options_for(Cell_scheme::elements()));
   CHECK(run.report.status == Status::converged && run.report.end == End::undecided);
   CHECK(run.report.saddles_left == 0);
+  CHECK_AT_MOST(run.report.looking_iterations, 150); // 200 would not decide it either
 }
 
 // what does not look, and what has nothing to look at

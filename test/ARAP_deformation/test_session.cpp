@@ -328,7 +328,7 @@ void test_options_by_name()
   const std::vector<std::array<std::string, 3>> invalid = {
     {"cells", "stars", "cells 'stars' is not known; use one of spokes, spokes_and_rims, elements"},
     {"cells", "k_ring:", "cells k_ring '' is not a whole number"},
-    {"cells", "k_ring:101", "at most k_ring(100)"},
+    {"cells", "k_ring:101", "at most k_ring:100"},
     {"cells", "elements", "bending_length needs cells at vertices"},
     {"minimizer", "", "minimizer '' is not known; use one of automatic, local_global"},
     {"iterations", "-1", "iterations '-1' is not a whole number from 0 to 4294967295"},

@@ -28,7 +28,8 @@ enum class Status
   not_run,              ///< the call was not made yet
   success,              ///< a call that does not iterate succeeded
   converged,            ///< the estimated relative gap to the minimum is within the tolerance
-  iteration_limit,      ///< the maximum number of iterations was run
+  iteration_limit,      ///< the maximum number of iterations was reached, or, in a look at the
+                        ///< second derivative, all but one
   stopped,              ///< a visitor stopped the run; the last iterate was kept
   cancelled,            ///< a visitor cancelled the run; nothing was changed
   invalid_option,       ///< an option is out of range

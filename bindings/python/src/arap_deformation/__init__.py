@@ -334,8 +334,8 @@ class Deformation:
 
     def rotations(self) -> Floats:
         """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells; identities
-        outside the region, and until the first run after a change of the region or the cells,
-        `reset()` or `make_rest_shape()`."""
+        outside the region, and until the first run after a change of the region or the cells, or
+        after `reset()` or `make_rest_shape()`."""
         return self._session.rotations().reshape(-1, 3, 3)
 
     def quality(self) -> Quality:

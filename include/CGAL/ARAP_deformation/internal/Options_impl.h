@@ -36,8 +36,8 @@ Outcome Options::check() const
     return Outcome(Status::invalid_option,
                    "the option " + std::string(wrong) + " must be finite and not negative");
   if(cells.rings() > 100)
-    return Outcome(Status::invalid_option, "the option cells is k_ring(" +
-                   std::to_string(cells.rings()) + "); it can be at most k_ring(100)");
+    return Outcome(Status::invalid_option, "the option cells is k_ring:" +
+                   std::to_string(cells.rings()) + "; it can be at most k_ring:100");
   if(bending_length > 0 && !cells.has_vertex_cells())
     return Outcome(Status::invalid_option, "the option bending_length needs cells at vertices; "
                    "choose spokes, k_ring or spokes_and_rims for the option cells");

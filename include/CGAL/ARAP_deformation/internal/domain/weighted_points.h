@@ -23,13 +23,14 @@ namespace ARAP {
 namespace internal {
 
 template <typename Point>
-using Call_weight = decltype(std::declval<const Point&>().weight());
+using Construct_weighted = decltype(Point(std::declval<const Point&>().point(),
+                                          std::declval<const Point&>().weight()));
 
 // the point without the weight that it may have
 template <typename Point>
 auto bare_point(const Point& point)
 {
-  if constexpr(is_valid<Call_weight, Point>)
+  if constexpr(is_valid<Construct_weighted, Point>)
     return point.point();
   else
     return point;
@@ -42,7 +43,7 @@ using Bare_point_of = decltype(bare_point(std::declval<const Point&>()));
 template <typename Point>
 Point with_weight_of(const Point& point, const Bare_point_of<Point>& place)
 {
-  if constexpr(is_valid<Call_weight, Point>)
+  if constexpr(is_valid<Construct_weighted, Point>)
     return Point(place, point.weight());
   else
     return place;

@@ -38,8 +38,9 @@ namespace ARAP {
 namespace internal {
 
 // Looks at the second derivative where a run would end with `Status::converged`, and moves on from
-// there if it is a saddle point, or if there is further to go than was estimated. What it looks at
-// counts as iterations: they are limited, and can be stopped and cancelled, as all others.
+// there if it is a saddle point, or if there is further to go than was estimated. Each step of a
+// look, and each step that it tries, counts as an iteration: these are limited, and can be stopped
+// and cancelled, as all others.
 class End_examiner
 {
 public:
@@ -54,7 +55,8 @@ public:
     if(report.end == End::minimum || !m_run.options.verify_minimum ||
        !m_run.has_second_derivative())
       return Status::converged;
-    if(has_no_iterations_left())
+    m_is_cut_off = has_no_iterations_left();
+    if(m_is_cut_off)
       return finish(End::undecided);
 
     const double tolerated = m_run.tolerated_decrease(), start = m_run.value();
@@ -63,8 +65,8 @@ public:
       m_disturbance.emplace(m_run.rest(), m_run.number_of_vertices);
     Second_look look(m_run, *m_disturbance);
     const Second_look::Finding finding = search(look, 1e-3 * tolerated);
-    bool is_saddle = finding == Second_look::Finding::negative_curvature;
-    if(is_saddle)
+    bool is_convex = finding != Second_look::Finding::negative_curvature;
+    if(!is_convex)
     {
       look.turn_to_direction();
       sharpen(look);
@@ -76,34 +78,36 @@ public:
 
     Array<Coordinates> iterate = m_run.x;
     const double gap = look.gap();
-    End end = is_saddle ? end_at_saddle(look)
-            : gap > tolerated || finding == Second_look::Finding::nothing_yet ? End::undecided
-                                                                            : End::minimum;
+    End end = End::undecided;
+    if(finding == Second_look::Finding::positive_curvature && gap <= tolerated)
+      end = End::minimum;
+    else if(!is_convex && look.is_curvature_negative()) // and not zero
+      end = End::flat;
     bool does_hold = false;
     if(gap <= tolerated)
     {
       report.estimated_relative_gap =
         (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
-      if(end == End::undecided && has_no_iterations_left())
+      if(end == End::undecided && m_is_cut_off)
         return finish(end);
-      does_hold = !is_saddle && does_model_hold(iterate, look, tolerated);
+      does_hold = is_convex && does_model_hold(iterate, look, tolerated);
       if(m_number_of_moves >= most_moves ||
-         m_small_gains >= (is_saddle ? 2 : 1) * most_small_gains)
-        return finish(is_saddle || does_hold ? end : End::undecided); // as certain as it becomes
+         m_small_gains >= (is_convex ? 1 : 2) * most_small_gains)
+        return finish(!is_convex || does_hold ? end : End::undecided); // as certain as it becomes
     }
 
     bool is_lower = gap > 0 && !does_hold && descend_along(iterate, look.solution(), 1, 1, 0);
-    if(!is_saddle && !is_lower)
+    if(is_convex && !is_lower)
     {
       look.turn_to_solution();
       sharpen(look);
-      is_saddle = look.is_curvature_negative();
-      if(is_saddle)
-        end = End::flat;
-      else
+      is_convex = !look.is_curvature_negative();
+      if(is_convex)
         is_lower = descend_along_soft_direction(iterate, look, tolerated);
+      else
+        end = End::flat;
     }
-    if(is_saddle)
+    if(!is_convex)
       is_lower |= descend_from_saddle(iterate, look);
     if(m_interruption)
     {
@@ -138,15 +142,14 @@ private:
   // was wrong is not believed.
   Status finish(End end)
   {
-    const bool is_cut_off = has_no_iterations_left();
-    m_run.report.end = is_cut_off ? End::undecided : end;
-    return is_cut_off && (end == End::flat || m_number_of_moves > 0) ? Status::iteration_limit
-                                                                    : Status::converged;
-  }
-
-  static End end_at_saddle(const Second_look& look)
-  {
-    return look.is_curvature_negative() ? End::flat : End::undecided; // where it is zero
+    Report& report = m_run.report;
+    if(m_is_cut_off && (end == End::flat || m_number_of_moves > 0))
+    {
+      report.estimated_relative_gap = std::numeric_limits<double>::infinity();
+      return Status::iteration_limit;
+    }
+    report.end = m_is_cut_off ? End::undecided : end;
+    return Status::converged;
   }
 
   // Counts an iteration that looked, and moved nothing.
@@ -164,7 +167,12 @@ private:
     m_run.x.swap(iterate);
   }
 
-  bool goes_on() const { return !m_interruption && !has_no_iterations_left(); }
+  // to be asked where there is more to do
+  bool goes_on()
+  {
+    m_is_cut_off = has_no_iterations_left();
+    return !m_interruption && !m_is_cut_off;
+  }
 
   Second_look::Finding search(Second_look& look, double disturbance)
   {
@@ -208,11 +216,12 @@ private:
     return energy_at(m_run.x, step, 1);
   }
 
-  // makes x the iterate again
-  void return_to(const Array<Coordinates>& iterate)
+  // makes x what it was before, to the last bit
+  void return_to(const Array<Coordinates>& positions)
   {
-    std::copy(iterate.begin(), iterate.end(), m_run.x.begin());
+    std::copy(positions.begin(), positions.end(), m_run.x.begin());
     m_run.evaluate();
+    std::copy(positions.begin(), positions.end(), m_run.x.begin());
     m_run.keep_energy();
   }
 
@@ -231,9 +240,10 @@ private:
 
   // Where the curvature is small, the model may have a minimum that the energy has not: this falls
   // further on. Goes along the direction to where the model has risen by what is tolerated, and
-  // from there by steps of local/global, as long as these promise to lead below that minimum, and
-  // by more than a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
-  // were at most 0.0085 of that of the Laplacian.
+  // from there by steps of local/global, as long as these promise to fall by twice the gap of the
+  // model, and a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
+  // were at most 0.0085 of that of the Laplacian; how they compare with a coarse metric is not
+  // known.
   bool descend_along_soft_direction(Array<Coordinates>& iterate, Second_look& look,
                                     double tolerated)
   {
@@ -310,19 +320,15 @@ private:
       if(!lowest.empty() && (!is_lowest || 2 * std::abs(t) > longest))
         break;
     }
-    if(lowest.empty())
-    {
-      return_to(before);
-      return false;
-    }
-    std::copy(lowest.begin(), lowest.end(), m_run.x.begin());
-    m_run.evaluate();
-    return true;
+    const bool is_lower = !lowest.empty();
+    return_to(is_lower ? lowest : before);
+    return is_lower;
   }
 
   Minimization& m_run;
   std::optional<Pseudorandom_vectors> m_disturbance; // once a look needs it
   std::optional<Status> m_interruption; // by the visitor
+  bool m_is_cut_off = false; // a look, for lack of iterations
   unsigned int m_number_of_moves = 0;
   unsigned int m_small_gains = 0; // how many of the last moves gained next to nothing
   double m_last_energy = std::numeric_limits<double>::infinity(); // where it last moved on from

@@ -303,8 +303,7 @@ public:
   std::optional<Status> same_iterate()
   {
     ++report.iterations;
-    const double energy = report.energy.back();
-    report.energy.push_back(energy);
+    report.energy.push_back(report.energy.back());
     return observe();
   }
 

@@ -30,23 +30,24 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A pseudorandom vector for each point, which depends on where it is and not on the order of the
-// points, but for those at the same place, as in two layers: these are told apart by how many come
-// before.
+// A pseudorandom vector for each of the first points of an array, which outlives it. It depends on
+// where the point is and not on the order of the points, but for those at the same place, as in two
+// layers: these are told apart by how many come before.
 class Pseudorandom_vectors
 {
 public:
-  Pseudorandom_vectors(const Array<Coordinates>& points, std::size_t size) : m_points(points)
+  Pseudorandom_vectors(const Array<Coordinates>& points, std::size_t number_of_points)
+    : m_points(points)
   {
-    std::vector<std::size_t> order(size);
+    std::vector<std::size_t> order(number_of_points);
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return points[a] != points[b] ? points[a] < points[b] : a < b;
     });
-    for(std::size_t k = 1; k < size; ++k)
+    for(std::size_t k = 1; k < number_of_points; ++k)
       if(points[order[k]] == points[order[k - 1]])
       {
-        m_copies.resize(size, 0);
+        m_copies.resize(number_of_points, 0);
         m_copies[order[k]] = m_copies[order[k - 1]] + 1;
       }
   }

@@ -168,17 +168,17 @@ auto insert_constrained(const VertexConstrainedMap& constrained, const VertexTar
     Outcome outcome(Status::success, "");
     for(auto v : domain.vertices())
       with_value(constrained, v, domain.index(v), [&](const auto& value) {
-        if(!is_constrained(value, v))
+        if(!outcome || !is_constrained(value, v))
           return;
         deformation.insert_control_vertex(v);
         with_value(targets, v, domain.index(v), [&](const auto& target) {
           constexpr bool is_point =
             std::is_convertible_v<decltype(target), decltype(domain.point(v))>;
           static_assert(is_point, "arap_deform: the targets must be points of the shape's type");
-          if(Outcome inserted = insert_target(v); !inserted)
-            outcome = std::move(inserted);
+          outcome = insert_target(v);
           if constexpr(is_point)
-            deformation.set_target_position(v, target);
+            if(outcome)
+              deformation.set_target_position(v, target);
         });
       });
     return outcome;

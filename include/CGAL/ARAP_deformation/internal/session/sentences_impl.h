@@ -111,7 +111,7 @@ inline const char* sentence(Status status, const std::string& what)
   case Status::success: return "everything is ready to deform";
   case Status::converged:
     return "converged: the estimated gap of the energy to its minimum is within the tolerance";
-  case Status::iteration_limit: return "the maximum number of iterations was run";
+  case Status::iteration_limit: return "the maximum number of iterations was reached";
   case Status::stopped: return "the visitor stopped the run; the last iterate was kept";
   case Status::cancelled: return "the visitor cancelled the run; nothing was changed";
   case Status::invalid_option:
