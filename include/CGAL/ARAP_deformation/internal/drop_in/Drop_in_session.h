@@ -117,7 +117,7 @@ public:
       {
         Point point = entry.rest;
         this->domain().set_point(entry.vertex, entry.rest);
-        entry.present = std::move(point);
+        m_vertices.present(entry) = std::move(point);
       }
     this->note_region_as_written();
   }
@@ -132,7 +132,7 @@ private:
     if(m_prepared.has_region())
       if(const int v = m_prepared.region().find_vertex(this->domain(), control->vertex); v >= 0)
         m_prepared.positions()[v] = Domain::coordinates(target);
-    control->present = target;
+    m_vertices.present(*control) = target;
   }
 
   void keep_targets()
@@ -150,7 +150,7 @@ private:
       return;
     Point rest = this->domain().point(v), present = rest;
     entry->rest = std::move(rest);
-    entry->present = std::move(present);
+    m_vertices.present(*entry) = std::move(present);
   }
 };
 

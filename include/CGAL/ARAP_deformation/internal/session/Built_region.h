@@ -55,7 +55,16 @@ struct Built_region : Built_core
   // without its flat part, which the core owns
   std::shared_ptr<Domain_region<Domain>> region = std::make_shared<Domain_region<Domain>>();
 
+  // of the vertices that had an entry when the region was made, by the places of the entries: their
+  // numbers in the region, or -1
+  Array<int> numbers_of_entries;
+
   using Built_core::Built_core;
+
+  int number_of_entry(std::size_t k) const
+  {
+    return k < numbers_of_entries.size() ? numbers_of_entries[k] : Paged_index_map::none;
+  }
 
   // Collects the region, in the rest shape and at the present points, and computes what depends on
   // it alone.
@@ -71,6 +80,8 @@ struct Built_region : Built_core
     if(!region->collect(domain, movable, static_cast<int>(options.cells.rings())))
       return outcome_of_vertex(region->refusal(), region->refused_vertex());
 
+    for(const auto& entry : vertices.entries())
+      numbers_of_entries.push_back(region->find_vertex(domain, entry.vertex));
     for(vertex_descriptor v : region->vertices)
     {
       const auto* entry = vertices.find(v);
@@ -96,11 +107,14 @@ struct Built_region : Built_core
                            Region_constraints& constraints) const
   {
     const Domain& domain = vertices.domain();
-    for(const auto& entry : vertices.entries())
+    for(std::size_t k = 0; k < vertices.entries().size(); ++k)
     {
+      const auto& entry = vertices.entries()[k];
       if(!entry.is_roi)
         continue;
-      const int v = region->find_vertex(domain, entry.vertex);
+      if(entry.is_control)
+        constraints.rows().controls.push_back(k);
+      const int v = number_of_entry(k);
       const bool can_move = is_movable(v);
       const bool is_isolated = can_move ? core->is_isolated(v)
                                         : entry.is_control && domain.is_isolated(entry.vertex);

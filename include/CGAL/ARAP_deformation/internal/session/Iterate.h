@@ -32,9 +32,9 @@ public:
   template <typename VertexPointMap>
   void put_points(VertexPointMap map) const
   {
-    const auto& entries = m_session.vertices().entries();
-    for(const auto& [k, point] : m_session.new_points(m_positions))
-      put(map, entries[k].vertex, point);
+    m_session.for_each_written_vertex(
+      m_session.new_points(m_positions),
+      [&map](const auto& vertex, const auto& point) { put(map, vertex, point); });
   }
 
 private:

@@ -64,6 +64,7 @@ public:
 
   // These need has_region().
   const Domain_region<Domain>& region() const { return *m_prepared->region; }
+  int number_of_entry(std::size_t k) const { return m_prepared->number_of_entry(k); }
   Built_core& built() { return *m_prepared; }
   Deformation_core& core() { return *m_prepared->core; }
   const Deformation_core& core() const { return *m_prepared->core; }
@@ -78,7 +79,7 @@ public:
                       const std::vector<std::pair<std::size_t, Point>>& changed)
   {
     const Domain& domain = vertices.domain();
-    take_points(vertices, changed, m_prepared->positions);
+    take_points(changed, m_prepared->positions);
     for(int v = core().region().number_of_movable_vertices;
         v < core().region().number_of_vertices(); ++v)
     {
@@ -91,13 +92,11 @@ public:
   }
 
   // the same for the entries only, in positions of the vertices of the region
-  void take_points(const Vertices& vertices,
-                   const std::vector<std::pair<std::size_t, Point>>& changed,
+  void take_points(const std::vector<std::pair<std::size_t, Point>>& changed,
                    Array<Coordinates>& positions) const
   {
     for(const auto& [k, point] : changed)
-      if(const int v = region().find_vertex(vertices.domain(), vertices.entries()[k].vertex);
-         v >= 0)
+      if(const int v = number_of_entry(k); v >= 0)
         positions[v] = Domain::coordinates(point);
   }
 
@@ -188,16 +187,16 @@ public:
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
   // Makes positions and rotations of a state those of the region that there is, if it serves for
-  // the state. find_entry(v) is the entry that a vertex has in the state.
+  // the state. find_present(v) is where a vertex with an entry is in the state.
   template <typename Function>
-  void renumber(State& state, const Domain& domain, const Function& find_entry) const
+  void renumber(State& state, const Domain& domain, const Function& find_present) const
   {
     if(!has_region_of(state.present) || m_prepared->numbering == state.numbering)
       return;
     Array<Coordinates> positions = m_prepared->positions;
     for(std::size_t k = 0; k < positions.size(); ++k)
-      if(const auto* entry = find_entry(region().vertices[k]))
-        positions[k] = Domain::coordinates(entry->present);
+      if(const Point* present = find_present(region().vertices[k]))
+        positions[k] = Domain::coordinates(*present);
     if(state.cells.region)
       state.cells.rotations =
         m_prepared->rotations_from(*state.cells.region, state.cells.rotations, domain);
@@ -315,9 +314,10 @@ private:
     if(is_whole(roi_size, number_of_fixed) ||
        number_of_movable > 8 * (roi_size - number_of_fixed) + 1000)
       return true;
-    for(const auto& entry : vertices.entries())
-      if(entry.is_roi && !vertices.is_hard_control(entry) &&
-         !m_prepared->is_movable(region().find_vertex(vertices.domain(), entry.vertex)))
+    for(std::size_t k = 0; k < vertices.entries().size(); ++k)
+      if(const auto& entry = vertices.entries()[k];
+         entry.is_roi && !vertices.is_hard_control(entry) &&
+         !m_prepared->is_movable(number_of_entry(k)))
         return true;
     return false;
   }

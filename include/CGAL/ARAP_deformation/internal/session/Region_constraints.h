@@ -34,6 +34,7 @@ namespace internal {
 // Whose targets the rows of the constraints of a region have, and which controls move nothing.
 struct Region_rows
 {
+  std::vector<std::size_t> controls; // all control vertices, by the places of their entries
   std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
   std::vector<Control_point> soft_points, hard_points; // the next ones, and the hard rows
   // If there is inertia, for each movable vertex its share in the area or volume, or 0 if it is

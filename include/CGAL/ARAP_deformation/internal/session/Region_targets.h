@@ -53,19 +53,18 @@ public:
   Outcome read(Array<Coordinates>& positions, Targets& targets) const
   {
     const auto& region = m_prepared.region();
-    for(const auto& entry : m_vertices.entries())
+    const auto& rows = m_prepared.rows();
+    for(std::size_t k : rows.controls)
     {
-      if(!entry.is_control)
-        continue;
+      const Entry& entry = m_vertices.entries()[k];
       const Coordinates target = Domain::coordinates(m_vertices.target(entry));
       if(m_vertices.weight(entry) > 0 && !is_finite(target) && !m_vertices.whole_target(entry).set)
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex),
                                  "the target of ");
-      const int v = region.find_vertex(domain(), entry.vertex);
+      const int v = m_prepared.number_of_entry(k);
       if(v >= 0 && m_vertices.is_hard_control(entry))
         positions[v] = target;
     }
-    const auto& rows = m_prepared.rows();
     targets.soft.reserve(rows.soft_vertices.size() + rows.soft_points.size());
     for(int v : rows.soft_vertices)
       append_target(*m_vertices.find_target(region.vertices[v]), {0, 0, 0}, targets);
@@ -125,8 +124,8 @@ public:
       Coordinates way = {0, 0, 0};
       if(m_vertices.is_hard_control(entries[k]))
         way = difference(Domain::coordinates(m_vertices.target(entries[k])),
-                         Domain::coordinates(entries[k].present));
-      else if(const int v = m_prepared.region().find_vertex(domain(), entries[k].vertex); v >= 0)
+                         Domain::coordinates(m_vertices.present_points()[k]));
+      else if(const int v = m_prepared.number_of_entry(k); v >= 0)
         way = difference(positions[v], step.start[v]);
       velocities[k] = scaled(way, 1 / step.dynamics.time_step);
     }
@@ -137,10 +136,10 @@ private:
   // the rotations that are given to cells at control vertices
   void add_frames(Targets& targets) const
   {
-    for(const auto& entry : m_vertices.entries())
-      if(entry.is_control && m_vertices.rotation(entry))
-        if(const int v = m_prepared.region().find_vertex(domain(), entry.vertex); v >= 0)
-          targets.add_frame(v, *m_vertices.rotation(entry));
+    for(std::size_t k : m_prepared.rows().controls)
+      if(const auto& rotation = m_vertices.rotation(m_vertices.entries()[k]))
+        if(const int v = m_prepared.number_of_entry(k); v >= 0)
+          targets.add_frame(v, *rotation);
   }
 
   // What corners that are not movable add to the position of a control point: they are no part of
@@ -155,7 +154,7 @@ private:
                  ? Coordinates{0, 0, 0} : positions[number];
       const Entry& entry = *m_vertices.find(v);
       return Domain::coordinates(m_vertices.is_hard_control(entry) ? m_vertices.target(entry)
-                                                                   : entry.present);
+                                                                   : m_vertices.present(entry));
     });
   }
 

@@ -145,6 +145,7 @@ protected:
   using Base::m_prepared;
   using Base::m_rules;
   using Base::m_vertices;
+  using Base::points_of_entries;
   using Base::refuse_in_a_run;
   using Base::region_changed;
   using Base::set_points;
@@ -272,7 +273,7 @@ private:
     for(const auto& [k, point] : changed)
     {
       Entry& entry = m_vertices.entries()[k];
-      entry.present = point;
+      m_vertices.present_points()[k] = point;
       if(!is_finite(Domain::coordinates(entry.rest))) // it has been mended
       {
         entry.rest = point;
@@ -285,44 +286,44 @@ private:
 
   void write_points(Array<Coordinates>& positions)
   {
-    std::vector<std::pair<std::size_t, Point>> points = new_points(positions);
+    std::vector<Point> points = new_points(positions);
     set_points([&] {
-      for(const auto& [k, point] : points)
-        domain().set_point(m_vertices.entries()[k].vertex, point);
+      for_each_written_vertex(points, [this](const auto& vertex, const Point& point) {
+        domain().set_point(vertex, point);
+      });
     });
-    for(auto& [k, point] : points)
-      m_vertices.entries()[k].present = std::move(point);
+    m_vertices.present_points().swap(points);
     note_region_as_written();
     m_prepared.positions().swap(positions);
   }
 
-  // The new points of the region of interest: of the free vertices at their positions, of the hard
-  // control vertices at their targets, and of all other fixed vertices where they are: a domain may
-  // write to other places than it reads from. Each has the place of the entry of its vertex: the
-  // domain, which may throw, is not asked any more for what is done with them.
-  std::vector<std::pair<std::size_t, Point>>
-  new_points(const Array<Coordinates>& positions) const
+  // The new points of all entries. Of the region of interest these are, of the free vertices, their
+  // positions, of the hard control vertices their targets, and of all other fixed vertices where
+  // they are.
+  std::vector<Point> new_points(const Array<Coordinates>& positions) const
   {
-    const auto& entries = m_vertices.entries();
+    const std::vector<Point>& present = m_vertices.present_points();
     const Array<char>& is_fixed = m_prepared.core().constraints().is_fixed;
-    std::vector<std::pair<std::size_t, Point>> points;
-    points.reserve(entries.size());
-    for(std::size_t k = 0; k < entries.size(); ++k)
-    {
-      const Entry& entry = entries[k];
-      if(is_put_back(entry))
-        points.emplace_back(k, entry.rest);
+    const auto number_of_movable = static_cast<int>(is_fixed.size());
+    return points_of_entries([&](std::size_t k, const Entry& entry) {
       if(!entry.is_roi)
-        continue;
-      const int v = m_prepared.region().find_vertex(domain(), entry.vertex);
+        return is_put_back(entry) ? entry.rest : present[k];
       if(m_vertices.is_hard_control(entry))
-        points.emplace_back(k, m_vertices.target(entry));
-      else if(v >= 0 && v < static_cast<int>(is_fixed.size()) && !is_fixed[v])
-        points.emplace_back(k, Domain::make_point(positions[v]));
-      else
-        points.emplace_back(k, entry.present);
-    }
-    return points;
+        return m_vertices.target(entry);
+      const int v = m_prepared.number_of_entry(k);
+      return v >= 0 && v < number_of_movable && !is_fixed[v] ? Domain::make_point(positions[v])
+                                                             : present[k];
+    });
+  }
+
+  // Calls f(v, point) for each vertex that a run writes, also where it stays: a domain may write to
+  // other places than it reads from.
+  template <typename Function>
+  void for_each_written_vertex(const std::vector<Point>& points, const Function& f) const
+  {
+    for(std::size_t k = 0; k < points.size(); ++k)
+      if(const Entry& entry = m_vertices.entries()[k]; entry.is_roi || is_put_back(entry))
+        f(entry.vertex, points[k]);
   }
 
   template <typename FindCell>

@@ -57,7 +57,7 @@ public:
         if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
           positions[k] = Domain::coordinates(entry->rest);
     }
-    std::vector<Point> points = copies(&Entry::rest), targets = points, held_targets;
+    std::vector<Point> points = rest_points(), targets = points, held_targets;
     for(const auto& held : m_vertices.points())
       held_targets.push_back(rest_point(held.first));
     set_points([&] {
@@ -65,7 +65,7 @@ public:
         if(entry.is_roi || !m_rules.are_erased_put_back)
           domain().set_point(entry.vertex, entry.rest);
     });
-    move_to(&Entry::present, points);
+    m_vertices.present_points().swap(points);
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
       {
@@ -87,7 +87,7 @@ public:
     if(refuse_in_a_run())
       return;
     m_vertices.keep_first_points();
-    std::vector<Point> points = copies(&Entry::present);
+    std::vector<Point> points = m_vertices.present_points();
     if(domain().is_in_place() && m_are_points_written) // they may have been changed by others
       for(std::size_t k = 0; k < points.size(); ++k)
         points[k] = domain().point(m_vertices.entries()[k].vertex);
@@ -98,8 +98,9 @@ public:
       if(entry.is_control)
         m_vertices.rotation(entry).reset();
     region_changed();
-    move_to(&Entry::present, points);
-    move_to(&Entry::rest, rest);
+    m_vertices.present_points().swap(points);
+    for(std::size_t k = 0; k < rest.size(); ++k)
+      m_vertices.entries()[k].rest = std::move(rest[k]);
   }
 
   // sets of vertices, targets, rest shape and positions, as a value
@@ -119,9 +120,9 @@ public:
     {
       const auto changed = m_vertices.changed_points();
       for(const auto& [k, point] : changed)
-        state.vertices.entries[k].present = point;
+        state.vertices.present_points[k] = point;
       if(m_prepared.has_region())
-        m_prepared.take_points(m_vertices, changed, state.prepared.positions);
+        m_prepared.take_points(changed, state.prepared.positions);
     }
     return state;
   }
@@ -134,7 +135,7 @@ public:
       return outcome(Status::foreign_state);
     auto change = m_vertices.prepare(std::move(state.vertices));
     m_prepared.renumber(state.prepared, domain(), [&](const auto& v) {
-      return m_vertices.find(change, v);
+      return m_vertices.find_present(change, v);
     });
     // what may throw ends with the points; this object changes only after it
     const std::vector<Entry>& before = m_vertices.entries();
@@ -143,8 +144,8 @@ public:
       for(std::size_t k = 0; k < before.size(); ++k) // what had no entry then, or another one
         if(k >= after.size() || !(before[k].vertex == after[k].vertex))
           domain().set_point(before[k].vertex, m_vertices.first_point(k));
-      for(const Entry& entry : after)
-        domain().set_point(entry.vertex, entry.present);
+      for(std::size_t k = 0; k < after.size(); ++k)
+        domain().set_point(after[k].vertex, change.state.present_points[k]);
     });
     const bool are_values_same = m_prepared.has_values_of(state.prepared);
     m_vertices.restore(std::move(change));
@@ -171,21 +172,22 @@ protected:
   using Base::set_points;
   using Base::takes_points;
 
-private:
-  // Points of all entries are copied before any is changed: copies may throw.
-  std::vector<Point> copies(Point Entry::*point) const
+  // f(k, entry) for each entry: points are copied before any is changed, as copies may throw
+  template <typename Function>
+  std::vector<Point> points_of_entries(const Function& f) const
   {
-    std::vector<Point> points;
-    points.reserve(m_vertices.entries().size());
-    for(const Entry& entry : m_vertices.entries())
-      points.push_back(entry.*point);
+    const std::vector<Entry>& entries = m_vertices.entries();
+    // copies of one: points need no default constructor
+    std::vector<Point> points(entries.size(), Domain::make_point({0, 0, 0}));
+    for(std::size_t k = 0; k < points.size(); ++k)
+      points[k] = f(k, entries[k]);
     return points;
   }
 
-  void move_to(Point Entry::*point, std::vector<Point>& points)
+private:
+  std::vector<Point> rest_points() const
   {
-    for(std::size_t k = 0; k < points.size(); ++k)
-      m_vertices.entries()[k].*point = std::move(points[k]);
+    return points_of_entries([](std::size_t, const Entry& entry) { return entry.rest; });
   }
 };
 

@@ -53,7 +53,6 @@ public:
     vertex_descriptor vertex;
     int target; // its place in m_targets, if it was ever a control vertex
     Point rest;
-    Point present;
     std::uint64_t insertion : 61; // when it last entered the region of interest
     bool is_roi : 1;
     bool is_control : 1;
@@ -121,6 +120,10 @@ public:
   std::vector<Entry>& entries() { return m_entries; }
   const std::vector<Entry>& entries() const { return m_entries; }
 
+  // where the vertices of the entries are
+  std::vector<Point>& present_points() { return m_present_points; }
+  const std::vector<Point>& present_points() const { return m_present_points; }
+
   const Entry* find(vertex_descriptor v) const
   {
     const int slot = m_slots[m_domain.index(v)];
@@ -136,6 +139,7 @@ public:
   void release_spare_memory()
   {
     m_entries.shrink_to_fit();
+    m_present_points.shrink_to_fit();
     m_targets.shrink_to_fit();
   }
 
@@ -143,8 +147,11 @@ public:
   Point present(vertex_descriptor v) const
   {
     const Entry* entry = find(v);
-    return entry == nullptr ? m_domain.point(v) : entry->present;
+    return entry == nullptr ? m_domain.point(v) : present(*entry);
   }
+
+  Point& present(const Entry& entry) { return m_present_points[place(entry)]; }
+  const Point& present(const Entry& entry) const { return m_present_points[place(entry)]; }
 
   // the point of v in the rest shape: of vertices that are not known, the one that the mesh has
   Point rest(vertex_descriptor v) const
@@ -252,7 +259,7 @@ public:
     const Control_point point(m_last_point + 1);
     std::vector<std::size_t> corners; // their places: what can throw comes first
     for(vertex_descriptor v : held.corners)
-      corners.push_back(static_cast<std::size_t>(&find_or_insert(v) - m_entries.data()));
+      corners.push_back(place(find_or_insert(v)));
     m_points.emplace(point, std::move(held));
     ++m_last_point;
     bool is_region_other = false;
@@ -296,7 +303,7 @@ public:
     {
       auto&& point = m_domain.point(m_entries[k].vertex);
       const Coordinates now = Domain::coordinates(point),
-                        before = Domain::coordinates(m_entries[k].present);
+                        before = Domain::coordinates(m_present_points[k]);
       if(now != before && (is_finite(now) || is_finite(before))) // NaN differs from itself
         changed.emplace_back(k, point);
     }
@@ -310,7 +317,7 @@ public:
   {
     if(entry == nullptr)
       return {0, 0, 0};
-    const auto k = static_cast<std::size_t>(entry - m_entries.data());
+    const std::size_t k = place(*entry);
     return k < m_velocities.size() ? m_velocities[k] : Coordinates{0, 0, 0};
   }
 
@@ -329,6 +336,7 @@ public:
   struct State
   {
     std::vector<Entry> entries;
+    std::vector<Point> present_points;
     std::vector<Target> targets;
     std::vector<Point> first_points;
     Array<typename Surroundings<Domain>::Vertex> surroundings;
@@ -338,8 +346,8 @@ public:
 
   State state() const
   {
-    return {m_entries, m_targets, m_first_points, m_surroundings.vertices(), m_points,
-            m_velocities};
+    return {m_entries, m_present_points, m_targets, m_first_points, m_surroundings.vertices(),
+            m_points, m_velocities};
   }
 
   // What restore() makes of these, which needs no more memory and throws nothing.
@@ -372,14 +380,14 @@ public:
     return change;
   }
 
-  // the entry of a vertex after restore(), nullptr if it has none
-  const Entry* find(const Change& change, vertex_descriptor v) const
+  // the present point of a vertex after restore(), nullptr if it has no entry then
+  const Point* find_present(const Change& change, vertex_descriptor v) const
   {
     const std::size_t index = m_domain.index(v);
     const auto changed = change.slots.find(index);
     const int slot = changed != change.slots.end() ? changed->second : m_slots[index];
-    return slot == Paged_index_map::none ? nullptr
-                                         : &change.state.entries[static_cast<std::size_t>(slot)];
+    return slot == Paged_index_map::none
+           ? nullptr : &change.state.present_points[static_cast<std::size_t>(slot)];
   }
 
   void restore(Change change)
@@ -388,6 +396,7 @@ public:
       m_slots.set(index, slot);
     m_surroundings.restore(change.surroundings);
     m_entries.swap(change.state.entries);
+    m_present_points.swap(change.state.present_points);
     m_targets.swap(change.state.targets);
     m_first_points.swap(change.state.first_points);
     m_points.swap(change.state.points);
@@ -409,6 +418,11 @@ public:
 
 private:
   static constexpr int no_target = -1;
+
+  std::size_t place(const Entry& entry) const
+  {
+    return static_cast<std::size_t>(&entry - m_entries.data());
+  }
 
   // in Release false for what is no vertex, if the domain can tell
   bool is_vertex(vertex_descriptor v) const
@@ -434,16 +448,19 @@ private:
     if(slot == Paged_index_map::none)
     {
       slot = static_cast<int>(m_entries.size());
-      const Point point = m_domain.point(v), rest = this->rest(v);
+      Point point = m_domain.point(v), rest = this->rest(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
       if(m_entries.size() == m_entries.capacity())
         m_entries.reserve(2 * m_entries.size() + 1);
+      if(m_present_points.size() == m_present_points.capacity())
+        m_present_points.reserve(2 * m_present_points.size() + 1);
       if(Domain::coordinates(rest) != Domain::coordinates(point))
       {
         keep_first_points();
         m_first_points.push_back(point);
       }
-      m_entries.push_back({v, no_target, rest, point, 0, false, false, false});
+      m_entries.push_back({v, no_target, std::move(rest), 0, false, false, false});
+      m_present_points.push_back(std::move(point));
       m_slots.set(index, slot);
     }
     return m_entries[slot];
@@ -452,6 +469,7 @@ private:
   Domain m_domain;
   Paged_index_map m_slots; // from Domain::index() to the place in m_entries
   Array<Entry> m_entries;
+  std::vector<Point> m_present_points;
   Array<Target> m_targets;
   Surroundings<Domain> m_surroundings;
   std::vector<Point> m_first_points; // of the entries that had another rest shape
