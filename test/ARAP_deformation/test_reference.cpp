@@ -491,6 +491,7 @@ void test(int fewest_corners, int most_corners)
     double result = 0;
     for(int k = 0; k < 2; ++k) // nothing is left over from one to the next
       result = energy.evaluate(rest, x, rotations.data(), forces.data());
+    CHECK(energy.evaluate(rest, x, rotations.data(), nullptr) == result);
 
     double sum = 0, size = 0;
     std::vector<Eigen::Vector3d> expected(n, Eigen::Vector3d::Zero());

@@ -222,8 +222,8 @@ public:
                    Double4::all(m_chosen_factors[c] * m_stars.weights[e]) * m_rest_values[c]);
   }
 
-  // Returns the energy of the forms in chosen cells, and adds their forces on movable vertices.
-  // prepare() must have been called since the last call.
+  // Returns the energy of the forms in chosen cells, and adds their forces on movable vertices,
+  // unless `force` is nullptr. prepare() must have been called since the last call.
   double evaluate(const Matrix_3x3* rotations, Coordinates* force)
   {
     if(is_none())
@@ -234,7 +234,8 @@ public:
                                         rotations, m_values.data(), &range_energy);
       return range_energy;
     });
-    for_each_block(static_cast<std::size_t>(m_number_of_movable_vertices),
+    const int number_of_forces = force ? m_number_of_movable_vertices : 0;
+    for_each_block(static_cast<std::size_t>(number_of_forces),
                    [&](std::size_t begin, std::size_t end) {
       run_kernel<Form_forces_kernel>(view(m_chosen_factors), static_cast<int>(begin),
                                      static_cast<int>(end), m_values.data(), force);

@@ -203,11 +203,12 @@ public:
 
   // Fits the rotations to the positions x, starting from those given, or identities where there are
   // none yet, and returns the energy.
-  // `force` becomes minus half the gradient for each free vertex, and anything for a fixed one.
+  // `force`, unless it is nullptr, becomes minus half the gradient for each free vertex, and
+  // anything for a fixed one.
   // Without `is_smooth` rotations are fitted as if they need not be smooth.
   double fit_and_evaluate(const Closest_rotations& closest_rotations,
                           const Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
-                          Array<Coordinates>& force, bool is_smooth = true)
+                          Array<Coordinates>* force, bool is_smooth = true)
   {
     complete(rotations);
     prepare_covariances(x);
@@ -302,7 +303,7 @@ public:
   {
     complete(rotations);
     m_bending.prepare(x);
-    return evaluate_prepared(x, rotations, force);
+    return evaluate_prepared(x, rotations, &force);
   }
 
   // Prepares change_of_force() at positions x that the rotations are fitted to. Not where these are
@@ -326,7 +327,7 @@ public:
       const auto k = static_cast<std::size_t>(c);
       m_groups.set(c, m_derivatives[c](covariance, rotations[k]), m_changes);
     });
-    evaluate_prepared(step, m_changes, change);
+    evaluate_prepared(step, m_changes, &change);
   }
 
   void clear_second_derivative()
@@ -442,14 +443,15 @@ private:
 
   // at positions that the bending is prepared for
   double evaluate_prepared(const Points& x, const Array<Matrix_3x3>& rotations,
-                           Array<Coordinates>& force)
+                           Array<Coordinates>* force)
   {
-    force.resize(static_cast<std::size_t>(m_number_of_movable_vertices));
+    if(force)
+      force->resize(static_cast<std::size_t>(m_number_of_movable_vertices));
+    Coordinates* const forces = force ? force->data() : nullptr;
     const double rigidity = std::visit([&](auto& cells) {
-      return cells.evaluate(m_rest, x, rotations.data(), force.data());
+      return cells.evaluate(m_rest, x, rotations.data(), forces);
     }, m_cells);
-    return rigidity + m_bending.evaluate(rotations.data(), force.data()) +
-           m_smooth.evaluate(rotations);
+    return rigidity + m_bending.evaluate(rotations.data(), forces) + m_smooth.evaluate(rotations);
   }
 
   // of the cells of a group; compute_covariances(begin, end, result) does that for cells

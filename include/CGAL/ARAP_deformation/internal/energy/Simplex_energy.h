@@ -283,8 +283,8 @@ public:
       });
   }
 
-  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
-  // movable vertex that is in chosen cells only.
+  // Returns the energy of the chosen cells; `force`, unless it is nullptr, becomes minus half its
+  // gradient, for each movable vertex that is in chosen cells only.
   double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
@@ -295,7 +295,8 @@ public:
                                     m_forces.data(), &range_energy);
       return range_energy;
     }, [&](int begin) { m_forces.clear_block_of(begin); });
-    m_forces.gather(force);
+    if(force)
+      m_forces.gather(force);
     return energy;
   }
 

@@ -238,8 +238,8 @@ public:
       add_star(m_cells.sets.items[k], m_cells.stiffness[c], rest, sum);
   }
 
-  // Returns the energy of the chosen cells; `force` becomes minus half its gradient, for each
-  // movable vertex that has neighbors in chosen cells only.
+  // Returns the energy of the chosen cells; `force`, unless it is nullptr, becomes minus half its
+  // gradient, for each movable vertex that has neighbors in chosen cells only.
   double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
@@ -263,8 +263,9 @@ public:
       stars.opposite_weights =
         (m_opposite_weights.empty() ? m_weights_of_cells : m_opposite_weights).data();
     }
+    const int number_of_forces = force ? m_number_of_movable_vertices : 0;
     return spread_energy + m_chosen.sum([&](int begin, int end) {
-      const int middle = (std::max)(begin, (std::min)(m_number_of_movable_vertices, end));
+      const int middle = (std::max)(begin, (std::min)(number_of_forces, end));
       double movable_energy, other_energy;
       run_kernel<Star_residuals_kernel<true>>(stars, begin, middle, rotations, force,
                                               &movable_energy);

@@ -75,14 +75,15 @@ public:
     measure();
   }
 
-  // the energy at x with the rotations fitted to x
-  double evaluate()
+  // the energy at x with the rotations fitted to x; without its force that takes less time
+  double evaluate(bool is_force_needed = true)
   {
     Scoped_seconds local(report.seconds.local_steps);
     if(m_energy.are_rotations_state()) // each trial starts from those of the last iterate
       m_rotations = m_last_rotations;
     m_system.hard_rows().correct(m_targets.hard, x); // steps have rounding errors
-    return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force));
+    return complete(m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations,
+                                              is_force_needed ? &m_force : nullptr));
   }
 
   // x is back at the last iterate, up to rounding errors: these, and those of a fit that started
@@ -139,7 +140,7 @@ public:
     const double energy = evaluate();
     Array<Matrix_3x3> fitted = m_rotations;
     x.swap(other);
-    m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, m_force, false);
+    m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, nullptr, false);
     keep_rotations();
     if(evaluate_without_fit() < energy)
       return true;

@@ -62,7 +62,9 @@ inline Status minimize_local_global(Minimization& run)
       force_before = add_step(1);
     }
     double t = 1; // the share of the step that is taken; less only if the solver is a bad one
-    run.evaluate();
+    // no step follows the last one
+    bool has_force = run.report.iterations + 1 < run.options.iterations;
+    run.evaluate(has_force);
     const bool is_wrong = run.is_far_higher();
     for(; t > 0 && run.is_higher(); run.evaluate())
     {
@@ -71,11 +73,17 @@ inline Status minimize_local_global(Minimization& run)
         return Status::solver_failed;
       add_step(shorter - t); // back, if rounding errors are all that is left
       t = shorter;
+      has_force = true;
     }
     if(t == 0)
       run.keep_energy();
+    const auto force_after = [&] {
+      if(!has_force)
+        run.evaluate_without_fit();
+      return force_along_step();
+    };
     status = run.next_iterate(run.decrease([&] { return t * force_before; },
-                                           [&] { return t * force_along_step(); }));
+                                           [&] { return t * force_after(); }));
   }
 }
 
