@@ -137,11 +137,13 @@ public:
   // the bounding box of the points of all vertices that cells that count are at
   Bounding_box bounding_box(const Array<Coordinates>& points) const
   {
-    Bounding_box box;
-    for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
-      if(m_is_in_cell[v])
-        box.include(points[v]);
-    return box;
+    return sum_over_blocks(m_is_in_cell.size(), [&](std::size_t begin, std::size_t end) {
+      Bounding_box box;
+      for(std::size_t v = begin; v < end; ++v)
+        if(m_is_in_cell[v])
+          box.include(points[v]);
+      return box;
+    });
   }
 
   // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the

@@ -45,6 +45,16 @@ public:
       include(p);
   }
 
+  friend Bounding_box operator+(Bounding_box a, const Bounding_box& b) // of the points of both
+  {
+    for(std::size_t c = 0; c < 3; ++c)
+    {
+      a.m_least[c] = (std::min)(a.m_least[c], b.m_least[c]);
+      a.m_most[c] = (std::max)(a.m_most[c], b.m_most[c]);
+    }
+    return a;
+  }
+
   // of its diagonal; 0 without any points
   double squared_length() const
   {
