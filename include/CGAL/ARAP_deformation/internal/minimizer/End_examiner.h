@@ -65,7 +65,7 @@ public:
       m_disturbance.emplace(m_run.rest(), m_run.number_of_vertices);
     Second_look look(m_run, *m_disturbance);
     const Second_look::Finding finding = search(look, 1e-3 * tolerated);
-    bool is_convex = finding != Second_look::Finding::negative_curvature;
+    const bool is_convex = finding != Second_look::Finding::negative_curvature;
     if(!is_convex)
     {
       look.turn_to_direction();
@@ -77,17 +77,17 @@ public:
       return Status::converged;
 
     Array<Coordinates> iterate = m_run.x;
-    const double gap = look.gap();
+    const bool is_gap_small = look.gap() <= tolerated;
     End end = End::undecided;
-    if(finding == Second_look::Finding::positive_curvature && gap <= tolerated)
+    if(finding == Second_look::Finding::positive_curvature && is_gap_small)
       end = End::minimum;
     else if(!is_convex && look.is_curvature_negative()) // and not zero
       end = End::flat;
     bool does_hold = false;
-    if(gap <= tolerated)
+    if(is_gap_small)
     {
-      report.estimated_relative_gap =
-        (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
+      report.estimated_relative_gap = (std::max)(report.estimated_relative_gap,
+                                                 m_run.options.tolerance * look.gap() / tolerated);
       if(end == End::undecided && m_is_cut_off)
         return finish(end);
       does_hold = is_convex && does_model_hold(iterate, look, tolerated);
@@ -95,20 +95,7 @@ public:
          m_small_gains >= (is_convex ? 1 : 2) * most_small_gains)
         return finish(!is_convex || does_hold ? end : End::undecided); // as certain as it becomes
     }
-
-    bool is_lower = gap > 0 && !does_hold && descend_along(iterate, look.solution(), 1, 1, 0);
-    if(is_convex && !is_lower)
-    {
-      look.turn_to_solution();
-      sharpen(look);
-      is_convex = !look.is_curvature_negative();
-      if(is_convex)
-        is_lower = descend_along_soft_direction(iterate, look, tolerated);
-      else
-        end = End::flat;
-    }
-    if(!is_convex)
-      is_lower |= descend_from_saddle(iterate, look);
+    const bool is_lower = descend(iterate, look, is_convex, does_hold, tolerated, end);
     if(m_interruption)
     {
       return_to(iterate);
@@ -116,14 +103,8 @@ public:
     }
     if(!is_lower) // rounding errors are all that is left
       return finish(end);
-    ++m_number_of_moves;
     ++(end == End::flat ? report.saddles_left : report.plateaus_left);
-    m_last_energy = start;
-    m_run.distrust_gap();
-    const std::optional<Status> status = m_run.next_iterate(start - m_run.value());
-    if(status == Status::converged) // without another look: the energy is next to zero
-      report.end = End::minimum;
-    return status;
+    return move_on(start);
   }
 
 private:
@@ -225,6 +206,39 @@ private:
     m_run.keep_energy();
   }
 
+  // Moves x to where the energy is lower, if there is such a point: to the minimum of the model, or
+  // along the direction of least curvature. If this is found to be negative, `end` is flat.
+  bool descend(Array<Coordinates>& iterate, Second_look& look, bool is_convex, bool does_hold,
+               double tolerated, End& end)
+  {
+    bool is_lower =
+      look.gap() > 0 && !does_hold && descend_along(iterate, look.solution(), 1, 1, 0);
+    if(is_convex && !is_lower)
+    {
+      look.turn_to_solution();
+      sharpen(look);
+      if(!look.is_curvature_negative())
+        return descend_along_soft_direction(iterate, look, tolerated);
+      is_convex = false;
+      end = End::flat;
+    }
+    if(!is_convex)
+      is_lower |= descend_from_saddle(iterate, look);
+    return is_lower;
+  }
+
+  // makes x the next iterate, from that of this energy
+  std::optional<Status> move_on(double start)
+  {
+    ++m_number_of_moves;
+    m_last_energy = start;
+    m_run.distrust_gap();
+    const std::optional<Status> status = m_run.next_iterate(start - m_run.value());
+    if(status == Status::converged) // without another look: the energy is next to zero
+      m_run.report.end = End::minimum;
+    return status;
+  }
+
   // Whether the model of the energy holds behind its minimum, as far from it as x is, where it has
   // the value that it has at x. If not, as in a curved valley, it does not tell what is left.
   bool does_model_hold(const Array<Coordinates>& iterate, const Second_look& look, double tolerated)
@@ -242,8 +256,8 @@ private:
   // further on. Goes along the direction to where the model has risen by what is tolerated, and
   // from there by steps of local/global, as long as these promise to fall by twice the gap of the
   // model, and a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
-  // were at most 0.0085 of that of the Laplacian; how they compare with a coarse metric is not
-  // known.
+  // were at most 0.0085 of that of the Laplacian. Of a coarse metric they are four to five times as
+  // much; shapes that are large enough for one are softer than any bound.
   bool descend_along_soft_direction(Array<Coordinates>& iterate, Second_look& look,
                                     double tolerated)
   {
