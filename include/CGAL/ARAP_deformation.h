@@ -212,7 +212,7 @@ public:
   template <typename InputIterator>
   void insert_roi_vertices(InputIterator begin, InputIterator end)
   {
-    for(; begin != end; ++begin) insert_roi_vertex(*begin);
+    m_session.insert_roi(begin, end);
   }
 
   /// inserts the vertices of a range in the region of interest.

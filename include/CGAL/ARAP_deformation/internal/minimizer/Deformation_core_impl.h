@@ -66,7 +66,7 @@ struct Deformation_core::State
   Constrained_system system;
   Free_neighborhood free_neighborhood;
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
-  Array<int> parts; // for each movable vertex: see Rigid_start
+  Array<int> parts; // for each movable vertex, until there is a Rigid_start: see there
   std::optional<Rigid_start> rigid_start;
   std::unique_ptr<Coarse_metric> coarse_metric; // once a run has made it
 };
@@ -400,7 +400,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
     {
       if(!m_state->rigid_start)
+      {
         m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
+        m_state->parts = Array<int>();
+      }
       is_placed = (*m_state->rigid_start)(m_region, m_squared_size, m_constraints, targets,
                                           is_laplacian, x);
     }

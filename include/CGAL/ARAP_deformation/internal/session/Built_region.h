@@ -80,6 +80,7 @@ struct Built_region : Built_core
     if(!region->collect(domain, movable, static_cast<int>(options.cells.rings())))
       return outcome_of_vertex(region->refusal(), region->refused_vertex());
 
+    numbers_of_entries.reserve(vertices.entries().size());
     for(const auto& entry : vertices.entries())
       numbers_of_entries.push_back(region->find_vertex(domain, entry.vertex));
     for(vertex_descriptor v : region->vertices)

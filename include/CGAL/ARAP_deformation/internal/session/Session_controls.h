@@ -38,6 +38,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -113,6 +114,18 @@ public:
   bool insert_roi(vertex_descriptor v)
   {
     return !refuse_in_a_run() && m_vertices.insert_roi(v) && region_changed();
+  }
+
+  template <typename InputIterator>
+  void insert_roi(InputIterator begin, InputIterator end)
+  {
+    using Category = typename std::iterator_traits<InputIterator>::iterator_category;
+    if(refuse_in_a_run())
+      return;
+    if constexpr(std::is_base_of_v<std::forward_iterator_tag, Category>)
+      m_vertices.reserve(static_cast<std::size_t>(std::distance(begin, end)));
+    for(; begin != end; ++begin)
+      insert_roi(*begin);
   }
 
   bool erase_roi(vertex_descriptor v)

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/session/Session_targets.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -65,7 +66,8 @@ public:
         if(entry.is_roi || !m_rules.are_erased_put_back)
           domain().set_point(entry.vertex, entry.rest);
     });
-    m_vertices.present_points().swap(points);
+    // not swapped: what is allocated last is to be freed first
+    std::move(points.begin(), points.end(), m_vertices.present_points().begin());
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
       {

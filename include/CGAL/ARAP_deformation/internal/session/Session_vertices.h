@@ -25,6 +25,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -133,6 +134,16 @@ public:
   Entry* find(vertex_descriptor v)
   {
     return const_cast<Entry*>(std::as_const(*this).find(v));
+  }
+
+  // allocates memory for so many more vertices
+  void reserve(std::size_t n)
+  {
+    const std::size_t needed = m_entries.size() + n;
+    if(needed > m_entries.capacity())
+      m_entries.reserve((std::max)(needed, 2 * m_entries.size()));
+    if(needed > m_present_points.capacity())
+      m_present_points.reserve((std::max)(needed, 2 * m_present_points.size()));
   }
 
   // to be called when the vertices of a region have been inserted
@@ -450,10 +461,7 @@ private:
       slot = static_cast<int>(m_entries.size());
       Point point = m_domain.point(v), rest = this->rest(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
-      if(m_entries.size() == m_entries.capacity())
-        m_entries.reserve(2 * m_entries.size() + 1);
-      if(m_present_points.size() == m_present_points.capacity())
-        m_present_points.reserve(2 * m_present_points.size() + 1);
+      reserve(1);
       if(Domain::coordinates(rest) != Domain::coordinates(point))
       {
         keep_first_points();
