@@ -574,7 +574,8 @@ public:
   /// \name Deformation
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
   /// result throws, only the object is: points written before keep their new values.)
-  /// A visitor must not change the object. This is a precondition; in Release such calls fail.
+  /// A visitor must not change the object, nor must a map or a function that a call reads. This is
+  /// a precondition; in Release such calls fail.
   /// @{
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the

@@ -36,9 +36,12 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <list>
 #include <memory>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -1054,6 +1057,31 @@ void test_targets()
   CHECK(pair.other_factorizations() == 1);
 }
 
+// Ranges of any iterators, with vertices that are there more than once.
+void test_ranges()
+{
+  test_case() = "ranges";
+  using Domain = CGAL::ARAP::Simplex_soup_domain<2, std::vector<Point>, Triangles>;
+  const Shape shape = octahedron();
+  std::vector<Point> points = points_of(shape.points);
+  CGAL::ARAP_deformation<Domain> d{Domain(points, shape.triangles)};
+  using Vertices = std::vector<std::size_t>;
+  using From_text = std::istream_iterator<std::size_t>;
+  std::istringstream text("5 5 0");
+  d.insert_roi_vertices(From_text(text), From_text());
+  CHECK((d.roi_vertices() == Vertices{5, 0}));
+  d.insert_roi_vertices(std::list<std::size_t>{0, 3, 3, 1});
+  CHECK((d.roi_vertices() == Vertices{5, 0, 3, 1}));
+  d.clear_roi_vertices();
+  d.insert_roi_vertices(Vertices());
+  CHECK(d.roi_vertices().empty());
+  d.insert_roi_vertices(Vertices{4, 0, 4, 2, 5, 1, 3});
+  CHECK((d.roi_vertices() == Vertices{4, 0, 2, 5, 1, 3}));
+  d.insert_control_vertex(4, points[4]);
+  d.insert_control_vertex(5, Point(3, 1, 2));
+  CHECK(d.deform(3, 0) && points[5] == Point(3, 1, 2));
+}
+
 void test_all()
 {
   test_random_changes<Solver>("Multifrontal_cholesky_solver");
@@ -1066,6 +1094,7 @@ void test_all()
   test_stages();
   test_order_of_free_vertices();
   test_history();
+  test_ranges();
   test_indefinite_matrix();
   test_exception();
   test_limits();

@@ -386,7 +386,6 @@ void test_visitor()
   CHECK(same_points(meshes[0], meshes[1]));
 }
 
-// no free vertices, no iterations
 // A run that is cut off reports what one does that a visitor stops at the same iterate, which needs
 // another force there: also where the decrease is less than the rounding error of the energy.
 void test_cut_off()
@@ -427,6 +426,7 @@ void test_cut_off()
     }
 }
 
+// no free vertices, no iterations
 void test_nothing_to_do()
 {
   test_case() = "nothing to do";

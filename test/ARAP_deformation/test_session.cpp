@@ -1326,6 +1326,8 @@ void test_all()
   CHECK(d.deform([&](const auto&) {
     was_called = true;
     CHECK(!d.erase_roi_vertex(v) && !d.insert_control_vertex(v));
+    d.insert_roi_vertices(mesh.vertices());
+    CHECK(d.roi_vertices().size() == 2);
     d.clear_roi_vertices();
     d.reset();
     d.overwrite_initial_geometry();
@@ -1339,6 +1341,22 @@ void test_all()
   CHECK(was_called && mesh.point(w) == Point(3, 1, 2));
   CHECK(d.rotation(v) != identity);
   CHECK(d.simplex_rotation(Mesh::Face_index(0)) == identity);
+
+  // and so is a force, or the stiffness of a cell
+  const auto state = d.state();
+  const auto is_refused = [&] {
+    return d.restore(state).status == CGAL::ARAP::Status::in_a_run && !d.erase_control_vertex(w);
+  };
+  CHECK(d.advance(CGAL::ARAP::Dynamics(), [&](Mesh::Vertex_index) {
+    CHECK(is_refused());
+    return Kernel::Vector_3(0, 0, 0);
+  }));
+  CHECK(d.is_control_vertex(w));
+  d.set_stiffness([&](Mesh::Vertex_index) {
+    CHECK(is_refused());
+    return 2.0;
+  });
+  CHECK(d.preprocess() && d.is_control_vertex(w));
 }
 
 } // namespace misuse

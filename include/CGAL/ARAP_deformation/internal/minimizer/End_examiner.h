@@ -77,7 +77,8 @@ public:
       return Status::converged;
 
     Array<Coordinates> iterate = m_run.x;
-    const bool is_gap_small = look.gap() <= tolerated;
+    const double gap = look.gap();
+    const bool is_gap_small = gap <= tolerated;
     End end = End::undecided;
     if(finding == Second_look::Finding::positive_curvature && is_gap_small)
       end = End::minimum;
@@ -86,8 +87,8 @@ public:
     bool does_hold = false;
     if(is_gap_small)
     {
-      report.estimated_relative_gap = (std::max)(report.estimated_relative_gap,
-                                                 m_run.options.tolerance * look.gap() / tolerated);
+      report.estimated_relative_gap =
+        (std::max)(report.estimated_relative_gap, m_run.options.tolerance * gap / tolerated);
       if(end == End::undecided && m_is_cut_off)
         return finish(end);
       does_hold = is_convex && does_model_hold(iterate, look, tolerated);
@@ -95,7 +96,7 @@ public:
          m_small_gains >= (is_convex ? 1 : 2) * most_small_gains)
         return finish(!is_convex || does_hold ? end : End::undecided); // as certain as it becomes
     }
-    const bool is_lower = descend(iterate, look, is_convex, does_hold, tolerated, end);
+    const bool is_lower = descend(iterate, look, is_convex, gap > 0 && !does_hold, tolerated, end);
     if(m_interruption)
     {
       return_to(iterate);
@@ -206,28 +207,28 @@ private:
     m_run.keep_energy();
   }
 
-  // Moves x to where the energy is lower, if there is such a point: to the minimum of the model, or
-  // along the direction of least curvature. If this is found to be negative, `end` is flat.
-  bool descend(Array<Coordinates>& iterate, Second_look& look, bool is_convex, bool does_hold,
-               double tolerated, End& end)
+  // Moves x to where the energy is lower, if there is such a point: to the minimum of the model, if
+  // that may be one, or along the direction of least curvature. If this curvature turns out to be
+  // negative, `end` becomes flat.
+  bool descend(Array<Coordinates>& iterate, Second_look& look, bool is_convex,
+               bool may_be_at_solution, double tolerated, End& end)
   {
-    bool is_lower =
-      look.gap() > 0 && !does_hold && descend_along(iterate, look.solution(), 1, 1, 0);
-    if(is_convex && !is_lower)
+    const bool is_at_solution =
+      may_be_at_solution && descend_along(iterate, look.solution(), 1, 1, 0);
+    if(is_convex && is_at_solution)
+      return true;
+    if(is_convex)
     {
       look.turn_to_solution();
       sharpen(look);
       if(!look.is_curvature_negative())
         return descend_along_soft_direction(iterate, look, tolerated);
-      is_convex = false;
       end = End::flat;
     }
-    if(!is_convex)
-      is_lower |= descend_from_saddle(iterate, look);
-    return is_lower;
+    return descend_from_saddle(iterate, look) || is_at_solution;
   }
 
-  // makes x the next iterate, from that of this energy
+  // makes x the next iterate; `start` is the energy of the last one
   std::optional<Status> move_on(double start)
   {
     ++m_number_of_moves;
@@ -256,8 +257,8 @@ private:
   // further on. Goes along the direction to where the model has risen by what is tolerated, and
   // from there by steps of local/global, as long as these promise to fall by twice the gap of the
   // model, and a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
-  // were at most 0.0085 of that of the Laplacian. Of a coarse metric they are four to five times as
-  // much; shapes that are large enough for one are softer than any bound.
+  // were at most 0.0085 of that of the Laplacian. With a coarse metric the same shapes have four to
+  // five times as much. There is no bound for it: shapes that are large enough for one are soft.
   bool descend_along_soft_direction(Array<Coordinates>& iterate, Second_look& look,
                                     double tolerated)
   {

@@ -153,7 +153,7 @@ public:
   const Array<Coordinates>& rest() const { return m_region.rest; }
   bool is_nothing_free() const { return m_fixed_vertices.size() == number_of_vertices; }
 
-  // minus half the gradient where the energy was last evaluated
+  // minus half the gradient where the energy was last evaluated with it
   const Array<Coordinates>& force() const { return m_force; }
 
   // Whether the second derivative is known. Smooth rotations depend on each other. A time step has

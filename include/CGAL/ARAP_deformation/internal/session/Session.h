@@ -195,6 +195,7 @@ private:
   // brings all stages up to date for a run with these options and this inertia
   Outcome prepare(const Options& options, double inertia, double& preprocess)
   {
+    const Scoped_flag in_a_run(m_is_in_a_run);
     Scoped_seconds seconds(preprocess);
     m_prepared.set_inertia(inertia);
     return m_prepared.prepare(m_vertices, this->m_cell_values, options, m_stages);
@@ -211,6 +212,7 @@ private:
     report.stages = std::exchange(m_stages, {});
     if(!prepared)
       return prepared;
+    const Scoped_flag in_a_run(m_is_in_a_run); // forces and sets are functions of the user, too
     Run run = [&] {
       Scoped_seconds seconds(report.seconds.transfer);
       return Run(m_prepared.built(), m_prepared.rows(), report);
@@ -224,7 +226,6 @@ private:
       if(!begun)
         return begun;
     }
-    const Scoped_flag in_a_run(m_is_in_a_run);
     Outcome result = execute(run, options, visitor, report);
     if(result)
     {
@@ -297,9 +298,8 @@ private:
     m_prepared.positions().swap(positions);
   }
 
-  // The new points of all entries. Of the region of interest these are, of the free vertices, their
-  // positions, of the hard control vertices their targets, and of all other fixed vertices where
-  // they are.
+  // The new points of all entries: a free vertex is at its position, a hard control vertex at its
+  // target, what is put back at its rest point, and all others stay.
   std::vector<Point> new_points(const Array<Coordinates>& positions) const
   {
     const std::vector<Point>& present = m_vertices.present_points();

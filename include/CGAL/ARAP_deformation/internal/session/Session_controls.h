@@ -123,7 +123,8 @@ public:
     if(refuse_in_a_run())
       return;
     if constexpr(std::is_base_of_v<std::forward_iterator_tag, Category>)
-      m_vertices.reserve(static_cast<std::size_t>(std::distance(begin, end)));
+      if(m_vertices.entries().empty()) // later, many of them may be there
+        m_vertices.reserve(static_cast<std::size_t>(std::distance(begin, end)));
     for(; begin != end; ++begin)
       insert_roi(*begin);
   }
@@ -192,8 +193,12 @@ public:
         held.coordinates[k] /= sum;
     held.target.point = Domain::make_point(held.position(
       [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
-    const auto [point, is_region_other] = m_vertices.insert_point(std::move(held));
-    is_region_other ? region_changed() : constraints_changed();
+    // before what may throw: no region that is there knows the entries that are made
+    const bool is_in_roi =
+      std::all_of(held.corners.begin(), held.corners.end(),
+                  [this](vertex_descriptor v) { return m_vertices.is_roi(v); });
+    is_in_roi ? constraints_changed() : region_changed();
+    const Control_point point = m_vertices.insert_point(std::move(held));
     return Control_point_insertion(Outcome(Status::success, std::string()), point);
   }
 

@@ -66,7 +66,7 @@ public:
         if(entry.is_roi || !m_rules.are_erased_put_back)
           domain().set_point(entry.vertex, entry.rest);
     });
-    // not swapped: what is allocated last is to be freed first
+    // not swapped: where the present points were, nothing else would fit
     std::move(points.begin(), points.end(), m_vertices.present_points().begin());
     for(std::size_t k = 0; k < targets.size(); ++k)
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
@@ -179,7 +179,8 @@ protected:
   std::vector<Point> points_of_entries(const Function& f) const
   {
     const std::vector<Entry>& entries = m_vertices.entries();
-    // copies of one: points need no default constructor
+    // copies of one, which push_back() would take twice the time for; points need no default
+    // constructor
     std::vector<Point> points(entries.size(), Domain::make_point({0, 0, 0}));
     for(std::size_t k = 0; k < points.size(); ++k)
       points[k] = f(k, entries[k]);

@@ -264,8 +264,8 @@ public:
     return is_change;
   }
 
-  // Inserts the corners in the region of interest, and returns whether one of them was not there.
-  std::pair<Control_point, bool> insert_point(Held_point held)
+  // inserts the corners in the region of interest, too
+  Control_point insert_point(Held_point held)
   {
     const Control_point point(m_last_point + 1);
     std::vector<std::size_t> corners; // their places: what can throw comes first
@@ -273,10 +273,9 @@ public:
       corners.push_back(place(find_or_insert(v)));
     m_points.emplace(point, std::move(held));
     ++m_last_point;
-    bool is_region_other = false;
     for(std::size_t k : corners)
-      is_region_other |= enter_roi(m_entries[k]);
-    return {point, is_region_other};
+      enter_roi(m_entries[k]);
+    return point;
   }
 
   bool erase_point(Control_point point) { return m_points.erase(point) > 0; }
@@ -430,7 +429,7 @@ public:
 private:
   static constexpr int no_target = -1;
 
-  std::size_t place(const Entry& entry) const
+  std::size_t place(const Entry& entry) const // of one of m_entries, no copy
   {
     return static_cast<std::size_t>(&entry - m_entries.data());
   }
@@ -468,7 +467,15 @@ private:
         m_first_points.push_back(point);
       }
       m_entries.push_back({v, no_target, std::move(rest), 0, false, false, false});
-      m_present_points.push_back(std::move(point));
+      try
+      {
+        m_present_points.push_back(std::move(point));
+      }
+      catch(...) // a point may have no move constructor
+      {
+        m_entries.pop_back();
+        throw;
+      }
       m_slots.set(index, slot);
     }
     return m_entries[slot];
