@@ -257,9 +257,25 @@ struct Faulty_point : Bare_point
   }
 };
 
-struct Solid_of_faulty_points
+// the same, but all of its moves are copies
+struct Copied_point : Bare_point
 {
-  using Points = std::vector<Faulty_point>;
+  using Bare_point::Bare_point;
+
+  Copied_point(const Copied_point& other) : Bare_point(other) { throw_if_hit(point_faults); }
+
+  Copied_point& operator=(const Copied_point& other)
+  {
+    throw_if_hit(point_faults);
+    Bare_point::operator=(other);
+    return *this;
+  }
+};
+
+template <typename Point_>
+struct Solid_of
+{
+  using Points = std::vector<Point_>;
   using Base = CGAL::ARAP::Tetrahedron_soup_domain<Points, Solid::Tetrahedra>;
 
   // writes points without a fault, so that a failure has to leave them as they were
@@ -271,9 +287,9 @@ struct Solid_of_faulty_points
       : Base(points, tetrahedra), written(&points)
     {}
 
-    void set_point(std::size_t v, const Faulty_point& p) const
+    void set_point(std::size_t v, const Point_& p) const
     {
-      (*written)[v] = Faulty_point(p[0], p[1], p[2]);
+      (*written)[v] = Point_(p[0], p[1], p[2]);
     }
   };
 
@@ -281,7 +297,7 @@ struct Solid_of_faulty_points
   Solid::Tetrahedra tetrahedra;
   Scenario fixed;
 
-  Solid_of_faulty_points()
+  Solid_of()
   {
     const Solid solid;
     for(const Point& p : solid.points)
@@ -292,15 +308,45 @@ struct Solid_of_faulty_points
 
   Domain domain() { return Domain(points, tetrahedra); }
   std::vector<std::size_t> vertices() const { return numbers(points.size()); }
-  const Faulty_point& point(std::size_t v) const { return points[v]; }
+  const Point_& point(std::size_t v) const { return points[v]; }
 };
 
 void test_points()
 {
   Fault_statistics statistics("copies of points");
-  using Session_ = Session<Solid_of_faulty_points>;
+  using Session_ = Session<Solid_of<Faulty_point>>;
   test_stories(Fault_test<Session_>(point_faults, statistics), "points", Cell_scheme::elements());
   test_story_of_undo(Fault_test<Session_>(point_faults, statistics), "points, undo");
+}
+
+// A vertex that cannot be inserted leaves no point behind that restore() would take for another's.
+void test_undo_after_failed_insertion()
+{
+  test_case() = "undo after an insertion that failed";
+  bool has_thrown = true;
+  for(std::size_t first = 0; has_thrown; ++first)
+  {
+    Solid_of<Copied_point> solid;
+    CGAL::ARAP_deformation d(solid.domain());
+    for(std::size_t v = 0; v < 8; ++v)
+      d.insert_roi_vertex(v);
+    d.insert_control_vertex(0);
+    CHECK(d.preprocess()); // which keeps the rest shape of the vertices around
+    const auto state = d.state();
+    const std::size_t inserted[] = {8, 9};
+    for(std::size_t v : inserted)
+      solid.points[v] = Copied_point(10 + double(v), 0, 0);
+    has_thrown = false;
+    point_faults.arm(first, false);
+    try { d.insert_roi_vertex(inserted[0]); }
+    catch(const Fault&) { has_thrown = true; }
+    point_faults.disarm();
+    CHECK(has_thrown || first > 3);
+    CHECK(d.insert_roi_vertex(inserted[1]));
+    CHECK(d.restore(state));
+    for(std::size_t v : inserted)
+      CHECK(solid.points[v][0] == 10 + double(v));
+  }
 }
 
 // the points of a surface, which may fail to be read and written
@@ -416,6 +462,7 @@ int main()
   test_visitors();
   test_domain();
   test_points();
+  test_undo_after_failed_insertion();
   test_points_after_faults();
   test_drop_in_class();
   return faults_result();

@@ -454,31 +454,39 @@ private:
   Entry& find_or_insert(vertex_descriptor v)
   {
     const std::size_t index = m_domain.index(v);
-    int slot = m_slots[index];
-    if(slot == Paged_index_map::none)
+    if(m_slots[index] == Paged_index_map::none)
     {
-      slot = static_cast<int>(m_entries.size());
-      Point point = m_domain.point(v), rest = this->rest(v);
       m_slots.reserve(index); // so that what throws throws before anything is changed
       reserve(1);
+      insert(v);
+      m_slots.set(index, static_cast<int>(m_entries.size() - 1));
+    }
+    return m_entries[m_slots[index]];
+  }
+
+  // Appends an entry, or leaves all as it was: points may have no move constructor, and throw.
+  void insert(vertex_descriptor v)
+  {
+    const std::size_t size = m_entries.size();
+    Point point = m_domain.point(v), rest = this->rest(v);
+    try
+    {
       if(Domain::coordinates(rest) != Domain::coordinates(point))
       {
         keep_first_points();
         m_first_points.push_back(point);
       }
+      m_present_points.push_back(std::move(point));
       m_entries.push_back({v, no_target, std::move(rest), 0, false, false, false});
-      try
-      {
-        m_present_points.push_back(std::move(point));
-      }
-      catch(...) // a point may have no move constructor
-      {
-        m_entries.pop_back();
-        throw;
-      }
-      m_slots.set(index, slot);
     }
-    return m_entries[slot];
+    catch(...)
+    {
+      if(m_first_points.size() > size)
+        m_first_points.pop_back();
+      if(m_present_points.size() > size)
+        m_present_points.pop_back();
+      throw;
+    }
   }
 
   Domain m_domain;
