@@ -69,7 +69,7 @@ public:
     if(!is_convex)
     {
       look.turn_to_direction();
-      sharpen(look);
+      sharpen(look, most_turns_at_saddle);
     }
     if(m_interruption)
       return m_interruption;
@@ -111,6 +111,7 @@ public:
 private:
   static constexpr unsigned int most_steps = 200; // of a look
   static constexpr int most_turns = 30; // of a direction, toward the least curvature
+  static constexpr int most_turns_at_saddle = 10; // where any negative curvature will do
   static constexpr unsigned int most_moves = 10; // if the gap is small
   static constexpr unsigned int most_small_gains = 2; // by moves in a row
 
@@ -168,9 +169,9 @@ private:
     return finding;
   }
 
-  void sharpen(Second_look& look)
+  void sharpen(Second_look& look, int turns)
   {
-    for(int k = 0; k < most_turns && goes_on() && look.sharpen(); ++k)
+    for(int k = 0; k < turns && goes_on() && look.sharpen(); ++k)
       count_look();
   }
 
@@ -220,7 +221,7 @@ private:
     if(is_convex)
     {
       look.turn_to_solution();
-      sharpen(look);
+      sharpen(look, most_turns);
       if(!look.is_curvature_negative())
         return descend_along_soft_direction(iterate, look, tolerated);
       end = End::flat;
