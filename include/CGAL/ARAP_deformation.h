@@ -80,8 +80,9 @@ using Call_turn = Requires_convertible<
 /// Time and memory are proportional to the number of vertices that were ever in the region of
 /// interest, and not to that of the mesh, if the mesh has, or is given, an index map. The mesh must
 /// outlive the object. While the object exists, the connectivity of the mesh must not change. A run
-/// starts from the points that the mesh has then, also where others have moved them; the rest shape
-/// stays what it is. All computations are in `double`, whatever the type of the points.
+/// starts from the points that the mesh has then, also where others have moved them, or with an
+/// output map from its own last result; the rest shape stays what it is. All computations are in
+/// `double`, whatever the type of the points.
 ///
 /// \tparam Mesh the type of the mesh, or of its domain
 /// \tparam Traits a model of `ARAPDeformationTraits`, default `ARAP_deformation_traits<>`
@@ -358,7 +359,8 @@ public:
     return points;
   }
 
-  /// returns where a control point is now. \pre `is_control_point(point)`
+  /// returns where a control point is now; in Release, the origin for what is no control point.
+  /// \pre `is_control_point(point)`
   Point control_point_position(ARAP::Control_point point) const
   {
     CGAL_precondition(is_control_point(point));
@@ -476,8 +478,8 @@ public:
   }
 
   /// returns the target of a control vertex or a control point, or if it is a set, the projection
-  /// of the current position; in Release, the point of any other vertex. \pre `handle` is a
-  /// control vertex or a control point.
+  /// of the current position; in Release, the point of any other vertex, and the origin for what is
+  /// no control point. \pre `handle` is a control vertex or a control point.
   template <typename Handle>
   Point target_position(const Handle& handle) const
   {
@@ -531,7 +533,7 @@ public:
   /// generic lambda, or of another function object without one `operator()`, are vertices:
   /// `ARAP::of_simplices()` of it takes simplices. Where cells are simplices, a run refuses one
   /// without it, with `ARAP::Status::undeclared_map`. The functions themselves return
-  /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a visitor calls them.
+  /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a run calls them.
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
@@ -704,7 +706,8 @@ public:
 
   /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`; the identity
   /// where `v` has no cell in the region and, until the next call, after `reset()`,
-  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells.
+  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells, also by
+  /// `restore()`.
   /// \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {
@@ -714,8 +717,9 @@ public:
   }
 
   /// returns the rotation of the cell of `s` after the last `deform()` or `advance()`; the identity
-  /// where `s` has no cell in the region, and after a change of the region of interest or the cells
-  /// until the next call. \pre `!options().cells.has_vertex_cells()`
+  /// where `s` has no cell in the region and, until the next call, after `reset()`,
+  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells, also by
+  /// `restore()`. \pre `!options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
     CGAL_precondition_msg(!options().cells.has_vertex_cells(),

@@ -360,6 +360,44 @@ void test_twist()
   });
 }
 
+// A bar whose middle was turned over holds a twist between two ends, but not between an end and a
+// single control point, in however many vertices that is: then the bar is placed.
+void test_control_point_and_handle()
+{
+  const Block shape = block(20, 4, 4);
+  const Eigen::AlignedBox3d box = bounding_box(shape.points);
+  const Affine_map turn =
+    motion_about(box.center(), rigid_motion(std::acos(-1.0), {1, 0, 0}, {0, 0, 0}));
+  const auto x = [&](std::size_t v) { return shape.points[v].x() - box.min().x(); };
+  const double length = box.sizes().x();
+  for(const bool is_point : {false, true})
+  {
+    test_case() = is_point ? "handle and control point" : "two handles";
+    std::vector<Point> points = points_of(shape.points);
+    using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>,
+                                                       std::vector<std::array<std::size_t, 4>>>;
+    CGAL::ARAP_deformation d(Domain(points, shape.tetrahedra));
+    for(std::size_t v = 0; v < points.size(); ++v)
+    {
+      d.insert_roi_vertex(v);
+      if(x(v) == 0 || (!is_point && x(v) == length))
+        d.insert_control_vertex(v);
+    }
+    for(std::size_t s = 0; is_point && s < shape.tetrahedra.size(); ++s)
+      if(const auto& t = shape.tetrahedra[s];
+         std::all_of(t.begin(), t.end(), [&](std::size_t v) { return x(v) > 0.9 * length; }))
+      {
+        CHECK(d.insert_control_point(s, {0.25, 0.25, 0.25, 0.25}));
+        break;
+      }
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(x(v) > 0.3 * length && x(v) < 0.7 * length)
+        points[v] = point(turn * shape.points[v]);
+    const Report report = d.deform(200, 1e-3);
+    CHECK(report && (report.iterations == 0) == is_point);
+  }
+}
+
 // The guess of naive Laplacian editing knows no rotations; where constraints move rigidly it is not
 // asked for.
 void test_laplacian()
@@ -1247,6 +1285,7 @@ int main()
   rigid::test_fixed_simplex();
   rigid::test_deformed();
   rigid::test_twist();
+  rigid::test_control_point_and_handle();
   rigid::test_laplacian();
   rigid::test_laplacian_beside_others();
   rigid::test_line();

@@ -474,8 +474,9 @@ void test_tolerance()
         CHECK_AT_MOST(gap, 10 * tolerance);
         CHECK_AT_MOST(report.iterations - report.looking_iterations,
                       2 * iterations_to(minimum + tolerance * unit, all) + 10);
-        CHECK_AT_MOST(report.looking_iterations,
-                      120 * (1 + report.saddles_left + report.plateaus_left));
+        const unsigned int looks = report.end == CGAL::ARAP::End::unknown
+                                   ? 0 : 1 + report.saddles_left + report.plateaus_left;
+        CHECK_AT_MOST(report.looking_iterations, 120 * looks); // 111 on the ellipsoid, else 21
       }
     }
   CHECK_AT_MOST(5 * number_of_larger_gaps, number_of_runs);

@@ -541,6 +541,76 @@ void test_rotations_between_runs()
     CHECK_AT_MOST(std::abs(after_a_detour[k] - after_a_run[k]), 1e-9 * after_a_run[k]);
 }
 
+Shape bumpy_sheet()
+{
+  return grid("bumpy sheet", 8, 8, [](double u, double v) {
+    return Eigen::Vector3d(8 * u, 8 * v, std::sin(5 * u) * std::cos(4 * v));
+  });
+}
+
+// A region that was changed and is restored before a run needs no work, and has its energy again;
+// one that was prepared meanwhile has the energy, too.
+void test_energy_after_undo()
+{
+  test_case() = "the energy after undo";
+  const Shape shape = bumpy_sheet();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation d(mesh);
+  const Vertex last(shape.points.size() - 1);
+  for(Vertex v : mesh.vertices())
+    if(v != last)
+      d.insert_roi_vertex(v);
+  d.insert_control_vertex(Vertex(0));
+  d.insert_control_vertex(Vertex(20));
+  d.insert_control_vertex(Vertex(40), Point(1, 2, 3));
+  CHECK(d.deform(5, 0));
+  const double energy = d.energy();
+  const auto rotation = d.rotation(Vertex(30));
+  const auto state = d.state();
+  for(bool is_run : {false, true})
+  {
+    CHECK(d.insert_roi_vertex(last) && std::isnan(d.energy()));
+    CHECK(!is_run || d.deform(5, 0));
+    CHECK(d.restore(state) && d.energy() == energy);
+    CHECK(is_run || d.rotation(Vertex(30)) == rotation);
+    const CGAL::ARAP::Report report = d.deform(0, 0);
+    CHECK(report.stages.region == is_run && report.stages.weights == is_run);
+    CHECK(report.stages.factor == is_run);
+    CHECK_AT_MOST(std::abs(report.final_energy() / energy - 1), 1e-12);
+    CHECK(d.restore(state));
+  }
+  CGAL::ARAP::Options options = d.options();
+  const CGAL::ARAP::Options before = options;
+  options.cells = CGAL::ARAP::Cell_scheme::k_ring(1);
+  options.bending_length = 1;
+  CHECK(d.set_options(options));
+  options.cells = before.cells;
+  CHECK(d.set_options(options) && d.restore(state) && std::isnan(d.energy()));
+  CHECK(d.deform(0, 0).stages.weights && d.set_options(before) && d.restore(state));
+  CHECK(d.set_stiffness([](Vertex) { return 2.0; }));
+  CHECK(d.restore(state) && std::isnan(d.energy()));
+}
+
+// A transformation that changes the object is asked before targets are touched.
+void test_transformation_that_inserts()
+{
+  test_case() = "a transformation that inserts control vertices";
+  Mesh mesh = make_mesh<Mesh>(bumpy_sheet());
+  Deformation d(mesh);
+  d.insert_roi_vertices(vertices(mesh));
+  d.insert_control_vertex(Vertex(0));
+  CHECK(d.transform(Vertex(0), [&](const Point& p) {
+    for(int v = 1; v < 40; ++v)
+      d.insert_control_vertex(Vertex(v));
+    return p + Kernel::Vector_3(0, 0, 1);
+  }));
+  CHECK(d.target_position(Vertex(0)) == mesh.point(Vertex(0)) + Kernel::Vector_3(0, 0, 1));
+  CHECK(d.transform(Vertex(5), [&](const Point& p) {
+    d.erase_control_vertex(Vertex(5));
+    return p;
+  }).status == Status::not_a_control_vertex);
+}
+
 // A state from before the first run knows the rest shape of what is found around the region later,
 // also if that was overwritten meanwhile.
 void test_state_before_the_first_run()
@@ -614,6 +684,8 @@ void test_handles_on_a_line()
 
 void test_all()
 {
+  test_energy_after_undo();
+  test_transformation_that_inserts();
   test_state_before_the_first_run();
   test_handles_on_a_line();
   test_rotations_between_runs();

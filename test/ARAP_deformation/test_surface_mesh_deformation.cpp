@@ -694,11 +694,20 @@ void test_failures()
   deformation.overwrite_initial_geometry();
   CHECK(deformation.deform());
 
+  test_case() = "an erased control vertex whose target was not finite";
+  const Mesh::Vertex_index pulled(40);
+  deformation.insert_control_vertex(pulled);
+  CHECK(deformation.set_target_position(pulled, Point(0, std::nan(""), 0)));
+  CHECK(names(deformation.deform(), 40));
+  deformation.erase_control_vertex(pulled);
+  CHECK(deformation.deform());
+
   test_case() = "smoothed rotations";
   Mesh smooth = make_mesh<Mesh>(sphere);
   Our_class<Mesh, CGAL::SRE_ARAP> smoothed(smooth);
   prepare(smoothed, scenario(sphere), all_vertices(smooth));
   smoothed.set_sre_arap_alpha(std::nan(""));
+  CHECK(!smoothed.preprocess() && smoothed.outcome().status == Status::invalid_option);
   CHECK(smoothed.deform().status == Status::invalid_option);
   CHECK(same_points(smooth, make_mesh<Mesh>(sphere)));
   smoothed.set_sre_arap_alpha(0);

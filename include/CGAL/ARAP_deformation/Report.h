@@ -34,7 +34,7 @@ struct Phase_seconds
   double local_steps = 0;   ///< rotations, energy and gradient, over all iterations
   double global_steps = 0;  ///< solves with the factor, over all iterations, and coarse metrics
   double visitor = 0;       ///< in the visitor
-  double total = 0;         ///< the whole call: the sum, up to a few microseconds
+  double total = 0;         ///< the whole call: the sum of these and of all other work
 };
 
 /// \ingroup PkgARAPDeformationRun
@@ -46,7 +46,7 @@ enum class End
   minimum, ///< a local minimum: no direction of negative curvature was found, and the gap is within
            ///< the tolerance by the second derivative, too; or the energy is next to zero
   flat,    ///< there is a direction of negative curvature, but following the last ones gained less
-           ///< than a hundredth of what the tolerance allows
+           ///< than a hundredth of what the tolerance allows, or nothing, or ten moves were made
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to
             ///< exclude a negative curvature, or there is one of zero, up to rounding; or by the
             ///< second derivative the gap is larger, but the energy does not fall, up to rounding;
@@ -119,9 +119,10 @@ struct Report : Outcome
 
   /// an estimate of \f$(E - E^*) / E^*\f$, where \f$E^*\f$ is the minimum that the run converges
   /// to, extrapolated from the decreases of the energy; infinity if there are too few of them, or
-  /// if they do not shrink. Next to a minimum of zero it is relative to \f$10^{-9} s\f$, or to
-  /// \f$10^{-6} E_0\f$ where that is less. It errs on the large side, but is not a bound: see
-  /// \ref ARAPDeformation_Gap for its accuracy.
+  /// if they do not shrink. A look at the second derivative may raise it. It is infinity, too, if
+  /// the iterations run out after a look found it wrong, or found a negative curvature. Next to a
+  /// minimum of zero it is relative to \f$10^{-9} s\f$, or to \f$10^{-6} E_0\f$ where that is less.
+  /// It errs on the large side, but is not a bound: see \ref ARAPDeformation_Gap for its accuracy.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
   End end = End::unknown; ///< what kind of place the run ended at.

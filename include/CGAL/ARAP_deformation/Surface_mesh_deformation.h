@@ -171,7 +171,7 @@ public:
                                                get(points, target(h, mesh)),
                                                get(points, target(next(h, mesh), mesh))));
       }
-      set_sre_arap_alpha(m_alpha);
+      set_sre_arap_alpha(0.02);
     }
   }
 
@@ -297,12 +297,6 @@ public:
   /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
-    if(TAG == SRE_ARAP && !std::isfinite(m_alpha))
-    {
-      Report report;
-      static_cast<Outcome&>(report) = {Status::invalid_option, "alpha of SRE_ARAP must be finite"};
-      return report;
-    }
     if(!std::isnan(tolerance)) // which the session refuses
       tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
     return m_session.deform(iterations, tolerance, Default_visitor());
@@ -371,7 +365,6 @@ public:
   /// must be finite.
   void set_sre_arap_alpha(double alpha)
   {
-    m_alpha = alpha;
     if(TAG == SRE_ARAP)
       m_session.change_cell_values([&](auto& values) {
         if(alpha == 0)
@@ -430,7 +423,6 @@ private:
   mutable Roi_vertex_range m_roi; // for roi_vertices()
   unsigned int m_iterations = 5;
   double m_tolerance = 1e-4;
-  double m_alpha = 0.02;
   double m_area = 0; // of the mesh at construction, for SRE_ARAP
 };
 

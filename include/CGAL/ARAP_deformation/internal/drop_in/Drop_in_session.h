@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Status.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
 #include <CGAL/ARAP_deformation/internal/session/Session_rules.h>
 
@@ -25,8 +26,8 @@ namespace ARAP {
 namespace internal {
 
 // A session with the rules of CGAL's Surface_mesh_deformation: what leaves the region of interest
-// returns to the rest shape when the region is next used, and targets survive erasing the control
-// vertex.
+// returns to the rest shape when the region is next used, and finite targets survive erasing the
+// control vertex.
 template <typename Domain>
 class Drop_in_session : public Session<Domain>
 {
@@ -123,12 +124,14 @@ public:
   }
 
 private:
-  // An erased control vertex is where its target is, from now on.
+  // An erased control vertex is where its target is, from now on, if that is a place.
   void keep_target(Entry* control)
   {
     if(!control)
       return;
     const Point& target = m_vertices.target(*control);
+    if(!is_finite(Domain::coordinates(target)))
+      return;
     if(m_prepared.has_region())
       if(const int v = m_prepared.region().find_vertex(this->domain(), control->vertex); v >= 0)
         m_prepared.positions()[v] = Domain::coordinates(target);

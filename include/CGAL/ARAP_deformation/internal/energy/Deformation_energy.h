@@ -371,8 +371,7 @@ public:
 private:
   static constexpr int batch_size = 256; // cells whose covariances fit in a core's cache
 
-  // of the cells that count, in the rest shape
-  // of what the chosen cells depend on
+  // the sums of what the chosen cells depend on, in the rest shape
   void measure(const Array<char>& is_chosen)
   {
     std::visit([&](const auto& cells) {

@@ -366,7 +366,8 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
   Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
   if(!guess(targets, x))
     return false;
-  // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere
+  // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere; a
+  // bounding box takes no notice of what is no number
   Bounding_box box;
   include_near(m_region.rest, box);
   include_near(before, box);
@@ -374,7 +375,7 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
   box.include(targets.hard);
   const double size = box.squared_length();
   include_near(x, box);
-  if(!guess.is_found() || !(box.squared_length() <= 4 * size))
+  if(!guess.is_found() || !(box.squared_length() <= 4 * size) || find_non_finite(x) >= 0)
     x = before;
   return true;
 }

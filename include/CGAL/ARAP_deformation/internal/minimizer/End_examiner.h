@@ -39,8 +39,8 @@ namespace internal {
 
 // Looks at the second derivative where a run would end with `Status::converged`, and moves on from
 // there if it is a saddle point, or if there is further to go than was estimated. Each step of a
-// look, and each step that it tries, counts as an iteration: these are limited, and can be stopped
-// and cancelled, as all others.
+// look, and each step of local/global that it tries, counts as an iteration: these are limited, and
+// can be stopped and cancelled, as all others.
 class End_examiner
 {
 public:

@@ -147,6 +147,7 @@ public:
     x.swap(other);
     m_rotations.swap(fitted);
     keep_rotations();
+    m_targets.project(m_rows, x); // for what asks for the targets before the next evaluation
     return false;
   }
 

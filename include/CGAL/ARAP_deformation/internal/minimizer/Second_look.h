@@ -264,7 +264,7 @@ private:
     });
     if(!(square > 0))
       return square == 0 ? Finding::positive_curvature : Finding::failure;
-    // Smaller ones tell the gap better, and take more steps; more was not found. At 0.2 less was.
+    // Smaller ones tell the gap better and take more steps, but hardly find more; 0.2 finds less.
     constexpr double small_residual = 0.1;
     return square <= small_residual * small_residual * m_first_r_square
              ? Finding::positive_curvature : Finding::nothing_yet;

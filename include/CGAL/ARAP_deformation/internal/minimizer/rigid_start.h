@@ -298,18 +298,21 @@ private:
           is_turned[v] = std::inner_product(cell.begin(), cell.end(), whole.begin(), 0.0) <= 0;
         }
     });
-    const auto for_each_constraint = [&](const auto& f) { // f(v, part)
+    const auto for_each_constraint = [&](const auto& f) { // f(begin, end of its vertices, part)
       for(const Motion& motion : motions)
         if(deformed[motion.part] >= 0)
           for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
-            f(m_fixed.items[k], motion.part);
+            f(&m_fixed.items[k], &m_fixed.items[k] + 1, motion.part);
       constraints.for_each_row([&](auto begin, auto end, double) {
-        for(auto v = begin; v != end; ++v)
-          if(is_deformed(*v))
-            f(*v, m_part[*v]);
+        const auto v = std::find_if(begin, end, is_deformed);
+        if(v != end)
+          f(begin, end, m_part[*v]);
       });
     };
-    for_each_constraint([&](int v, int) { is_turned[v] = false; });
+    for_each_constraint([&](auto begin, auto end, int) {
+      for(auto v = begin; v != end; ++v)
+        is_turned[*v] = false;
+    });
     Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
@@ -328,8 +331,8 @@ private:
     });
     Array<int> count(is_turned.size(), 0);  // for each set, of its constraints
     Array<int> holder(m_free.size(), -1);   // for each part a set with several constraints
-    for_each_constraint([&](int v, int part) {
-      const auto set = sets.find(v);
+    for_each_constraint([&](auto begin, auto, int part) {
+      const auto set = sets.find(*begin);
       if(++count[set] < 2)
         return;
       motions[static_cast<std::size_t>(deformed[part])].is_twisted |=

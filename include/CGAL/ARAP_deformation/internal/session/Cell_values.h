@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/Domain_region.h>
 #include <CGAL/ARAP_deformation/internal/energy/Energy_model.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
@@ -76,6 +77,8 @@ public:
       return outcome(Status::undeclared_map);
     model.stiffness = m_stiffness.of(is_at_vertices, domain, region, flat);
     model.group = m_group.of(is_at_vertices, domain, region, flat);
+    if(!is_finite(m_neighbor_weight))
+      return {Status::invalid_option, "alpha of SRE_ARAP, times the area, is not finite"};
     if(m_fit_order)
       for(vertex_descriptor v : m_fit_order())
         model.fit_order.push_back(region.find_vertex(domain, v));

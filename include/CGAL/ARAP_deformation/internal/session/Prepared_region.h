@@ -121,7 +121,7 @@ public:
   {
     m_restored = Cell_rotations<Domain>();
     m_present.region = ++m_last_version;
-    values_changed();
+    constraints_changed();
   }
 
   // Each free vertex gets a row, with this weight for a unit of its area or volume; 0 for none.

@@ -81,8 +81,8 @@ public:
     {
       if(options.cells != m_options.cells)
         region_changed();
-      else if(options.bending_length != m_options.bending_length ||
-              options.smoothing_length != m_options.smoothing_length)
+      if(options.bending_length != m_options.bending_length ||
+         options.smoothing_length != m_options.smoothing_length)
         values_changed();
       m_options = options;
     }
@@ -260,11 +260,11 @@ protected:
     return is_there;
   }
 
-  // Whether a visitor has called: it works on what the run is working on.
+  // Whether a visitor, or another function of the user, has called that a run calls.
   bool refuse_in_a_run() const
   {
     CGAL_precondition_msg(!m_is_in_a_run,
-                          "a visitor must not change the object that it is visiting");
+                          "a visitor, function or map that a run calls must not change the object");
     return m_is_in_a_run;
   }
 

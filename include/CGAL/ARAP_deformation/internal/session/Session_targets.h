@@ -60,13 +60,17 @@ public:
   }
 
   // `f()` is the new target. It alone may ask where the present one is, which calls a set: a set
-  // that is replaced may be gone.
+  // that is replaced may be gone. As a function of the user, it may also change where targets are.
   template <typename Handle, typename Function>
   Outcome change_target(Handle handle, const Function& f)
   {
+    const Outcome success(Status::success, std::string());
+    if(Outcome found = with_target(handle, [&](auto&) { return success; }); !found)
+      return found;
+    Point point = f();
     return with_target(handle, [&](auto& target) {
-      replace_target(target, f());
-      return Outcome(Status::success, std::string());
+      replace_target(target, std::move(point));
+      return success;
     });
   }
 

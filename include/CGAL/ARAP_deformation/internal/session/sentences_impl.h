@@ -118,7 +118,7 @@ inline const char* sentence(Status status, const std::string& what)
     return "the option bending_length or smoothing_length is more than a million times the size of "
            "what can move";
   case Status::in_a_run:
-    return "a visitor must not change the object that it is visiting";
+    return "a visitor, function or map that a run calls must not change the object";
   case Status::foreign_state:
     return "the state is of another object; nothing was changed";
   case Status::not_a_control_vertex:
