@@ -112,7 +112,7 @@ struct Options
   /// not soft, and weights for which the energy may be negative, do without.
   bool coarse_metric = true;
 
-  /// the maximum number of threads; 0 lets TBB choose. Without TBB (the macro
+  /// the maximum number of threads at a time; 0 lets TBB choose. Without TBB (the macro
   /// `CGAL_LINKED_WITH_TBB`), and with `Sequential_tag` in the traits, there is only one.
   /// Results are the same to the last bit for any number.
   unsigned int threads = 0;
