@@ -32,6 +32,7 @@
 #include <map>
 #include <optional>
 #include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -134,9 +135,15 @@ inline void check_outputs(const Command_line& line)
   for(const auto* picks : {&line.region, &line.rigid, &line.stiff})
     for(const Pick& pick : *picks)
       inputs.push_back(pick.file());
-  if(line.is_sequence)
-    for(const std::string& output : outputs)
+  std::set<std::filesystem::path> places; // of the frames; links may lead to the same file
+  for(const std::string& output : outputs)
+  {
+    if(line.is_sequence)
       check(output, line.mesh);
+    const std::filesystem::path place = internal::location(output);
+    if(!place.empty() && !places.insert(place).second)
+      throw Usage_error("the file " + output + " is given for two things");
+  }
   for(const std::string& other : {line.report, line.image, line.animation, line.save_selection,
                                   line.save_transform})
   {

@@ -19,6 +19,7 @@
 #include "Gltf.h"
 #include "Output_file.h"
 #include "Scene.h"
+#include "Unwritable.h"
 #include "arguments.h"
 #include "shape_files.h"
 
@@ -182,7 +183,7 @@ private:
       std::vector<float> steps;
       for(std::size_t v = 0; v < m_frames[0].size(); ++v)
         for(int k = 0; k < 3; ++k)
-          steps.push_back(static_cast<float>(m_frames[frame][v][k] - m_frames[0][v][k]));
+          steps.push_back(to_float(m_frames[frame][v][k] - m_frames[0][v][k]));
       targets.push_back({{"POSITION", gltf.append(steps, "VEC3", Gltf::VERTICES)}});
       times[frame] = static_cast<float>(frame) / frames_per_second;
       weights[frame * (n - 1) + frame - 1] = 1;

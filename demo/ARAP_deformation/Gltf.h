@@ -14,6 +14,7 @@
 
 // The containers of glTF 2.0: .gltf, a JSON text, and .glb, with the first buffer behind it.
 
+#include "Unwritable.h"
 #include "base64.h"
 #include "shape_files.h"
 
@@ -28,6 +29,8 @@
 #include <filesystem>
 #include <fstream>
 #include <ios>
+#include <iterator>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -84,12 +87,16 @@ public:
                               printable(why.substr(why.find(']') + 1)));
   }
 
-  // An index or a size. Throws a Json::exception if it is a fraction, or too large a number, whose
-  // conversion is not defined.
+  static bool is_index(int component)
+  {
+    return component == BYTE_INDEX || component == SHORT_INDEX || component == INDEX;
+  }
+
+  // An index or a size. Throws a Json::exception if it is a fraction, negative, or too large.
   static std::size_t whole(const Json& number)
   {
-    return number.is_number_integer() ? number.get<std::size_t>()
-                                      : number.get_ref<const Json::number_unsigned_t&>();
+    return number.is_number_integer() && number >= 0
+             ? number.get<std::size_t>() : number.get_ref<const Json::number_unsigned_t&>();
   }
   static std::size_t whole(const Json& object, const char* key, std::size_t otherwise)
   {
@@ -134,7 +141,7 @@ public:
 
   void set_vector(const Array& array, std::size_t i, const std::array<double, 3>& v)
   {
-    const std::array<float, 3> value{float(v[0]), float(v[1]), float(v[2])};
+    const std::array<float, 3> value{to_float(v[0]), to_float(v[1]), to_float(v[2])};
     std::memcpy(buffers[array.buffer].data() + array.begin + i * array.stride, value.data(),
                 sizeof(value));
     m_is_inside[array.buffer] = true;
@@ -226,6 +233,8 @@ private:
 
   static std::string number(std::size_t value)
   {
+    if(value > (std::numeric_limits<std::uint32_t>::max)())
+      throw Unwritable("would have more than the 4 GB that a .glb file can have");
     const auto four_bytes = static_cast<std::uint32_t>(value);
     return std::string(reinterpret_cast<const char*>(&four_bytes), 4);
   }
@@ -318,7 +327,7 @@ inline Gltf make_gltf(const std::vector<std::array<double, 3>>& points,
 {
   std::vector<float> positions;
   for(const auto& p : points)
-    positions.insert(positions.end(), p.begin(), p.end());
+    std::transform(p.begin(), p.end(), std::back_inserter(positions), to_float);
   std::vector<std::uint32_t> corners;
   for(const auto& t : triangles)
     corners.insert(corners.end(), t.begin(), t.end());

@@ -102,19 +102,11 @@ public:
   {
     if(!is_gltf_format(format))
       return write_mesh(output, m_mesh, format);
-    Gltf gltf = m_gltf;
-    for(const auto& [accessors, piece] : m_pieces)
-    {
-      const Gltf::Array positions = gltf.array(accessors.first, "VEC3");
-      for(std::size_t i = 0; i < piece.vertices.size(); ++i)
-        if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
-          gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
-                                                    vector(m_mesh.point(v))));
-      gltf.update_bounds(accessors.first);
-      if(accessors.second)
-        turn_normals(gltf, gltf.array(*accessors.second, "VEC3"), piece);
-    }
-    output.write([&](std::ostream& out) { gltf.write(out, format == ".glb"); });
+    output.write([&](std::ostream& out) {
+      Gltf gltf = m_gltf;
+      move_vertices(gltf);
+      gltf.write(out, format == ".glb");
+    });
   }
 
 private:
@@ -229,7 +221,11 @@ private:
     std::optional<Gltf::Array> corners;
     if(primitive.contains("indices"))
       corners = m_gltf.array(Gltf::whole(primitive["indices"]), "SCALAR");
+    if(corners && !Gltf::is_index(corners->component))
+      throw std::runtime_error("has indices that are no unsigned integers");
     const std::size_t size = corners ? corners->size : positions.size;
+    if(size % 3 != 0)
+      throw std::runtime_error("has a list of triangles that ends with a part of one");
     for(std::size_t i = 0; i + 2 < size; i += 3)
     {
       std::array<std::size_t, 3> t;
@@ -246,6 +242,21 @@ private:
       for(std::size_t k : t)
         piece.faces[k].push_back(m_faces.size());
       m_faces.push_back(face);
+    }
+  }
+
+  void move_vertices(Gltf& gltf) const
+  {
+    for(const auto& [accessors, piece] : m_pieces)
+    {
+      const Gltf::Array positions = gltf.array(accessors.first, "VEC3");
+      for(std::size_t i = 0; i < piece.vertices.size(); ++i)
+        if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
+          gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
+                                                    vector(m_mesh.point(v))));
+      gltf.update_bounds(accessors.first);
+      if(accessors.second)
+        turn_normals(gltf, gltf.array(*accessors.second, "VEC3"), piece);
     }
   }
 

@@ -177,10 +177,15 @@ private:
   {
     for(long long i = 0; i < block.size; ++i)
       insert_tag(words, read_size(words), m_mesh.points.size() + i);
+    // nodes on a curve or a surface have parameters, too
+    const long long parameters = block.type == 0 ? 0 : block.dimension;
+    if(parameters > 3)
+      refuse(words, "a block of nodes has at most three dimensions, but there is one of " +
+                    std::to_string(parameters) + ", before");
     for(long long i = 0; i < block.size; ++i)
     {
       read_node(words);
-      for(long long k = 0; block.type != 0 && k < block.dimension; ++k) // on a curve or a surface
+      for(long long k = 0; k < parameters; ++k)
         if(is_binary())
           read_bytes<double>(words);
         else

@@ -14,6 +14,9 @@
 
 // The output files of the command arap_deform, and the files that names refer to.
 
+#include "Delayed_interruption.h"
+#include "Unwritable.h"
+
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -21,6 +24,8 @@
 #include <unistd.h>
 #endif
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -121,9 +126,9 @@ inline bool is_written_directly(const std::string& file)
          std::filesystem::is_other(file, error);
 }
 
-// A file that is written under a temporary name in the same folder and renamed by commit(): no
-// other program ever sees half of it, and nothing is left without commit(). Follows links and keeps
-// permissions. Files that are not regular, such as pipes, and descriptors, such as /dev/stdout, are
+// A file that is written under a temporary name in the same folder and then renamed: no other
+// program ever sees half of it. What was there returns, and nothing else is left, unless keep() is
+// called. Follows links and keeps permissions. Files that are not regular, such as pipes, and descriptors, such as /dev/stdout, are
 // opened once, at construction, and written directly.
 class Output_file
 {
@@ -147,27 +152,48 @@ public:
   ~Output_file()
   {
     std::error_code ignored;
-    if(!m_temporary.empty())
-      std::filesystem::remove(m_temporary, ignored);
+    if(m_has_replaced && m_former.empty())
+      std::filesystem::remove(m_file, ignored);
+    else if(m_has_replaced)
+      std::filesystem::rename(m_former, m_file, ignored);
+    for(const std::filesystem::path& file : {m_temporary, m_former})
+      if(!file.empty())
+        std::filesystem::remove(file, ignored);
   }
 
   // Calls write(stream), and throws if not everything reached the file. Call it once only.
   template <typename Write>
   void write(const Write& write)
   {
-    if(!(m_direct ? write_directly(write) : write_temporary(write)))
-      throw std::runtime_error(m_name + ": could not be written to the end");
+    try
+    {
+      if(!(m_direct ? write_directly(write) : write_temporary(write)))
+        throw Unwritable("could not be written to the end");
+    }
+    catch(const Unwritable& error)
+    {
+      throw std::runtime_error(m_name + ": " + error.what());
+    }
   }
 
-  void commit()
+  // Puts what was written in the place of what was there, which is set aside until keep().
+  void replace()
   {
+    if(m_temporary.empty())
+      return;
     std::error_code error;
-    if(!m_temporary.empty())
+    if(std::filesystem::exists(m_file, error))
+      set_aside(error);
+    if(!error)
       std::filesystem::rename(m_temporary, m_file, error);
     if(error)
       throw std::runtime_error(m_name + ": cannot be written: " + error.message());
     m_temporary.clear();
+    m_has_replaced = true;
   }
+
+  // makes it final
+  void keep() { m_has_replaced = false; }
 
 private:
   void require(bool condition) const
@@ -188,9 +214,7 @@ private:
     const bool exists = std::filesystem::is_regular_file(status);
     require(exists || status.type() == std::filesystem::file_type::not_found);
     require(!m_file.empty() && (!exists || std::ofstream(m_file, std::ios::app)));
-    // short, since the name of the file may have the maximum length
-    const auto temporary = m_file.parent_path() /
-                           ("arap_" + std::to_string(std::random_device()()) + ".tmp");
+    const auto temporary = other_name();
     require(bool(std::ofstream(temporary)));
     m_temporary = temporary;
     std::error_code ignored;
@@ -198,14 +222,40 @@ private:
       std::filesystem::permissions(m_temporary, status.permissions(), ignored);
   }
 
+  // a name in the same folder; short, since that of the file may have the maximum length
+  std::filesystem::path other_name() const
+  {
+    return m_file.parent_path() / ("arap_" + std::to_string(std::random_device()()) + ".tmp");
+  }
+
+  // Gives what is there a second name, or copies it where there are no links.
+  void set_aside(std::error_code& error)
+  {
+    const auto former = other_name();
+    std::filesystem::create_hard_link(m_file, former, error);
+    if(error)
+      std::filesystem::copy_file(m_file, former, error);
+    m_former = former;
+  }
+
+  // In pieces that a pipe takes as a whole or not at all: a signal interrupts only what has to wait
+  // before it begins.
   template <typename Write>
   bool write_directly(const Write& write)
   {
     std::ostringstream out;
     write(out);
     const std::string text = out.str();
-    const bool is_written = std::fwrite(text.data(), 1, text.size(), m_direct.get()) == text.size();
-    return std::fclose(m_direct.release()) == 0 && is_written && out;
+    std::setvbuf(m_direct.get(), nullptr, _IONBF, 0);
+    const std::size_t largest_piece = 4096;
+    bool is_written = bool(out);
+    for(std::size_t begin = 0, size = 0; begin < text.size() && is_written; begin += size)
+    {
+      size = (std::min)(largest_piece, text.size() - begin);
+      is_written = !is_interrupted &&
+                   std::fwrite(text.data() + begin, 1, size, m_direct.get()) == size;
+    }
+    return std::fclose(m_direct.release()) == 0 && is_written;
   }
 
   template <typename Write>
@@ -218,7 +268,8 @@ private:
   }
 
   std::string m_name; // as the user gave it
-  std::filesystem::path m_file, m_temporary;
+  std::filesystem::path m_file, m_temporary, m_former;
+  bool m_has_replaced = false; // what was there
   internal::C_file m_direct; // in place of these two
 };
 

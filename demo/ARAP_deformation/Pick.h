@@ -21,6 +21,7 @@
 #include <CGAL/bounding_box.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <ostream>
@@ -98,7 +99,7 @@ public:
     const Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
     std::vector<std::size_t> result;
     if(m_kind == "near")
-      result = {nearest(points, point(box, 0))};
+      result = nearest(points, point(box, 0));
     else if(m_kind == "list")
       result = listed(points.size());
     else
@@ -162,12 +163,17 @@ private:
            p[axis] <= m_measures[1].coordinate(box, axis);
   }
 
-  static std::size_t nearest(const std::vector<Kernel::Point_3>& points, const Kernel::Point_3& q)
+  // none where all are so far away that distances overflow
+  static std::vector<std::size_t> nearest(const std::vector<Kernel::Point_3>& points,
+                                          const Kernel::Point_3& q)
   {
     const auto is_nearer = [&q](const Kernel::Point_3& a, const Kernel::Point_3& b) {
       return CGAL::squared_distance(a, q) < CGAL::squared_distance(b, q);
     };
-    return std::min_element(points.begin(), points.end(), is_nearer) - points.begin();
+    const auto found = std::min_element(points.begin(), points.end(), is_nearer);
+    if(found == points.end() || !std::isfinite(CGAL::squared_distance(*found, q)))
+      return {};
+    return {static_cast<std::size_t>(found - points.begin())};
   }
 
   std::vector<std::size_t> listed(std::size_t number_of_vertices) const

@@ -108,7 +108,13 @@ inline View turned(View view, const std::vector<double>& from)
     direction[up] = std::sin(elevation);
   }
   else
-    std::copy(from.begin(), from.end(), direction.begin());
+  {
+    double largest = 0;
+    for(double coordinate : from)
+      largest = (std::max)(largest, std::abs(coordinate));
+    std::transform(from.begin(), from.end(), direction.begin(),
+                   [largest](double coordinate) { return coordinate / largest; });
+  }
   view.from = Vector(direction[0], direction[1], direction[2]);
   if(CGAL::cross_product(view.up, view.from) == Vector(0, 0, 0)) // along the old one
     view.up = Vector(up == 2, up == 0, up == 1);

@@ -96,18 +96,21 @@ public:
       if(is_gltf_format(format))
       {
         const Panel all = panel(m_mesh, std::vector<int>(m_rest_points.size()), "");
-        Gltf gltf = make_gltf(all.points, all.triangles);
-        return output.write([&](std::ostream& out) { gltf.write(out, format == ".glb"); });
+        return output.write([&](std::ostream& out) {
+          make_gltf(all.points, all.triangles).write(out, format == ".glb");
+        });
       }
       return write_mesh(output, m_mesh, format);
     }
-    for(Mesh::Vertex_index v : m_mesh.vertices())
-      m_source.replace(m_source.points[v], m_rest_points[v] - CGAL::ORIGIN,
-                       m_mesh.point(v) - CGAL::ORIGIN);
-    turn_normals();
-    if(format == ".ply" && !m_property.empty())
-      insert_property();
-    output.write([this](std::ostream& out) { m_source.write(out); });
+    output.write([&](std::ostream& out) {
+      for(Mesh::Vertex_index v : m_mesh.vertices())
+        m_source.replace(m_source.points[v], m_rest_points[v] - CGAL::ORIGIN,
+                         m_mesh.point(v) - CGAL::ORIGIN);
+      turn_normals();
+      if(format == ".ply" && !m_property.empty())
+        insert_property();
+      m_source.write(out);
+    });
   }
 
   // What is written for each vertex besides its coordinates, if the format is .ply.

@@ -12,6 +12,7 @@
 #ifndef CGAL_ARAP_DEFORMATION_DEMO_SOURCE_TEXT_H
 #define CGAL_ARAP_DEFORMATION_DEMO_SOURCE_TEXT_H
 
+#include "Unwritable.h"
 #include "shape_files.h"
 
 #include <algorithm>
@@ -101,7 +102,7 @@ public:
       out << value;
       return out.str();
     }
-    return bytes == 4 ? bytes_of(static_cast<float>(value), numbers) : bytes_of(value, numbers);
+    return bytes == 4 ? bytes_of(to_float(value), numbers) : bytes_of(value, numbers);
   }
 
   // the number that has these bytes

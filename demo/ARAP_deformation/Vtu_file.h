@@ -13,6 +13,7 @@
 #define CGAL_ARAP_DEFORMATION_DEMO_VTU_FILE_H
 
 #include "Tetrahedra_text.h"
+#include "Unwritable.h"
 #include "Vtk_file.h"
 #include "base64.h"
 #include "zlib_blocks.h"
@@ -66,7 +67,7 @@ public:
       for(int k = 0; k < 3; ++k)
         if(const double x = points[v][k]; x != m_mesh.points[v][k])
           bytes.replace(size * (3 * v + k), size,
-                        size == 4 ? Source_text::bytes_of(static_cast<float>(x), m_order)
+                        size == 4 ? Source_text::bytes_of(to_float(x), m_order)
                                   : Source_text::bytes_of(x, m_order));
     if(bytes != encoded.bytes)
       replace(encoded, bytes);

@@ -278,10 +278,15 @@ public:
     return line.is_sequence ? m_meshes[frame - 1] : frame == line.frames ? m_meshes[0] : nullptr;
   }
 
-  void commit()
+  // Calls f() when they are in their places; they stay there unless something fails until then.
+  template <typename Function>
+  void replace(const Function& f)
   {
     for(const auto& file : m_files)
-      file->commit();
+      file->replace();
+    f();
+    for(const auto& file : m_files)
+      file->keep();
   }
 
   Output_file *report, *image, *film, *selection, *transform; // null if not asked for
@@ -382,14 +387,15 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
   }
   if(outputs.report)
     write_report(*outputs.report, result);
-  if(!line.is_quiet)
-  {
-    print_summary(summary_stream(line), line, result);
+  check_interrupted();
+  std::ostream& summary = summary_stream(line); // before an output that it avoids is replaced
+  outputs.replace([&] {
+    if(line.is_quiet)
+      return;
+    print_summary(summary, line, result);
     flush_output();
     print_note(line, shape.dropped(format));
-  }
-  check_interrupted();
-  outputs.commit(); // when nothing else can fail
+  });
 }
 
 void run(const Command_line& line, const Chosen_solver& solver)

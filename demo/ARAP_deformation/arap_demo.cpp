@@ -83,7 +83,8 @@ void write_model(const fs::path& folder, const Demo_model<Shape>& model)
 {
   Output_file mesh((folder / file_name(model)).string());
   write_mesh(mesh, model.mesh);
-  mesh.commit();
+  mesh.replace();
+  mesh.keep();
   std::ofstream selection(folder / (model.name + ".sel"));
   std::ofstream transform(folder / (model.name + ".def"));
   write_selection(selection, model.selection);
@@ -104,7 +105,8 @@ void draw(const std::vector<Panel>& panels, const View& view, const fs::path& pi
 {
   Output_file output(picture.string());
   output.write([&](std::ostream& out) { render(panels, view, out); });
-  output.commit();
+  output.replace();
+  output.keep();
   std::cout << picture.string() << std::endl;
 }
 

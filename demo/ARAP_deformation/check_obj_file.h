@@ -56,6 +56,13 @@ inline std::string told_by_obj_statement(const std::string& keyword)
   return found == kinds.end() ? std::string() : found->second;
 }
 
+inline bool is_finite_number(std::string_view word) // which a blank follows
+{
+  char* end = nullptr;
+  return !word.empty() && std::isfinite(std::strtod(word.data(), &end)) &&
+         end == word.data() + word.size();
+}
+
 // Reads a line, and the next lines while they continue it. Returns how many. Comments and ends of
 // lines become blanks, so that each word keeps its place.
 inline std::size_t get_obj_line(std::istream& in, std::string& line)
@@ -90,7 +97,8 @@ inline long long obj_corner(const char* word)
 inline long long obj_normal(std::string_view word)
 {
   const std::size_t slash = word.find('/'), last = word.rfind('/');
-  return slash == last ? 0 : std::strtoll(word.data() + last + 1, nullptr, 10);
+  return slash == last || last + 1 == word.size()
+           ? 0 : std::strtoll(word.data() + last + 1, nullptr, 10);
 }
 
 // Reads the coordinates of a normal, and where they are.
@@ -141,8 +149,8 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
     const std::string keyword(words.next());
     if(Words others = words; keyword == "vn")
       for(int k = 0; k < 3; ++k)
-        if(others.next().empty())
-          throw bad_line(file, number, "a normal has three numbers");
+        if(!internal::is_finite_number(others.next()))
+          throw bad_line(file, number, "a normal has three finite numbers");
     if(source && keyword == "vn")
       source->normals.push_back(internal::read_obj_normal(line, words, begin));
     if(source && keyword == "v")
@@ -161,8 +169,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
       {
         if(size >= 3)
           continue; // a weight, or a color
-        char* end = nullptr;
-        if(!std::isfinite(std::strtod(word.data(), &end)) || end != word.data() + word.size())
+        if(!internal::is_finite_number(word))
           throw bad_line(file, number, in_quotes(word) + " is not a finite number");
         out << ' ' << word;
       }

@@ -19,6 +19,7 @@
 #include <CGAL/IO/io.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -126,7 +127,12 @@ private:
     for(int k = 0; k < 3; ++k)
     {
       char* end = nullptr;
-      if(!std::isfinite(std::strtod(place, &end)) || end == place)
+      const double coordinate = std::strtod(place, &end);
+      const bool is_end = *end == '\0' || *end == '#' ||
+                          std::isspace(static_cast<unsigned char>(*end));
+      const bool is_decimal = std::none_of(place, static_cast<const char*>(end),
+                                           [](char c) { return c == 'x' || c == 'X'; });
+      if(end == place || !is_end || !is_decimal || !std::isfinite(coordinate))
         refuse("vertex", v, "does not have three finite coordinates");
       place = end;
     }

@@ -36,3 +36,4 @@ arap_deform() { # with a report instead of the picture of this result alone
 }
 
 eval "$commands"
+[ -s figures.txt ] || { echo "figures.sh: there is no model in $2" >&2; exit 1; }

@@ -16,6 +16,7 @@
 // std::runtime_error with a message that names the file and, if there is one, the line.
 
 #include "Output_file.h"
+#include "Unwritable.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -376,6 +377,9 @@ inline void write_mesh(Output_file& file, const Mesh& mesh, const std::string& f
 {
   file.write([&](std::ostream& out) {
     const auto precise = CGAL::parameters::stream_precision(17);
+    if(format == ".stl")
+      for(const Kernel::Point_3& p : mesh.points())
+        std::for_each(p.cartesian_begin(), p.cartesian_end(), to_float); // which may throw
     if(format == ".ply" || format == ".stl")
       CGAL::IO::set_binary_mode(out);
     const bool is_written = format == ".off" ? CGAL::IO::write_OFF(out, mesh, precise)

@@ -95,11 +95,15 @@ std::string text_of(const Eigen::Matrix4d& map)
 // says and leaves behind when it is given nonsense.
 namespace surfaces {
 
-// a tube of about a hundred vertices, twisted
-const Shape shape = grid("tube", 8, 12, [](double u, double v) {
-  const double angle = 2 * std::acos(-1.0) * u;
-  return Eigen::Vector3d(std::cos(angle), std::sin(angle), 5 * v);
-}, true);
+Shape tube(int corners, int rings)
+{
+  return grid("tube", corners, rings, [](double u, double v) {
+    const double angle = 2 * std::acos(-1.0) * u;
+    return Eigen::Vector3d(std::cos(angle), std::sin(angle), 5 * v);
+  }, true);
+}
+
+const Shape shape = tube(8, 12);
 
 std::string off(const Shape& s)
 {
@@ -245,10 +249,10 @@ void test_success()
   }
   const auto names = files();
   const int interrupted = std::system(
-    ("cd \"" + folder.string() + "\" && (timeout -s INT 0.5 \"" + command + "\" in.off --selection "
-     "in.sel --transform in.def -o new2.off --iterations 100000000 --tolerance 0 > /dev/null 2>&1; "
-     "exit $?)").c_str());
-  CHECK(WIFEXITED(interrupted) && WEXITSTATUS(interrupted) != 0);
+    ("cd \"" + folder.string() + "\" && (timeout -s INT -k 20 1 \"" + command +
+     "\" in.off --selection in.sel --transform in.def -o new2.off --iterations 100000000 "
+     "--tolerance 0 > /dev/null 2>&1; exit $?)").c_str());
+  CHECK(WIFEXITED(interrupted) && WEXITSTATUS(interrupted) == 124); // so says timeout
   CHECK(files() == names);
 
   test_case() = "picture";
@@ -270,6 +274,8 @@ void test_success()
   test_case() = "view and colors of a picture";
   const std::string from_x = scene(call + "-o new.off --view 0,0");
   CHECK(from_x == scene(call + "-o new.off --view 2,0,0"));
+  for(const std::string length : {"1e-200", "1e200"})
+    CHECK(from_x == scene(call + "-o new.off --view " + length + ",0,0"));
   CHECK(from_x != scene(call + "-o new.off"));
   CHECK(from_x.find("\"after\"") != std::string::npos);
   const std::string colored = scene(call + "-o new.off --view 0,0 --color edge_error");
@@ -293,13 +299,15 @@ void test_success()
   CHECK(energies.size() == 6);
 
   test_case() = "threads";
+  write("large.off", off(tube(60, 50))); // several blocks of vertices
   std::set<std::string> results;
   for(const std::string threads : {"0", "1", "2"})
   {
-    CHECK(run("in.off --selection in.sel --transform in.def -o out.off --threads " + threads)
-            .exit_code == 0);
+    CHECK(run("large.off --fix z:..0.5 --handle z:4.5.. --rotate z 90 -o out.off --threads " +
+              threads).exit_code == 0);
     results.insert(content(folder / "out.off"));
   }
+  fs::remove(folder / "large.off");
   CHECK(results.size() == 1);
 }
 
@@ -684,6 +692,8 @@ void test_frames()
   check_refused(call + "new.off --frames 3 --report new-0002.off", 2, "is given for two things");
 #if defined(__unix__) || defined(__APPLE__)
   check_refused(call + "/dev/stdout --frames 3", 2, "frames need a file each");
+  fs::create_symlink("linked-0002.off", folder / "linked-0001.off");
+  check_refused(call + "linked.off --frames 3", 2, "linked-0002.off is given for two things");
 #endif
 
   test_case() = "films";
@@ -850,6 +860,7 @@ void test_picks()
   const auto refuse = [&](const std::string& arguments, int exit_code, const std::string& phrase) {
     check_refused("in.off " + arguments + rest, exit_code, phrase);
   };
+  refuse("--handle near:1e200,0,0", 1, "--handle near:1e200,0,0: picks no vertex");
   refuse("--handle z:7..", 1, "--handle z:7..: picks no vertex; the bounding box of the mesh is "
                               "box:-1,-1,0,1,1,5");
   refuse("--fix sphere:9,9,9,1 --handle z:..1", 1, "--fix sphere:9,9,9,1: picks no vertex");
@@ -1000,6 +1011,15 @@ void test_gltf()
   CHECK(run("apart/out.gltf" + stay + "apart.off").exit_code == 0);
   CHECK(read_points("apart.off").size() == 4);
 
+  test_case() = "numbers that are too large for single precision";
+  for(const std::string file : {"large.glb", "large.gltf", "large.stl"})
+    check_refused("in.off --fix z:..1 --handle z:4.. --move 1e39,0,0 -o " + file, 1,
+                  file + ": the number ");
+  check_refused("in.gltf --fix x:..1 --handle near:9,9,9 --move 2e39,0,0 -o in.gltf", 1,
+                "in.gltf: the number ");
+  check_refused("in.off --fix z:..1 --handle z:4.. --move 1e39,0,0 -o new.off "
+                "--animation film.glb", 1, "film.glb: the number ");
+
   test_case() = "glTF to other formats and back";
   CHECK(run("out.glb" + stay + "out.gltf").exit_code == 0);
   CHECK(run("out.gltf" + stay + "out2.glb").exit_code == 0);
@@ -1056,7 +1076,21 @@ void test_gltf()
   refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
   refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
   refuse("/accessors/0/count", 7000, "has an accessor that does not fit into its buffer");
-  refuse("/accessors/0/count", -1, "has an accessor that does not fit into its buffer");
+  for(const char* pointer : {"/accessors/0/count", "/bufferViews/0/byteOffset"})
+    refuse(pointer, -1, "is no glTF that can be read");
+  auto indexed = json;
+  indexed["accessors"].push_back(
+    {{"bufferView", 1}, {"componentType", 5125}, {"count", 4}, {"type", "SCALAR"}});
+  indexed["meshes"][0]["primitives"][0]["indices"] = 3;
+  for(const auto& [component, phrase] : std::map<int, std::string>{
+        {5125, "has a list of triangles that ends with a part of one"},
+        {5122, "has indices that are no unsigned integers"},
+        {5126, "has indices that are no unsigned integers"}})
+  {
+    indexed["accessors"][3]["componentType"] = component;
+    write("bad.gltf", indexed.dump());
+    check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
+  }
   refuse("/accessors/0/componentType", 5123, "has positions or normals that are quantized");
   refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
   refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");

@@ -258,9 +258,10 @@ Scenario push(const Shape& shape, double share)
   return s;
 }
 
-Shape strip()
+Shape strip(int rows = 6)
 {
-  return grid("strip", 24, 6, [](double u, double v) { return Eigen::Vector3d(4 * u, v, 0); });
+  return grid("strip", 4 * rows, rows,
+              [](double u, double v) { return Eigen::Vector3d(4 * u, v, 0); });
 }
 
 struct Run
@@ -666,7 +667,7 @@ void test_unknown()
 void test_threads()
 {
   test_case() = "threads";
-  const Shape shape = strip();
+  const Shape shape = strip(24); // several blocks of vertices
   Options options = options_for(Cell_scheme::spokes_and_rims());
   options.threads = 1;
   const Run one(shape, push(shape, 0.2), options);

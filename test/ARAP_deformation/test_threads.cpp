@@ -28,7 +28,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -42,6 +41,10 @@
 
 #ifdef CGAL_LINKED_WITH_TBB
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#endif
+#ifdef __GLIBC__
+#include <malloc.h>
 #endif
 
 // The results are the same to the last bit for any number of threads.
@@ -238,14 +241,8 @@ void test_exception(const Shape& shape)
   CHECK(points == other_points);
 }
 
-void test_all()
+void test_in_arena()
 {
-#ifdef CGAL_LINKED_WITH_TBB
-  // more threads than there may be processors
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 8);
-#else
-  std::cout << "TBB is not linked: there is one thread" << std::endl;
-#endif
   const Shape sheet = grid("sheet", 110, 60, [](double u, double v) { // several blocks of each loop
     return Eigen::Vector3d(3 * u, 2 * v, 0.2 * std::sin(9 * u) * std::cos(7 * v));
   });
@@ -264,6 +261,19 @@ void test_all()
   test<3>("tetrahedra", solid.points, solid.tetrahedra);
 }
 
+void test_all()
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  // more threads than there may be processors, also where the number is left to TBB
+  constexpr int most = 8;
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, most);
+  tbb::task_arena(most).execute(test_in_arena);
+#else
+  std::cout << "TBB is not linked: there is one thread" << std::endl;
+  test_in_arena();
+#endif
+}
+
 } // namespace threads
 
 // Load: ten thousand drags with changing handles, weights and regions, after which a session is as
@@ -277,17 +287,17 @@ using CGAL::ARAP::Report;
 
 const double infinity = std::numeric_limits<double>::infinity();
 
-// what the process has in memory, in bytes; 0 where that is not known, and under sanitizers, which
-// keep what is freed
-double resident_bytes()
+// What is allocated, in bytes; 0 where that is not known, and under sanitizers, which keep what is
+// freed. What the process has in memory depends on the system, too, which may take larger pages.
+double allocated_bytes()
 {
-#ifdef CGAL_ARAP_TEST_HAS_OWN_MALLOC
-  return 0;
+#if defined(__GLIBC__) && !defined(CGAL_ARAP_TEST_HAS_OWN_MALLOC)
+#if __GLIBC_PREREQ(2, 33)
+  const auto memory = mallinfo2();
+  return static_cast<double>(memory.uordblks) + static_cast<double>(memory.hblkhd);
 #endif
-  std::ifstream file("/proc/self/statm");
-  double total = 0, resident = 0;
-  file >> total >> resident;
-  return 4096 * resident;
+#endif
+  return 0;
 }
 
 Shape bar()
@@ -395,10 +405,10 @@ void test_soak(int number_of_drags)
   for(int k = 0; k < number_of_drags; ++k)
   {
     if(k == number_of_drags / 5)
-      warm = resident_bytes();
+      warm = allocated_bytes();
     dragging.drag();
   }
-  const double growth = resident_bytes() - warm;
+  const double growth = allocated_bytes() - warm;
   std::cout << number_of_drags << " drags: " << warm / 1e6 << " MB after a fifth of them, "
             << growth / 1e6 << " MB more at the end" << std::endl;
   CHECK_AT_MOST(growth, 1000.0 * number_of_drags); // less than anything that a drag allocates

@@ -74,8 +74,9 @@ inline Run run_line(const std::string& line)
 
 inline Run run(const std::string& arguments) { return run_line('"' + command + "\" " + arguments); }
 
-// From now on the command is killed if it takes longer than anything here should, and, unless it is
-// built with a sanitizer, which needs more, has no more than a GB to allocate.
+// From now on the command is killed if it takes longer than anything here should, also beside other
+// programs, and, unless it is built with a sanitizer, which needs more, has no more than a GB to
+// allocate, of which OpenBLAS takes some for each thread.
 inline void limit_command()
 {
 #if defined(__linux__)
@@ -84,8 +85,8 @@ inline void limit_command()
 #else
   const std::string memory = "1000000";
 #endif
-  command = "/bin/sh\" -c 'ulimit -v " + memory + "; exec timeout -s KILL 20 \"$0\" \"$@\"' \"" +
-            command;
+  command = "/bin/sh\" -c 'ulimit -t 20; ulimit -v " + memory +
+            "; OPENBLAS_NUM_THREADS=1 exec timeout -s KILL 100 \"$0\" \"$@\"' \"" + command;
 #endif
 }
 

@@ -276,6 +276,7 @@ private:
 inline int faults_result()
 {
   std::cout << number_of_faults() << " faults in all" << std::endl;
+  CHECK(number_of_faults() > 0);
   return checks_result();
 }
 
