@@ -128,8 +128,8 @@ inline bool is_written_directly(const std::string& file)
 
 // A file that is written under a temporary name in the same folder and then renamed: no other
 // program ever sees half of it. What was there returns, and nothing else is left, unless keep() is
-// called. Follows links and keeps permissions. Files that are not regular, such as pipes, and descriptors, such as /dev/stdout, are
-// opened once, at construction, and written directly.
+// called. Follows links and keeps permissions. Files that are not regular, such as pipes, and
+// descriptors, such as /dev/stdout, are opened once, at construction, and written directly.
 class Output_file
 {
 public:
