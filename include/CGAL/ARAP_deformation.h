@@ -73,13 +73,14 @@ using Call_turn = Requires_convertible<
 /// The *rest shape* of a vertex is the point that it has when it is inserted, or when a
 /// preprocessing first finds it around the region of interest. Only vertices in the *region of
 /// interest* move: its *control vertices* move to their targets, or are pulled toward them, see
-/// `set_target_weight()`; its other vertices are *free* and are solved for. Vertices outside the
-/// region are *fixed*, and so are those in it, other than control vertices, that have no incident
+/// `set_target_weight()`; its other vertices are *free* and are solved for. *Fixed* are vertices
+/// outside the region, hard control vertices, and vertices in the region that have no incident
 /// simplex.
 ///
-/// Time and memory are proportional to the number of vertices that were ever in the region of
-/// interest, and not to that of the mesh, if the mesh has, or is given, an index map. The mesh must
-/// outlive the object. While the object exists, the connectivity of the mesh must not change. A run
+/// Time and memory depend on the number n of vertices that were ever in the region of interest,
+/// and not on that of the mesh, if the mesh has, or is given, an index map: an iteration takes
+/// \f$O(n \log n)\f$ on surfaces, and a factorization \f$O(n^{3/2})\f$. The mesh must outlive the
+/// object. While the object exists, the connectivity of the mesh must not change. A run
 /// starts from the points that the mesh has then, also where others have moved them, or with an
 /// output map from its own last result; the rest shape stays what it is. All computations are in
 /// `double`, whatever the type of the points.
@@ -310,8 +311,8 @@ public:
   ///
   /// Inserting a control point does not change the region of interest if its corners are in it.
   /// Hard ones must not determine each other: otherwise a run fails with
-  /// `ARAP::Status::dependent_target`, as one in a triangle does that has a hard target at each
-  /// corner. There may be up to 3000 of them.
+  /// `ARAP::Status::dependent_target`, for example if all corners of the triangle of a control
+  /// point have hard targets. There may be up to 3000 hard control points.
   /// @{
 
   /// \brief inserts a control point in the simplex `s`, and the corners of `s` with non-zero
@@ -496,7 +497,7 @@ public:
   /// rotation costs no preprocessing. It stays when the target changes, by `rotate()` for example;
   /// `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it. Returns
   /// `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or turns
-  /// points with two coordinates out of their plane.
+  /// points with two coordinates out of their plane. \pre `is_control_vertex(v)`
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -508,7 +509,7 @@ public:
   /// them from the rest shape to their current targets. When the targets have moved, by `rotate()`
   /// for example, call it again. Returns `ARAP::Status::invalid_rotation`, and changes nothing, if
   /// there is no such motion up to \f$10^{-6}\f$ of their size, or if they lie on a line, which
-  /// leaves the rotation open.
+  /// leaves the rotation open, and `ARAP::Status::not_a_control_vertex` if one of them is none.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
   {
@@ -516,7 +517,7 @@ public:
       std::vector<vertex_descriptor>(std::begin(vertices), std::end(vertices)));
   }
 
-  /// lets the rotation at the control vertex `v` be fitted again.
+  /// lets the rotation at the control vertex `v` be fitted again. \pre `is_control_vertex(v)`
   ARAP::Outcome erase_target_rotation(vertex_descriptor v)
   {
     CGAL_precondition(is_control_vertex(v));
@@ -602,8 +603,8 @@ public:
   }
 
   /// deforms with a number of iterations and a tolerance for this call only, see `ARAP::Options`.
-  /// With `ARAP::Minimizer::automatic` a tolerance of 0 also selects local/global: for the frames
-  /// of a drag, after which `deform()` goes on to the minimum.
+  /// With `ARAP::Minimizer::automatic` a tolerance of 0 also selects local/global. Take it for the
+  /// frames of a drag; when the drag has ended, `deform()` goes on to the minimum.
   [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance)
   {
     return deform(iterations, tolerance, ARAP::Default_visitor());

@@ -18,6 +18,8 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Dynamics.h>
+#include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 
 #include <cstddef>
@@ -58,6 +60,22 @@ int main()
     CHECK(deform(bad, 1, 1).status == Status::non_finite_point);
     CHECK(deform(1, bad, 1).status == Status::non_finite_point);
     CHECK(deform(1, 1, bad).status == Status::non_finite_weight);
+    for(double Dynamics::* member : {&Dynamics::time_step, &Dynamics::density, &Dynamics::modulus,
+                                     &Dynamics::damping})
+    {
+      Dynamics dynamics;
+      dynamics.*member = bad;
+      CHECK(dynamics.check().status == Status::invalid_option);
+    }
+    Dynamics dynamics;
+    dynamics.acceleration[1] = bad;
+    CHECK(dynamics.check().status == Status::invalid_option);
+    for(double Options::* member : {&Options::tolerance, &Options::bending_length})
+    {
+      Options options;
+      options.*member = bad;
+      CHECK(options.check().status == Status::invalid_option);
+    }
   }
   return checks_result();
 }

@@ -18,8 +18,8 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
-#include <cmath>
 #include <string>
 
 namespace CGAL {
@@ -27,8 +27,8 @@ namespace ARAP {
 
 /// \ingroup PkgARAPDeformationOptions
 /// \brief what a time step of `CGAL::ARAP_deformation::advance()` needs, in any consistent units:
-/// with kilograms, meters and seconds, the modulus is in Pascal for tetrahedra. See
-/// \ref ARAPDeformation_DynamicsTheory for the equations.
+/// with kilograms, meters and seconds, the modulus is in Pascal for tetrahedra, and in Newton per
+/// meter for surfaces. See \ref ARAPDeformation_DynamicsTheory for the equations.
 struct Dynamics
 {
   /// \f$h\f$, positive and finite. Another one requires a factorization.
@@ -40,12 +40,13 @@ struct Dynamics
   double density = 1;
 
   /// \f$\mu\f$, which makes an elastic energy \f$\mu E\f$ of the energy \f$E\f$; positive and
-  /// finite. \f$\mu\f$ is an energy per volume for tetrahedra, and per area for surfaces. Another
-  /// one requires a factorization.
+  /// finite. \f$\mu\f$ is an energy per volume for tetrahedra, and per area for surfaces. It
+  /// multiplies soft targets, too: one of weight \f$m\f$ pulls like a spring of the constant
+  /// \f$2 \mu m\f$. Another one requires a factorization.
   double modulus = 1;
 
-  /// \f$d\f$, the rate at which velocities decay, not negative and finite: 0 for none. Another one
-  /// requires a factorization.
+  /// \f$d\f$, the rate at which velocities decay, one over a time, not negative and finite: 0 for
+  /// none. Another one requires a factorization.
   double damping = 0;
 
   /// the acceleration of all vertices, such as that of gravity; of points with two coordinates the
@@ -55,18 +56,18 @@ struct Dynamics
   /// returns `Status::success`, or `Status::invalid_option` and a message that names the member.
   Outcome check() const
   {
-    const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
+    const auto is_positive = [](double x) { return x > 0 && internal::is_finite(x); };
     const char* const wrong = !is_positive(time_step) ? "time_step"
                               : !is_positive(density) ? "density"
                               : !is_positive(modulus) ? "modulus" : nullptr;
     if(wrong)
       return Outcome(Status::invalid_option,
                      std::string(wrong) + " of the dynamics must be positive and finite");
-    if(!(damping >= 0) || !std::isfinite(damping))
+    if(!(damping >= 0) || !internal::is_finite(damping))
       return Outcome(Status::invalid_option,
                      "damping of the dynamics must be finite and not negative");
     for(double a : acceleration)
-      if(!std::isfinite(a))
+      if(!internal::is_finite(a))
         return Outcome(Status::invalid_option, "acceleration of the dynamics must be finite");
     return Outcome(Status::success, "the dynamics are valid");
   }

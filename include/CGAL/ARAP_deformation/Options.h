@@ -105,7 +105,7 @@ struct Options
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of
   /// the Laplacian, after its first five iterations and where it looks at the second derivative:
-  /// see \ref ARAPDeformation_CoarseMetric. It then takes about 0.3 to 0.7 of the iterations, and
+  /// see \ref ARAPDeformation_CoarseMetric. It then takes about 0.3 to 0.8 of the iterations, and
   /// about 160 bytes more for each vertex of the region. To prepare it takes as long as some ten
   /// iterations; this is done when it is first needed, and kept until the weights change.
   /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are

@@ -79,8 +79,9 @@ struct Stages
   bool weights = false;       ///< the weights of its edges
   bool order = false;         ///< the fill-reducing order and the pattern of the factor
   bool factor = false;        ///< the numeric factorization
-  bool border = false;        ///< a border of the factor, for few vertices that were fixed or
-                              ///< freed, or what keeps hard control points
+  bool border = false;        ///< a border of the factor, for few vertices that were fixed, freed
+                              ///< or given another weight, few soft control points that changed,
+                              ///< and the constraints of hard control points
 };
 
 /// \ingroup PkgARAPDeformationRun

@@ -33,7 +33,8 @@ enum class Status
   stopped,              ///< a visitor stopped the run; the last iterate was kept
   cancelled,            ///< a visitor cancelled the run; nothing was changed
   invalid_option,       ///< an option is out of range
-  in_a_run,             ///< what a run calls, as a visitor, must not change the object
+  in_a_run,             ///< a visitor, or another function that a run calls, tried to change the
+                        ///< object
   foreign_state,        ///< the state to restore is of another object
   invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
   undeclared_map,       ///< cells are simplices, and a generic function object for their stiffness

@@ -107,8 +107,9 @@ auto region_of_interest(const VertexRange& vertices, const NP&... np)
 
 /// the weight of each target, see `ARAP_deformation::set_target_weight()`: a number, or a map from
 /// vertices to numbers (a property map, a function object, a map, or a vector by the indices of
-/// the vertices); default infinite. A map says nothing of control points: they are hard. In
-/// `arap_deform()` only.
+/// the vertices); default infinite. Vertices that only `vertex_is_constrained_map` constrains are
+/// hard, and so are those that a map has no value for. A map says nothing of control points: they
+/// are hard. In `arap_deform()` only.
 template <typename Weight, typename... NP>
 auto target_weight(const Weight& weight, const NP&... np)
 {

@@ -15,9 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Options.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 
-#include <cmath>
 #include <string>
 
 namespace CGAL {
@@ -26,10 +26,10 @@ namespace ARAP {
 CGAL_ARAP_INLINE_FUNCTION
 Outcome Options::check() const
 {
-  if(!(tolerance >= 0) || !std::isfinite(tolerance))
+  if(!(tolerance >= 0) || !internal::is_finite(tolerance))
     return Outcome(Status::invalid_option, "the option tolerance is " +
                    std::to_string(tolerance) + "; it must be finite and not negative");
-  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  const auto is_length = [](double x) { return x >= 0 && internal::is_finite(x); };
   const char* const wrong = !is_length(bending_length)     ? "bending_length"
                             : !is_length(smoothing_length) ? "smoothing_length" : nullptr;
   if(wrong)

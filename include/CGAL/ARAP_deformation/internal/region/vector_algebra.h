@@ -16,11 +16,10 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 
 namespace CGAL {
 namespace ARAP {
@@ -117,15 +116,6 @@ inline bool is_rotation(const Matrix_3x3& m)
       error += off * off;
     }
   return error < 1e-10 && determinant(m) > 0; // not if there is an NaN
-}
-
-// tells by the exponent, since -ffast-math takes std::isfinite() to be true
-inline bool is_finite(double x)
-{
-  constexpr std::uint64_t exponent = 0x7ff0000000000000;
-  std::uint64_t bits;
-  std::memcpy(&bits, &x, sizeof(bits));
-  return (bits & exponent) != exponent;
 }
 
 inline bool is_finite(const Coordinates& a)

@@ -18,7 +18,6 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Time_step.h>
 
-#include <cmath>
 #include <cstddef>
 
 namespace CGAL {
@@ -29,7 +28,7 @@ CGAL_ARAP_INLINE_FUNCTION
 Outcome Time_step::check() const
 {
   Outcome checked = dynamics.check();
-  if(checked && !(inertia() > 0 && std::isfinite(inertia())))
+  if(checked && !(inertia() > 0 && is_finite(inertia())))
     return Outcome(Status::invalid_option, "time_step, density, modulus and damping of the "
                    "dynamics differ too much in size: their inertia is zero or infinite");
   return checked;

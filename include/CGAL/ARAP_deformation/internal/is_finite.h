@@ -1,0 +1,37 @@
+// Copyright (c) 2026  The ARAP_deformation authors.
+// All rights reserved.
+//
+// This file is part of CGAL (www.cgal.org).
+//
+// $URL$
+// $Id$
+// SPDX-License-Identifier: GPL-3.0-or-later OR LicenseRef-Commercial
+//
+// Author(s)     : The ARAP_deformation authors
+
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_IS_FINITE_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_IS_FINITE_H
+
+#include <CGAL/license/ARAP_deformation.h>
+
+#include <cstdint>
+#include <cstring>
+
+namespace CGAL {
+namespace ARAP {
+namespace internal {
+
+// tells by the exponent, since -ffast-math takes std::isfinite() to be true
+inline bool is_finite(double x)
+{
+  constexpr std::uint64_t exponent = 0x7ff0000000000000;
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return (bits & exponent) != exponent;
+}
+
+} // namespace internal
+} // namespace ARAP
+} // namespace CGAL
+
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_IS_FINITE_H
