@@ -249,12 +249,13 @@ private:
     std::setvbuf(m_direct.get(), nullptr, _IONBF, 0);
     const std::size_t largest_piece = 4096;
     bool is_written = bool(out);
-    for(std::size_t begin = 0, size = 0; begin < text.size() && is_written; begin += size)
+    for(std::size_t begin = 0; begin < text.size() && is_written; begin += largest_piece)
     {
-      size = (std::min)(largest_piece, text.size() - begin);
-      is_written = !is_interrupted &&
-                   std::fwrite(text.data() + begin, 1, size, m_direct.get()) == size;
+      check_interrupted();
+      const std::size_t size = (std::min)(largest_piece, text.size() - begin);
+      is_written = std::fwrite(text.data() + begin, 1, size, m_direct.get()) == size;
     }
+    check_interrupted();
     return std::fclose(m_direct.release()) == 0 && is_written;
   }
 

@@ -1077,7 +1077,7 @@ void test_signals()
   }
   // a pipe that nobody reads, and which is full before the end of the report
   check_failed("timeout 30 sleep 30 < fifo & " + call +
-               "--iterations 20000 --tolerance 0 --report fifo; kill $!", 124, "",
+               "--iterations 20000 --tolerance 0 --report fifo; kill $!", 124, "interrupted",
                "-s TERM -k 20 2");
 }
 
