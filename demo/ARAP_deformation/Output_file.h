@@ -155,7 +155,10 @@ public:
     if(m_has_replaced && m_former.empty())
       std::filesystem::remove(m_file, ignored);
     else if(m_has_replaced)
+    {
       std::filesystem::rename(m_former, m_file, ignored);
+      m_former.clear(); // where that failed, it is the only copy
+    }
     for(const std::filesystem::path& file : {m_temporary, m_former})
       if(!file.empty())
         std::filesystem::remove(file, ignored);

@@ -25,10 +25,10 @@ struct Unwritable : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-// A number in single precision. Throws if it is too large.
+// A number in single precision. Throws if it is too large; NaN stays what it is.
 inline float to_float(double x)
 {
-  if(!(std::abs(x) <= (std::numeric_limits<float>::max)()))
+  if(std::abs(x) > (std::numeric_limits<float>::max)())
   {
     std::ostringstream why;
     why << "the number " << x << " is too large for the single precision of this file";
