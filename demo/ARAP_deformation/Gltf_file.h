@@ -226,7 +226,7 @@ private:
     const std::size_t size = corners ? corners->size : positions.size;
     if(size % 3 != 0)
       throw std::runtime_error("has a list of triangles that ends with a part of one");
-    for(std::size_t i = 0; i + 2 < size; i += 3)
+    for(std::size_t i = 0; i < size; i += 3)
     {
       std::array<std::size_t, 3> t;
       for(std::size_t k = 0; k < 3; ++k)

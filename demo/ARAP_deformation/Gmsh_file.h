@@ -180,8 +180,8 @@ private:
     // nodes on a curve or a surface have parameters, too
     const long long parameters = block.type == 0 ? 0 : block.dimension;
     if(parameters > 3)
-      refuse(words, "a block of nodes has at most three dimensions, but there is one of " +
-                    std::to_string(parameters) + ", before");
+      refuse(words, "a block of nodes can have the dimension 3 at most, but has " +
+                    std::to_string(parameters) + " before");
     for(long long i = 0; i < block.size; ++i)
     {
       read_node(words);

@@ -273,8 +273,8 @@ private:
 
   std::string m_name; // as the user gave it
   std::filesystem::path m_file, m_temporary, m_former;
-  bool m_has_replaced = false; // what was there
-  internal::C_file m_direct; // in place of these two
+  bool m_has_replaced = false; // the new file is in its place, and not final
+  internal::C_file m_direct; // instead of a temporary file
 };
 
 } // namespace CGAL::ARAP::demo

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <istream>
@@ -54,13 +53,6 @@ inline std::string told_by_obj_statement(const std::string& keyword)
   }();
   const auto found = kinds.find(keyword);
   return found == kinds.end() ? std::string() : found->second;
-}
-
-inline bool is_finite_number(std::string_view word) // which a blank follows
-{
-  char* end = nullptr;
-  return !word.empty() && std::isfinite(std::strtod(word.data(), &end)) &&
-         end == word.data() + word.size();
 }
 
 // Reads a line, and the next lines while they continue it. Returns how many. Comments and ends of
@@ -149,7 +141,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
     const std::string keyword(words.next());
     if(Words others = words; keyword == "vn")
       for(int k = 0; k < 3; ++k)
-        if(!internal::is_finite_number(others.next()))
+        if(!is_finite_number(others.next()))
           throw bad_line(file, number, "a normal has three finite numbers");
     if(source && keyword == "vn")
       source->normals.push_back(internal::read_obj_normal(line, words, begin));
@@ -169,7 +161,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
       {
         if(size >= 3)
           continue; // a weight, or a color
-        if(!internal::is_finite_number(word))
+        if(!is_finite_number(word))
           throw bad_line(file, number, in_quotes(word) + " is not a finite number");
         out << ' ' << word;
       }

@@ -19,15 +19,14 @@
 #include <CGAL/IO/io.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <istream>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
@@ -123,19 +122,11 @@ private:
 
   void check_coordinates(std::size_t v) const
   {
-    const char* place = m_line.c_str();
+    Words words(m_line);
     for(int k = 0; k < 3; ++k)
-    {
-      char* end = nullptr;
-      const double coordinate = std::strtod(place, &end);
-      const bool is_end = *end == '\0' || *end == '#' ||
-                          std::isspace(static_cast<unsigned char>(*end));
-      const bool is_decimal = std::none_of(place, static_cast<const char*>(end),
-                                           [](char c) { return c == 'x' || c == 'X'; });
-      if(end == place || !is_end || !is_decimal || !std::isfinite(coordinate))
+      if(const auto word = words.next(); // CGAL does not read hexadecimal numbers
+         !is_finite_number(word) || word.find_first_of("xX") != std::string_view::npos)
         refuse("vertex", v, "does not have three finite coordinates");
-      place = end;
-    }
   }
 
   void read_numbers()

@@ -27,6 +27,7 @@
 #include <cmath>
 #include <cctype>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <istream>
@@ -207,6 +208,14 @@ private:
   std::string_view m_text;
   std::size_t m_begin, m_end;
 };
+
+// whether a word, which the end of the text or another character follows, is a finite number
+inline bool is_finite_number(std::string_view word)
+{
+  char* end = nullptr;
+  return !word.empty() && std::isfinite(std::strtod(word.data(), &end)) &&
+         end == word.data() + word.size();
+}
 
 // Calls f(line, line number) for each line of a file that has more than a comment.
 template <typename Function>

@@ -23,6 +23,14 @@ double sum_of_phases(const CGAL::ARAP::Phase_seconds& s)
   return s.preprocess + s.transfer + s.initial_guess + s.local_steps + s.global_steps + s.visitor;
 }
 
+unsigned int iterations_to(double energy, const CGAL::ARAP::Report& report)
+{
+  unsigned int k = 0;
+  while(k < report.iterations && report.energy[k] > energy)
+    ++k;
+  return k;
+}
+
 std::vector<std::size_t> numbers(std::size_t n)
 {
   std::vector<std::size_t> all(n);

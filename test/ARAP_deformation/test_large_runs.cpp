@@ -131,21 +131,6 @@ struct Solver_of_large_systems : CGAL::ARAP::Multifrontal_cholesky_solver
   }
 };
 
-// The first energy of a run and the last one, and its iterations.
-struct Course
-{
-  double first, last;
-  std::vector<double> energy;
-  CGAL::ARAP::Status status;
-
-  // when it had fallen to this
-  std::ptrdiff_t iterations_to(double value) const
-  {
-    return std::find_if(energy.begin(), energy.end(),
-                        [value](double e) { return e <= value; }) - energy.begin();
-  }
-};
-
 template <typename Solver = CGAL::Default>
 auto prepared(Mesh& mesh, const Scenario& s, const Options& options)
 {
@@ -156,14 +141,14 @@ auto prepared(Mesh& mesh, const Scenario& s, const Options& options)
 }
 
 template <typename Solver = CGAL::Default>
-Course course(const Shape& shape, const Scenario& s, const Options& options)
+Report course(const Shape& shape, const Scenario& s, const Options& options)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
   const Report report = prepared<Solver>(mesh, s, options).deform();
   CHECK(report.status == CGAL::ARAP::Status::converged ||
         report.status == CGAL::ARAP::Status::iteration_limit);
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
-  return {report.energy.front(), report.final_energy(), report.energy, report.status};
+  return report;
 }
 
 // The first energy of a run, which is stopped then.
@@ -206,23 +191,25 @@ void test_starts()
   {
     test_case() = "starts";
     Options options = options_with_start(cells, CGAL::ARAP::Initial_guess::rotations);
-    const Course without = course(shape, s, options);
+    const Report without = course(shape, s, options);
     options.initial_guess = CGAL::ARAP::Initial_guess::automatic;
-    const Course with = course(shape, s, options);
-    CHECK_AT_MOST(with.first, 0.1 * without.first);
-    CHECK_AT_MOST(with.last, 1.01 * without.last);
-    const double low = 1.01 * (std::min)(with.last, without.last);
-    CHECK_AT_MOST(with.iterations_to(low), without.iterations_to(low));
+    const Report with = course(shape, s, options);
+    CHECK_AT_MOST(with.energy.front(), 0.1 * without.energy.front());
+    CHECK_AT_MOST(with.final_energy(), 1.01 * without.final_energy());
+    const double low = 1.01 * (std::min)(with.final_energy(), without.final_energy());
+    CHECK_AT_MOST(iterations_to(low, with), iterations_to(low, without));
 
     options.iterations = 20;
-    const Course sequential = course(shape, s, options);
+    const Report sequential = course(shape, s, options);
     options.threads = 3;
-    CHECK(course(shape, s, options).last == sequential.last);
+    CHECK(course(shape, s, options).final_energy() == sequential.final_energy());
     std::vector<std::size_t> place;
     const Shape other_shape = shuffled(shape, place);
-    const Course in_other_order = course(other_shape, shuffled(s, place), options);
-    CHECK_AT_MOST(relative_difference(in_other_order.first, sequential.first), 1e-6);
-    CHECK_AT_MOST(relative_difference(in_other_order.last, sequential.last), 1e-4);
+    const Report in_other_order = course(other_shape, shuffled(s, place), options);
+    CHECK_AT_MOST(relative_difference(in_other_order.energy.front(), sequential.energy.front()),
+                  1e-6);
+    CHECK_AT_MOST(relative_difference(in_other_order.final_energy(), sequential.final_energy()),
+                  1e-4);
   }
 }
 
@@ -235,13 +222,13 @@ void test_nested_starts()
   Options options = options_with_start(Cell_scheme::spokes_and_rims(),
                                        CGAL::ARAP::Initial_guess::rotations);
   options.iterations = 20;
-  const Course without = course(shape, s, options);
+  const Report without = course(shape, s, options);
   options.initial_guess = CGAL::ARAP::Initial_guess::automatic;
-  const Course with = course(shape, s, options);
-  CHECK_AT_MOST(with.first, 0.1 * without.first);
-  CHECK_AT_MOST(with.last, without.last);
+  const Report with = course(shape, s, options);
+  CHECK_AT_MOST(with.energy.front(), 0.1 * without.energy.front());
+  CHECK_AT_MOST(with.final_energy(), without.final_energy());
   options.threads = 3;
-  CHECK(course(shape, s, options).last == with.last);
+  CHECK(course(shape, s, options).final_energy() == with.final_energy());
 }
 
 // Without a coarser surface a run starts where the guess by rotations does, but for rounding, as

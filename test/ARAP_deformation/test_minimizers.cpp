@@ -57,14 +57,6 @@ Report run(const Shape& shape, const Scenario& s, const Options& options, unsign
   return d.deform(iterations, tolerance);
 }
 
-unsigned int iterations_to(double energy, const Report& report)
-{
-  unsigned int k = 0;
-  while(k < report.iterations && report.energy[k] > energy)
-    ++k;
-  return k;
-}
-
 // The step of the memory is that of L-BFGS, written down a second time with dense matrices, for a
 // quadratic energy with the minimum 0 and the second derivative 2 A, where L is the metric.
 void test_step()

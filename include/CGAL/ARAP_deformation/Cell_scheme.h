@@ -44,8 +44,8 @@ public:
 
   /// one cell for each vertex, with the stars of all vertices within `k` rings around it: the
   /// larger the cells, the smoother the rotations, and the stiffer the shape. At most 100;
-  /// `k_ring(0)` is `spokes()`. The cost of a local step is
-  /// proportional to the number of stars in a cell.
+  /// `k_ring(0)` is `spokes()`. The cost of a local step is proportional to
+  /// the number of stars in a cell.
   static constexpr Cell_scheme k_ring(unsigned int k)
   {
     return Cell_scheme(Edge_set::star, false, k);

@@ -65,6 +65,9 @@ void for_all_options(const Function& f)
 
 double sum_of_phases(const CGAL::ARAP::Phase_seconds& s);
 
+// the iterations after which the energy had fallen to this
+unsigned int iterations_to(double energy, const CGAL::ARAP::Report& report);
+
 // what a domain asks of a point, and nothing else
 class Bare_point
 {
