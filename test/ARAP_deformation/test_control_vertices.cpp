@@ -1234,6 +1234,92 @@ void test_all()
     }
 }
 
+// What is unconstrained, against the kernel of the dense matrix: edges of weight 1 or 0, and rows
+// of coefficients that often add up to zero or repeat each other, over several components too.
+void test_unconstrained()
+{
+  constexpr int n = 12;
+  std::mt19937 generator(8);
+  const auto random = [&](int count) { return static_cast<int>(generator() % unsigned(count)); };
+  int were_tied = 0, were_loose = 0; // where rows connect components
+  for(int step = 0; step < 2000; ++step)
+  {
+    test_case() = "unconstrained, step " + std::to_string(step);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n), pattern = Eigen::MatrixXd::Identity(n, n);
+    const int number_of_edges = 6 + random(12);
+    for(int k = 0; k < number_of_edges; ++k)
+      if(const int i = random(n), j = random(n); i != j)
+      {
+        pattern(i, j) = pattern(j, i) = 1;
+        const double weight = random(4) > 0;
+        dense(i, i) += weight;
+        dense(j, j) += weight;
+        dense(i, j) -= weight;
+        dense(j, i) -= weight;
+      }
+    Laplacian laplacian;
+    const Eigen::SparseMatrix<double> whole = pattern.sparseView();
+    laplacian.matrix = whole.triangularView<Eigen::Lower>();
+    for(int v = 0; v < n; ++v)
+      for(CGAL::ARAP::Sparse_matrix::InnerIterator entry(laplacian.matrix, v); entry; ++entry)
+        entry.valueRef() = dense(entry.row(), v);
+    laplacian.is_tied.assign(n, false);
+    Constraints constraints;
+    constraints.is_fixed.assign(n, false);
+    if(random(2))
+      constraints.is_fixed[random(n)] = true;
+    const int number_of_rows = random(7);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(number_of_rows, n);
+    bool is_across = false;
+    for(int r = 0; r < number_of_rows; ++r)
+    {
+      const std::vector<std::vector<double>> choice = {{1}, {0.3, 0.7}, {1, -1}, {0.25, 0.25, 0.5},
+                                                       {0.1, 0.2, -0.3}};
+      const std::vector<double>& b = choice[random(5)];
+      CGAL::ARAP::internal::Array<int> vertices;
+      CGAL::ARAP::internal::Array<double> coefficients;
+      const int first = random(3), stride = 1 + random(4);
+      for(std::size_t k = 0; k < b.size(); ++k)
+      {
+        vertices.push_back(first + stride * static_cast<int>(k));
+        coefficients.push_back(b[k]);
+        rows(r, vertices[k]) = b[k];
+      }
+      (random(2) ? constraints.rows : constraints.hard_rows).append(vertices, coefficients, 1);
+      is_across |= b.size() > 1;
+    }
+
+    std::vector<int> free;
+    for(int v = 0; v < n; ++v)
+      if(!constraints.is_fixed[v])
+        free.push_back(v);
+    Eigen::MatrixXd matrix(free.size(), free.size());
+    const Eigen::MatrixXd all = dense + rows.transpose() * rows;
+    for(std::size_t i = 0; i < free.size(); ++i)
+      for(std::size_t j = 0; j < free.size(); ++j)
+        matrix(i, j) = all(free[i], free[j]);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+    Eigen::VectorXd in_kernel = Eigen::VectorXd::Zero(n);
+    for(std::size_t k = 0; k < free.size(); ++k)
+      for(std::size_t i = 0; i < free.size() && eigen.eigenvalues()[k] < 1e-10; ++i)
+        in_kernel[free[i]] += std::abs(eigen.eigenvectors()(i, k));
+
+    const CGAL::ARAP::internal::Free_components found =
+      find_free_components(laplacian, constraints);
+    std::map<int, bool> can_move; // whether some vertex of an unconstrained component can
+    for(int v : free)
+    {
+      CHECK(found.is_unconstrained(v) || in_kernel[v] < 1e-6);
+      if(found.is_unconstrained(v))
+        can_move[found.component[v]] |= in_kernel[v] > 1e-6;
+    }
+    for(const auto& component : can_move)
+      CHECK(component.second);
+    (can_move.empty() ? were_tied : were_loose) += is_across;
+  }
+  CHECK(were_tied > 100 && were_loose > 100);
+}
+
 } // namespace rows
 
 // What hangs on weights so small that rounding errors of the others hide them: of all that a matrix
@@ -1339,6 +1425,7 @@ int main()
   soft_targets::test_all();
   changes::test_all();
   rows::test_all();
+  rows::test_unconstrained();
   weak_ties::test_all();
   return checks_result();
 }

@@ -479,6 +479,48 @@ void test_all()
   CHECK(report); // each free vertex is a part that nothing holds
   CHECK(report.unconstrained_components.size() ==
         std::size_t(std::count(s.selection.begin(), s.selection.end(), 1)));
+
+  // halves that no edge connects, only control points in tetrahedra between them
+  double middle = 0;
+  for(const Eigen::Vector3d& p : solid.points)
+    middle += (p.x() + 0.01) / double(solid.points.size());
+  const auto is_left = [&](std::size_t v) { return solid.points[v].x() < middle; };
+  Edge_map_weight cut;
+  std::vector<std::size_t> between;
+  for(std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
+  {
+    const auto& corners = solid.tetrahedra[t];
+    if(std::count_if(corners.begin(), corners.end(), is_left) % 4 != 0)
+      between.push_back(t);
+    for(std::size_t v : corners)
+      for(std::size_t w : corners)
+        if(v < w)
+          cut.set_weight(v, w, is_left(v) == is_left(w));
+  }
+  for(double weight : {2.0, std::numeric_limits<double>::infinity()})
+  {
+    test_case() = "a control point of two components, weight " + std::to_string(weight);
+    points = points_of(solid.points);
+    CGAL::ARAP_deformation<Soup, Traits> halves(Soup(points, solid.tetrahedra), Traits({}, cut));
+    CHECK(halves.set_options(options_for(Cell_scheme::spokes())));
+    for(std::size_t v = 0; v < points.size(); ++v)
+      halves.insert_roi_vertex(v);
+    const auto insert = [&](std::size_t t, const std::vector<double>& coordinates) {
+      const auto inserted = halves.insert_control_point(t, coordinates);
+      CHECK(inserted);
+      CHECK(halves.translate(inserted.point, Eigen::Vector3d(1, 2, 3)));
+      CHECK(halves.set_target_weight(inserted.point, weight));
+    };
+    insert(between.front(), {0.1, 0.2, 0.3, 0.4});
+    CHECK(halves.deform().status == CGAL::ARAP::Status::no_fixed_vertex); // one for two halves
+    CHECK(points == points_of(solid.points));
+    insert(between.front(), {0.4, 0.3, 0.2, 0.1});
+    insert(between.back(), {0.1, 0.2, 0.3, 0.4});
+    const CGAL::ARAP::Report together = halves.deform(1000, 1e-12);
+    CHECK(together && together.unconstrained_components.empty());
+    for(std::size_t v = 0; v < points.size(); ++v)
+      CHECK_AT_MOST((vector(points[v]) - solid.points[v] - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+  }
 }
 
 } // namespace edge_map

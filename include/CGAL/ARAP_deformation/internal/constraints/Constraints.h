@@ -22,7 +22,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -86,8 +85,8 @@ public:
   // whether each row has one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
-  // Calls f(begin, end, sum) for each row, with its vertices and the sum of its
-  // coefficients.
+  // Calls f(begin, end, coefficients) for each row: the range of its vertices, and where the
+  // coefficients of these begin.
   template <typename Function>
   void for_each_row(const Function& f) const
   {
@@ -95,7 +94,7 @@ public:
     {
       const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
       f(m_vertices.items.begin() + begin, m_vertices.items.begin() + end,
-        std::accumulate(m_coefficients.begin() + begin, m_coefficients.begin() + end, 0.0));
+        m_coefficients.begin() + begin);
     }
   }
 
@@ -153,7 +152,7 @@ struct Constraints
   double inertia = 0;      // If not 0, each free vertex of positive mass has a row that ties it to
                            // where its inertia takes it; then this is the sum of their weights.
 
-  // calls f(begin, end, sum) for each row, first for the soft ones
+  // calls f(begin, end, coefficients) for each row, first for the soft ones
   template <typename Function>
   void for_each_row(const Function& f) const
   {

@@ -73,7 +73,7 @@ public:
           around[*v] = component;
         }
     }
-    constraints.for_each_row([&](auto begin, auto end, double) { unite(begin, end); });
+    constraints.for_each_row([&](auto begin, auto end, auto) { unite(begin, end); });
 
     int count = 0;
     Array<int> number(n, -1);
@@ -101,14 +101,14 @@ public:
     }
     m_can_be_rigid = Array<char>(count, true);
     int r = 0;
-    constraints.for_each_row([&](auto begin, auto end, double sum) {
+    constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
       const auto first = std::find_if(begin, end, is_free);
       if(first != end)
       {
         const int part = m_part[*first];
         add_fixed(part, begin, end);
         rows.emplace_back(part, r);
-        if(!(std::abs(sum - 1) <= 1e-12))
+        if(!(std::abs(std::accumulate(coefficients, coefficients + (end - begin), -1.0)) <= 1e-12))
           m_can_be_rigid[part] = false; // it is not invariant under translations
       }
       ++r;
@@ -303,7 +303,7 @@ private:
         if(deformed[motion.part] >= 0)
           for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
             f(&m_fixed.items[k], &m_fixed.items[k] + 1, motion.part);
-      constraints.for_each_row([&](auto begin, auto end, double) {
+      constraints.for_each_row([&](auto begin, auto end, auto) {
         const auto v = std::find_if(begin, end, is_deformed);
         if(v != end)
           f(begin, end, m_part[*v]);
@@ -325,7 +325,7 @@ private:
         if(!is_turned[*v])
           sets.unite(*first, *v);
     }
-    constraints.for_each_row([&](auto begin, auto end, double) {
+    constraints.for_each_row([&](auto begin, auto end, auto) {
       for(auto v = begin; v != end; ++v)
         sets.unite(*begin, *v);
     });
