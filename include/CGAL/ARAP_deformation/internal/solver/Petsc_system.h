@@ -74,7 +74,7 @@ public:
         clear_matrix();
       if(is_done || !is_workspace_too_small() || m_workspace >= largest_workspace)
         break;
-      m_workspace *= 2;
+      m_workspace = (std::min)(2 * m_workspace, largest_workspace);
       MatDestroy(&m_factor);
     }
     if(!is_done)
@@ -134,14 +134,18 @@ private:
 
     Array<PetscInt> columns; // of another rank
     Array<double> values;
+    Array<PetscInt> next;    // scratch of full_rows()
     is_good = attempt([&] {
       if(is_full || a == nullptr)
       {
         m_columns.resize(std::size_t(m_begins[m]));
         m_values.resize(std::size_t(m_begins[m]));
       }
-      for(int rank = 1; is_full && a != nullptr && rank < m_ranks.size(); ++rank)
+      for(int rank = 0; is_full && a != nullptr && rank < m_ranks.size(); ++rank)
       {
+        next.resize((std::max)(next.size(), std::size_t(number_of_rows(rank))));
+        if(rank == 0)
+          continue;
         const auto size = std::size_t(begin[m_first_rows[rank + 1]] - begin[m_first_rows[rank]]);
         columns.resize((std::max)(columns.size(), size));
         values.resize((std::max)(values.size(), size));
@@ -155,7 +159,7 @@ private:
       const PetscInt first = begin[m_first_rows[rank]];
       const PetscInt size = begin[m_first_rows[rank + 1]] - first;
       if(is_full)
-        full_rows(*a, begin, rank, columns.data(), values.data());
+        full_rows(*a, begin, rank, next.data(), columns.data(), values.data());
       send(is_full ? columns.data() : a->innerIndexPtr() + first, size, MPI_INT, rank);
       send(is_full ? values.data() : a->valuePtr() + first, size, MPI_DOUBLE, rank);
     }
@@ -165,7 +169,7 @@ private:
       receive(m_values.data(), m_begins[m], MPI_DOUBLE);
     }
     else if(is_full)
-      full_rows(*a, begin, 0, m_columns.data(), m_values.data());
+      full_rows(*a, begin, 0, next.data(), m_columns.data(), m_values.data());
     const bool is_in_place = a != nullptr && !is_full;
     return make_matrix(is_in_place ? const_cast<PetscInt*>(a->innerIndexPtr()) : m_columns.data(),
                        is_in_place ? const_cast<double*>(a->valuePtr()) : m_values.data());
@@ -358,12 +362,12 @@ private:
     return begin;
   }
 
-  // all entries of the rows of a rank, with ascending columns
-  void full_rows(const Sparse_matrix& a, const PetscInt* begin, int rank, PetscInt* columns,
-                 double* values) const
+  // all entries of the rows of a rank, with ascending columns; allocates nothing
+  void full_rows(const Sparse_matrix& a, const PetscInt* begin, int rank, PetscInt* next,
+                 PetscInt* columns, double* values) const
   {
     const PetscInt first = m_first_rows[rank], last = m_first_rows[rank + 1];
-    Array<PetscInt> next(begin + first, begin + last);
+    std::copy(begin + first, begin + last, next);
     const auto add = [&](PetscInt row, PetscInt column, double value) {
       if(row < first || row >= last)
         return;
