@@ -20,6 +20,7 @@
 #include "include/Single_precision_solver.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/target_sets.h>
@@ -467,6 +468,18 @@ void test_dependent()
     s.insert(place, {0.2, 0.3 + 1e-9, 0.5 - 1e-9}, infinite, shift);
     check_refused(s, Status::dependent_target, "control point 2");
   }
+  for(double distance : {0.3, 0.1, 0.03, 0.02, 0.01, 0.003, 0.001})
+  {
+    test_case() = "four points in a triangle, two of them at " + std::to_string(distance);
+    Subject<2, Solver> s(shape);
+    s.insert(place, {0.2, 0.3, 0.5}, infinite, shift);
+    s.insert(place, {0.2, 0.3 + distance, 0.5 - distance}, infinite, shift);
+    s.insert(place, {0.6, 0.2, 0.2}, infinite, shift);
+    CHECK(s.deformation.deform());
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+    s.insert(place, {0.3, 0.5, 0.2}, infinite, shift);
+    check_refused(s, Status::dependent_target, "control point 4");
+  }
   {
     test_case() = "all corners fixed";
     Subject<2, Solver> s(shape);
@@ -493,6 +506,38 @@ void test_dependent()
     const Report report = s.deformation.deform();
     CHECK(report);
     CHECK_AT_MOST(std::abs(report.final_energy() - 2 * 0.01), 1e-12 + report.energy[0]);
+  }
+}
+
+// Pairs of points that are close to each other: with a factor in single precision too.
+void test_close_pairs()
+{
+  using Solver = CGAL::ARAP::Multifrontal_cholesky_solver;
+  using Traits = CGAL::ARAP_deformation_traits<Solver>;
+  const Held_shape<2> shape = triangles();
+  for(double distance : {1e-2, 1e-3, 1e-4, 1e-5})
+  {
+    test_case() = "pairs of points at " + std::to_string(distance);
+    std::vector<Point> results[2];
+    for(bool is_single : {false, true})
+    {
+      std::vector<Point>& points = results[is_single] = points_of(shape.points);
+      const Solver solver(is_single ? CGAL::ARAP::Factor_precision::single_precision
+                                    : CGAL::ARAP::Factor_precision::double_precision);
+      CGAL::ARAP_deformation<Soup<2>, Traits> d(Soup<2>(points, shape.simplices), Traits(solver));
+      prepare(d, shape.scenario, numbers(points.size()));
+      for(std::size_t place : shape.places(10, 3))
+        for(double step : {0.0, distance})
+        {
+          const auto inserted = d.insert_control_point(place, {0.2, 0.3 + step, 0.5 - step});
+          CHECK(d.translate(inserted.point, Eigen::Vector3d(0, 0.02, 0.1)));
+        }
+      CHECK(d.deform(30, 0));
+      for(Control_point p : d.control_points())
+        CHECK_AT_MOST((vector(d.control_point_position(p)) - vector(d.target_position(p))).norm(),
+                      1e-12 * shape.diameter());
+    }
+    CHECK_AT_MOST(largest_distance(results[0], results[1]), 1e-5 * shape.diameter());
   }
 }
 
@@ -1304,6 +1349,7 @@ int main()
   test_all(tetrahedra());
   refusals::test_dependent<CGAL::Default>();
   refusals::test_dependent<Compiled_LDLT_solver>();
+  refusals::test_close_pairs();
   refusals::test_input();
   histories::test_stages();
   histories::test_reset();

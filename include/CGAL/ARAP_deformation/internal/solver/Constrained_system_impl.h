@@ -270,14 +270,14 @@ bool Constrained_system::eliminate_hard_rows()
   for(std::size_t first = 0; first < m; first += 3)
   {
     const std::size_t count = (std::min)(std::size_t(3), m - first);
-    Array<Coordinates> three = m_hard_rows.scaled({});
+    Array<Coordinates> three = m_hard_rows.values({});
     for(std::size_t k = 0; k < count; ++k)
       three[first + k][k] = 1;
     Array<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
     m_hard_rows.add(three, x);
     if(!solve_matrix(x, {}))
       return false;
-    const Array<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.scaled({}), x);
+    const Array<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.values({}), x);
     for(std::size_t k = 0; k < count; ++k)
       for(std::size_t r = 0; r < m; ++r)
         s[(first + k) * m + r] = -minus_s[r][k];
@@ -288,15 +288,15 @@ bool Constrained_system::eliminate_hard_rows()
 CGAL_ARAP_INLINE_FUNCTION
 bool Constrained_system::solve(Array<Coordinates>& x, const Array<Coordinates>& values)
 {
-  const Array<Coordinates> scaled = m_hard_rows.scaled(values);
-  if(!solve_matrix(x, scaled))
+  const Array<Coordinates> own_values = m_hard_rows.values(values);
+  if(!solve_matrix(x, own_values))
     return false;
   if(m_hard_rows.is_empty())
     return true;
   if(!m_are_hard_rows_bordered)
   {
     Array<Coordinates> correction(x.size(), Coordinates{0, 0, 0});
-    Array<Coordinates> multipliers = m_hard_rows.residuals(scaled, x);
+    Array<Coordinates> multipliers = m_hard_rows.residuals(own_values, x);
     m_eliminated.solve(multipliers.data());
     m_hard_rows.add(multipliers, correction);
     if(!solve_matrix(correction, {}))
@@ -304,7 +304,7 @@ bool Constrained_system::solve(Array<Coordinates>& x, const Array<Coordinates>& 
     for(std::size_t v = 0; v < x.size(); ++v)
       add(x[v], 1, correction[v]);
   }
-  m_hard_rows.project(scaled, x); // whatever the solver's rounding errors are
+  m_hard_rows.project(own_values, x); // whatever the solver's rounding errors are
   return true;
 }
 

@@ -22,10 +22,10 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/solver/Orthogonalized_rows.h>
 
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -34,8 +34,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The hard rows of constraints for the free vertices, each scaled to length 1 of the row for all
-// vertices. B is small and sparse; its Gram matrix B B^T is factorized.
+// The hard rows of constraints for the free vertices, orthogonalized, but not quite. B is small and
+// sparse; its Gram matrix B B^T is factorized.
 class Hard_rows
 {
 public:
@@ -44,45 +44,33 @@ public:
 
   Hard_rows() = default;
 
-  explicit Hard_rows(const Constraints& constraints) : m_rows(constraints.hard_rows)
+  explicit Hard_rows(const Constraints& constraints)
+    : m_rows(constraints.hard_rows), m_orthogonalized(m_rows, constraints.is_fixed)
   {
-    if(is_empty())
-      return;
-    Array<Eigen::Triplet<double, int>> entries;
-    for(int r = 0; r < size(); ++r)
-    {
-      double square = 0;
-      m_rows.for_each_coefficient(r, [&](int, double b) { square += b * b; });
-      m_scale.push_back(1 / std::sqrt(square));
-      m_rows.for_each_coefficient(r, [&](int v, double b) {
-        if(!constraints.is_fixed[v])
-          entries.emplace_back(v, r, b * m_scale[r]);
-      });
-    }
-    m_columns.resize(static_cast<int>(constraints.is_fixed.size()), size());
-    m_columns.setFromTriplets(entries.begin(), entries.end());
-    m_gram = std::make_shared<Gram_factor>(gram_matrix());
+    if(!is_empty())
+      m_gram = std::make_shared<Gram_factor>(gram_matrix());
   }
 
   bool is_empty() const { return m_rows.size() == 0; }
   int size() const { return m_rows.size(); }
 
-  // The first row that is a linear combination of those before it and of fixed vertices, or -1. Its
-  // pivot is the squared sine of its angle to their span.
+  // The first row that is a linear combination of those before it and of fixed vertices, or -1.
+  // What counts is the squared sine of its angle to their span.
   int find_dependent() const
   {
     if(!is_empty())
     {
       const Array<double> pivots = m_gram->pivots();
       for(int r = 0; r < size(); ++r)
-        if(!(pivots[r] > smallest_pivot)) // nor if something is not finite
+        if(const double length = m_orthogonalized.length(r);
+           !(length * length * pivots[r] > smallest_squared_sine)) // nor if it is not finite
           return r;
     }
     return -1;
   }
 
   // B^T
-  const Sparse_matrix& columns() const { return m_columns; }
+  const Sparse_matrix& columns() const { return m_orthogonalized.columns(); }
 
   // x := x + B^T z
   void add(const Array<Coordinates>& z, Array<Coordinates>& x) const
@@ -109,23 +97,20 @@ public:
   void correct(const Array<Coordinates>& values, Array<Coordinates>& x) const
   {
     if(!is_empty())
-      add(m_gram->solve(scaled(given_residuals(values, x))), x);
+      add(m_gram->solve(this->values(given_residuals(values, x))), x);
   }
 
   // leaves out of forces what no step that keeps the rows feels
   void leave_out_multipliers(Array<Coordinates>& force) const
   {
     if(!is_empty())
-      project(scaled({}), force);
+      project(values({}), force);
   }
 
-  // The values of rows as they are given, scaled as the rows are here; zero if there are none.
-  Array<Coordinates> scaled(const Array<Coordinates>& values) const
+  // the values of these rows where those that are given have such values; zero if there are none
+  Array<Coordinates> values(const Array<Coordinates>& given) const
   {
-    Array<Coordinates> result(m_scale.size(), Coordinates{0, 0, 0});
-    for(std::size_t r = 0; r < values.size(); ++r)
-      result[r] = internal::scaled(values[r], m_scale[r]);
-    return result;
+    return m_orthogonalized.values(given);
   }
 
   // what the rows as they are given lack of values at x, the positions of all vertices
@@ -139,7 +124,7 @@ public:
   }
 
 private:
-  static constexpr double smallest_pivot = 1e-12;
+  static constexpr double smallest_squared_sine = 1e-12;
 
   // The factor of a Gram matrix in the order of its rows, or in one with the same pivots.
   class Gram_factor
@@ -193,33 +178,32 @@ private:
   void for_each_entry(const Function& f) const
   {
     for(int r = 0; r < size(); ++r)
-      for(Sparse_matrix::InnerIterator entry(m_columns, r); entry; ++entry)
+      for(Sparse_matrix::InnerIterator entry(columns(), r); entry; ++entry)
         f(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(r), entry.value());
   }
 
-  // the lower triangle of B B^T, a little more on its diagonal so that no pivot is zero
+  // the lower triangle of B B^T
   Sparse_matrix gram_matrix() const
   {
     Array<Eigen::Triplet<double, int>> products;
     for(int r = 0; r < size(); ++r)
-      products.emplace_back(r, r, 1e-2 * smallest_pivot);
+      products.emplace_back(r, r, 0); // also where all vertices are fixed
     // the row of each entry, its predecessor at the same vertex, and the last entry of each vertex
-    Array<int> rows, previous, last(static_cast<int>(m_columns.rows()), -1);
+    Array<int> rows, previous, last(static_cast<int>(columns().rows()), -1);
     for_each_entry([&](std::size_t v, std::size_t r, double b) {
       rows.push_back(static_cast<int>(r));
       previous.push_back(last[v]);
       last[v] = static_cast<int>(rows.size()) - 1;
       for(int k = last[v]; k >= 0; k = previous[k])
-        products.emplace_back(static_cast<int>(r), rows[k], b * m_columns.valuePtr()[k]);
+        products.emplace_back(static_cast<int>(r), rows[k], b * columns().valuePtr()[k]);
     });
     Sparse_matrix gram(size(), size());
     gram.setFromTriplets(products.begin(), products.end());
     return gram;
   }
 
-  Weighted_rows m_rows;   // as they are given
-  Array<double> m_scale;  // of each row
-  Sparse_matrix m_columns;
+  Weighted_rows m_rows; // as they are given
+  Orthogonalized_rows m_orthogonalized;
   std::shared_ptr<Gram_factor> m_gram; // cannot be copied
 };
 
