@@ -468,7 +468,7 @@ void test_dependent()
     s.insert(place, {0.2, 0.3 + 1e-9, 0.5 - 1e-9}, infinite, shift);
     check_refused(s, Status::dependent_target, "control point 2");
   }
-  for(double distance : {0.3, 0.1, 0.03, 0.02, 0.01, 0.003, 0.001})
+  for(double distance : {0.3, 0.1, 0.03, 0.02, 0.01, 0.003, 0.001, 1e-4})
   {
     test_case() = "four points in a triangle, two of them at " + std::to_string(distance);
     Subject<2, Solver> s(shape);
@@ -479,6 +479,15 @@ void test_dependent()
     CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
     s.insert(place, {0.3, 0.5, 0.2}, infinite, shift);
     check_refused(s, Status::dependent_target, "control point 4");
+  }
+  {
+    test_case() = "many more points than vertices"; // what depends on others must not fill the rows
+    Subject<2, Solver> s(shape, false);
+    for(std::size_t k = 0; k < 2900; ++k)
+      s.insert(k % shape.simplices.size(),
+               {0.2 + 1e-4 * double(k % 997), 0.3, 0.5 - 1e-4 * double(k % 997)}, infinite, shift);
+    const Report report = s.deformation.deform();
+    CHECK(report.status == Status::dependent_target);
   }
   {
     test_case() = "all corners fixed";

@@ -1266,7 +1266,7 @@ void test_unconstrained()
     laplacian.is_tied.assign(n, false);
     Constraints constraints;
     constraints.is_fixed.assign(n, false);
-    if(random(2))
+    for(int k = random(3); k > 0; --k)
       constraints.is_fixed[random(n)] = true;
     const int number_of_rows = random(7);
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(number_of_rows, n);
@@ -1278,7 +1278,7 @@ void test_unconstrained()
       const std::vector<double>& b = choice[random(5)];
       CGAL::ARAP::internal::Array<int> vertices;
       CGAL::ARAP::internal::Array<double> coefficients;
-      const int first = random(3), stride = 1 + random(4);
+      const int stride = 1 + random(4), first = random(n - 2 * stride);
       for(std::size_t k = 0; k < b.size(); ++k)
       {
         vertices.push_back(first + stride * static_cast<int>(k));
@@ -1306,12 +1306,17 @@ void test_unconstrained()
 
     const CGAL::ARAP::internal::Free_components found =
       find_free_components(laplacian, constraints);
+    const CGAL::ARAP::internal::Free_components by_edges =
+      find_free_components(laplacian, {constraints.is_fixed, {}, {}});
     std::map<int, bool> can_move; // whether some vertex of an unconstrained component can
     for(int v : free)
     {
       CHECK(found.is_unconstrained(v) || in_kernel[v] < 1e-6);
       if(found.is_unconstrained(v))
+      {
+        CHECK(found.component[v] == by_edges.component[v]);
         can_move[found.component[v]] |= in_kernel[v] > 1e-6;
+      }
     }
     for(const auto& component : can_move)
       CHECK(component.second);

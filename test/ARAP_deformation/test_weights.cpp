@@ -480,46 +480,80 @@ void test_all()
   CHECK(report.unconstrained_components.size() ==
         std::size_t(std::count(s.selection.begin(), s.selection.end(), 1)));
 
-  // halves that no edge connects, only control points in tetrahedra between them
-  double middle = 0;
+  // parts that no edge connects, only control points in tetrahedra between them
+  double least = solid.points[0].x(), most = least;
   for(const Eigen::Vector3d& p : solid.points)
-    middle += (p.x() + 0.01) / double(solid.points.size());
-  const auto is_left = [&](std::size_t v) { return solid.points[v].x() < middle; };
-  Edge_map_weight cut;
-  std::vector<std::size_t> between;
-  for(std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
   {
-    const auto& corners = solid.tetrahedra[t];
-    if(std::count_if(corners.begin(), corners.end(), is_left) % 4 != 0)
-      between.push_back(t);
-    for(std::size_t v : corners)
-      for(std::size_t w : corners)
-        if(v < w)
-          cut.set_weight(v, w, is_left(v) == is_left(w));
+    least = (std::min)(least, p.x());
+    most = (std::max)(most, p.x());
   }
+  const auto layer = [&](std::size_t v) { // 0 to 4
+    return static_cast<int>(std::lround(4 * (solid.points[v].x() - least) / (most - least)));
+  };
+  using Halves = CGAL::ARAP_deformation<Soup, Traits>;
+  // a deformation of all vertices, cut between layers, and the tetrahedra at the last cut
+  const auto cut = [&](const std::vector<int>& cuts, std::vector<std::size_t>& between) {
+    Edge_map_weight weights;
+    for(std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
+    {
+      const auto part = [&](std::size_t v) {
+        return std::count_if(cuts.begin(), cuts.end(), [&](int c) { return layer(v) > c; });
+      };
+      const auto& corners = solid.tetrahedra[t];
+      for(std::size_t v : corners)
+        for(std::size_t w : corners)
+        {
+          if(v < w)
+            weights.set_weight(v, w, part(v) == part(w));
+          if(layer(v) == cuts.back() && layer(w) > cuts.back() &&
+             (between.empty() || between.back() != t))
+            between.push_back(t);
+        }
+    }
+    points = points_of(solid.points);
+    Halves result(Soup(points, solid.tetrahedra), Traits({}, weights));
+    CHECK(result.set_options(options_for(Cell_scheme::spokes())));
+    for(std::size_t v = 0; v < points.size(); ++v)
+      result.insert_roi_vertex(v);
+    return result;
+  };
   for(double weight : {2.0, std::numeric_limits<double>::infinity()})
   {
-    test_case() = "a control point of two components, weight " + std::to_string(weight);
-    points = points_of(solid.points);
-    CGAL::ARAP_deformation<Soup, Traits> halves(Soup(points, solid.tetrahedra), Traits({}, cut));
-    CHECK(halves.set_options(options_for(Cell_scheme::spokes())));
-    for(std::size_t v = 0; v < points.size(); ++v)
-      halves.insert_roi_vertex(v);
-    const auto insert = [&](std::size_t t, const std::vector<double>& coordinates) {
+    const auto insert = [&](Halves& halves, std::size_t t, const std::vector<double>& coordinates) {
       const auto inserted = halves.insert_control_point(t, coordinates);
       CHECK(inserted);
       CHECK(halves.translate(inserted.point, Eigen::Vector3d(1, 2, 3)));
       CHECK(halves.set_target_weight(inserted.point, weight));
     };
-    insert(between.front(), {0.1, 0.2, 0.3, 0.4});
-    CHECK(halves.deform().status == CGAL::ARAP::Status::no_fixed_vertex); // one for two halves
+    test_case() = "control points of two components, weight " + std::to_string(weight);
+    std::vector<std::size_t> between;
+    Halves halves = cut({2}, between);
+    insert(halves, between.front(), {0.1, 0.2, 0.3, 0.4});
+    CHECK(halves.deform().status == CGAL::ARAP::Status::no_fixed_vertex); // one for two
     CHECK(points == points_of(solid.points));
-    insert(between.front(), {0.4, 0.3, 0.2, 0.1});
-    insert(between.back(), {0.1, 0.2, 0.3, 0.4});
+    insert(halves, between.front(), {0.4, 0.3, 0.2, 0.1});
+    insert(halves, between.back(), {0.1, 0.2, 0.3, 0.4});
     const CGAL::ARAP::Report together = halves.deform(1000, 1e-12);
     CHECK(together && together.unconstrained_components.empty());
     for(std::size_t v = 0; v < points.size(); ++v)
       CHECK_AT_MOST((vector(points[v]) - solid.points[v] - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+
+    test_case() = "two loose components beside a fixed one, weight " + std::to_string(weight);
+    between.clear();
+    Halves thirds = cut({0, 2}, between);
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(layer(v) == 0)
+      {
+        thirds.insert_control_vertex(v);
+        break;
+      }
+    insert(thirds, between.front(), {0.1, 0.2, 0.3, 0.4});
+    const CGAL::ARAP::Report loose_ones = thirds.deform();
+    if(weight < 3)
+      CHECK(loose_ones && loose_ones.unconstrained_components.size() == 2);
+    else // its target cannot be met where they stay
+      CHECK(loose_ones.status == CGAL::ARAP::Status::no_fixed_vertex);
+    CHECK(points == points_of(solid.points));
   }
 }
 

@@ -150,9 +150,9 @@ struct Report : Outcome
   /// the unconstrained components of the region, each given by its smallest vertex index: no path
   /// of edges of non-zero weight connects them to a vertex that is fixed or has a target of
   /// positive weight, and no control points hold them. (One control point with corners in two
-  /// components holds neither of them if nothing else does.) They stay where they are, and
-  /// `free_vertices` does not count them. Always empty for `Surface_mesh_deformation`, where they
-  /// are an error.
+  /// components holds neither of them if nothing else does; with a hard target that is an error.)
+  /// They stay where they are, and `free_vertices` does not count them. Always empty for
+  /// `Surface_mesh_deformation`, where they are an error.
   std::vector<std::size_t> unconstrained_components;
 
   Stages stages; ///< what was done before the iterations, because of what had changed

@@ -77,7 +77,8 @@ void read(const std::string& file)
     const std::string copy = (folder / ("out." + format)).string();
     Output_file out(copy);
     gltf.write(out, '.' + format);
-    out.commit();
+    out.replace();
+    out.keep();
     require(Gltf_file(copy, "").number_of_simplices() == gltf.number_of_simplices(),
             "the same faces if no point has moved");
   }

@@ -28,6 +28,10 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// Rows, or columns, count as linearly dependent if the sine of an angle to the span of others is at
+// most this: of what they say about positions six digits would be lost.
+constexpr double smallest_sine = 1e-6;
+
 // A sparse matrix B with a weight for each row, for the term  sum_r m_r || B_r x - t_r ||^2  of the
 // energy. A vertex that is pulled to a target is a row with one coefficient, 1.
 class Weighted_rows

@@ -270,14 +270,14 @@ bool Constrained_system::eliminate_hard_rows()
   for(std::size_t first = 0; first < m; first += 3)
   {
     const std::size_t count = (std::min)(std::size_t(3), m - first);
-    Array<Coordinates> three = m_hard_rows.values({});
+    Array<Coordinates> three = m_hard_rows.own_values({});
     for(std::size_t k = 0; k < count; ++k)
       three[first + k][k] = 1;
     Array<Coordinates> x(static_cast<std::size_t>(m_laplacian.size()), Coordinates{0, 0, 0});
     m_hard_rows.add(three, x);
     if(!solve_matrix(x, {}))
       return false;
-    const Array<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.values({}), x);
+    const Array<Coordinates> minus_s = m_hard_rows.residuals(m_hard_rows.own_values({}), x);
     for(std::size_t k = 0; k < count; ++k)
       for(std::size_t r = 0; r < m; ++r)
         s[(first + k) * m + r] = -minus_s[r][k];
@@ -288,7 +288,7 @@ bool Constrained_system::eliminate_hard_rows()
 CGAL_ARAP_INLINE_FUNCTION
 bool Constrained_system::solve(Array<Coordinates>& x, const Array<Coordinates>& values)
 {
-  const Array<Coordinates> own_values = m_hard_rows.values(values);
+  const Array<Coordinates> own_values = m_hard_rows.own_values(values);
   if(!solve_matrix(x, own_values))
     return false;
   if(m_hard_rows.is_empty())

@@ -34,8 +34,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The hard rows of constraints for the free vertices, orthogonalized, but not quite. B is small and
-// sparse; its Gram matrix B B^T is factorized.
+// The hard rows of constraints for the free vertices, orthogonalized where two are nearly parallel.
+// B is small and sparse; its Gram matrix B B^T is factorized.
 class Hard_rows
 {
 public:
@@ -55,7 +55,8 @@ public:
   int size() const { return m_rows.size(); }
 
   // The first row that is a linear combination of those before it and of fixed vertices, or -1.
-  // What counts is the squared sine of its angle to their span.
+  // What counts is the squared sine of its angle to their span. (A pivot that is zero, or none,
+  // spoils only pivots of later rows.)
   int find_dependent() const
   {
     if(!is_empty())
@@ -63,7 +64,7 @@ public:
       const Array<double> pivots = m_gram->pivots();
       for(int r = 0; r < size(); ++r)
         if(const double length = m_orthogonalized.length(r);
-           !(length * length * pivots[r] > smallest_squared_sine)) // nor if it is not finite
+           !(length * length * pivots[r] > smallest_sine * smallest_sine)) // nor if it is not finite
           return r;
     }
     return -1;
@@ -97,18 +98,18 @@ public:
   void correct(const Array<Coordinates>& values, Array<Coordinates>& x) const
   {
     if(!is_empty())
-      add(m_gram->solve(this->values(given_residuals(values, x))), x);
+      add(m_gram->solve(own_values(given_residuals(values, x))), x);
   }
 
   // leaves out of forces what no step that keeps the rows feels
   void leave_out_multipliers(Array<Coordinates>& force) const
   {
     if(!is_empty())
-      project(values({}), force);
+      project(own_values({}), force);
   }
 
   // the values of these rows where those that are given have such values; zero if there are none
-  Array<Coordinates> values(const Array<Coordinates>& given) const
+  Array<Coordinates> own_values(const Array<Coordinates>& given) const
   {
     return m_orthogonalized.values(given);
   }
@@ -124,8 +125,6 @@ public:
   }
 
 private:
-  static constexpr double smallest_squared_sine = 1e-12;
-
   // The factor of a Gram matrix in the order of its rows, or in one with the same pivots.
   class Gram_factor
   {

@@ -32,10 +32,11 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Rows with the same solutions as some others, restricted to free vertices, any two of which are
-// nearly orthogonal: from each row its parts along those before it are taken away, by the modified
-// Gram-Schmidt process, unless they are small; what is left is scaled to length 1. Of rows that are
-// nearly dependent a factor in single precision would see nothing but rounding errors.
+// Rows of length 1 with the same solutions as some others, for their free vertices. Of two points
+// that are close to each other, a factor in single precision sees no difference but rounding errors.
+// So where a row has a large cosine with an earlier one, its part along that one is taken away, by
+// modified Gram-Schmidt; elsewhere that would only fill the rows. Three or more rows may still be
+// nearly dependent.
 class Orthogonalized_rows
 {
 public:
@@ -49,13 +50,15 @@ public:
     {
       double square = 0;
       rows.for_each_coefficient(r, [&](int, double b) { square += b * b; });
-      m_scale.push_back(1 / std::sqrt(square));
+      m_scale.push_back(reciprocal(std::sqrt(square)));
       Row row;
       rows.for_each_coefficient(r, [&](int v, double b) {
         if(!is_fixed[v])
           row[v] = b * m_scale.back();
       });
       m_length.push_back(take_away_others(r, all, rows_at, row));
+      if(!(m_length.back() > smallest_sine)) // nor if it is not finite
+        break;
       for(auto& [v, b] : row)
       {
         b *= reciprocal(m_length.back());
@@ -63,30 +66,32 @@ public:
       }
       all.push_back(std::move(row));
     }
+    m_scale.resize(rows.size(), 0);
+    m_length.resize(rows.size(), 0);
     Array<Eigen::Triplet<double, int>> entries;
-    for(int r = 0; r < rows.size(); ++r)
-      for(const auto& [v, b] : all[static_cast<std::size_t>(r)])
-        entries.emplace_back(v, r, b);
+    for(std::size_t r = 0; r < all.size(); ++r)
+      for(const auto& [v, b] : all[r])
+        entries.emplace_back(v, static_cast<int>(r), b);
     m_columns.resize(static_cast<int>(is_fixed.size()), rows.size());
     m_columns.setFromTriplets(entries.begin(), entries.end());
   }
 
-  // these rows B, as columns: B^T
+  // these rows B, as columns: B^T; zero from the first on that depends on others
   const Sparse_matrix& columns() const { return m_columns; }
 
-  // What was left of a row of length 1 for all vertices, fixed ones too.
+  // what was left of a row of length 1, counting its fixed vertices too
   double length(int r) const { return m_length[r]; }
 
   // the values of these rows where the given ones have such values; zero if there are none
   Array<Coordinates> values(const Array<Coordinates>& given) const
   {
     Array<Coordinates> result(m_scale.size(), Coordinates{0, 0, 0});
-    auto step = m_steps.begin();
+    auto part = m_parts.begin();
     for(std::size_t r = 0; r < given.size(); ++r)
     {
       result[r] = scaled(given[r], m_scale[r]);
-      for(; step != m_steps.end() && step->row == static_cast<int>(r); ++step)
-        add(result[r], -step->part, result[step->other]);
+      for(; part != m_parts.end() && part->row == static_cast<int>(r); ++part)
+        add(result[r], -part->factor, result[part->other]);
       result[r] = scaled(result[r], reciprocal(m_length[r]));
     }
     return result;
@@ -95,11 +100,11 @@ public:
 private:
   using Row = std::map<int, double>; // the coefficients of vertices
 
-  // A part that was taken away.
-  struct Step
+  // what was taken away from a row
+  struct Part
   {
     int row, other;
-    double part;
+    double factor;
   };
 
   static double reciprocal(double length) { return length > 0 ? 1 / length : 0; }
@@ -116,8 +121,8 @@ private:
   double take_away_others(int r, const std::vector<Row>& all,
                           const std::map<int, std::vector<int>>& rows_at, Row& row)
   {
-    constexpr double largest_cosine = 0.1, negligible = 1e-8;
-    double length = length_of(row);
+    constexpr double largest_cosine = 0.9, negligible = 0.01 * smallest_sine;
+    double length = length_of(row); // each change makes it smaller by a factor
     for(bool is_changed = true; is_changed && length > negligible; length = length_of(row))
     {
       is_changed = false;
@@ -136,7 +141,7 @@ private:
           continue;
         for(const auto& [v, b] : other)
           row[v] -= part * b;
-        m_steps.push_back({r, k, part});
+        m_parts.push_back({r, k, part});
         is_changed = true;
       }
     }
@@ -144,7 +149,7 @@ private:
   }
 
   Array<double> m_scale, m_length; // of each row
-  std::vector<Step> m_steps;       // row after row
+  std::vector<Part> m_parts;       // row after row
   Sparse_matrix m_columns;
 };
 

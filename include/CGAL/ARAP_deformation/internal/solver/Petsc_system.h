@@ -142,10 +142,9 @@ private:
         m_values.resize(std::size_t(m_begins[m]));
       }
       for(int rank = 0; is_full && a != nullptr && rank < m_ranks.size(); ++rank)
-      {
         next.resize((std::max)(next.size(), std::size_t(number_of_rows(rank))));
-        if(rank == 0)
-          continue;
+      for(int rank = 1; is_full && a != nullptr && rank < m_ranks.size(); ++rank)
+      {
         const auto size = std::size_t(begin[m_first_rows[rank + 1]] - begin[m_first_rows[rank]]);
         columns.resize((std::max)(columns.size(), size));
         values.resize((std::max)(values.size(), size));

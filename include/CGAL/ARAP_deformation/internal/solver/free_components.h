@@ -21,18 +21,20 @@
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The free vertices that edges of non-zero weight and rows tie together.
+// The free vertices that edges of non-zero weight tie together, and where they are tied also rows.
 struct Free_components
 {
   Array<int> component; // for each movable vertex the smallest of its component, -1 if fixed
@@ -42,66 +44,78 @@ struct Free_components
   bool is_unconstrained(int v) const { return component[v] >= 0 && !is_tied[component[v]]; }
 };
 
-// whether the columns are linearly independent
-inline bool has_full_column_rank(Eigen::MatrixXd matrix)
+// For some components the sums of the coefficients that a row has in them.
+using Row_sums = std::map<int, double>;
+
+// Ties the components that are determined by these rows, all that couple them.
+inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& is_tied)
 {
-  for(auto column : matrix.colwise())
-    if(const double length = column.norm(); length > 0)
-      column /= length;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix);
-  factors.setThreshold(1e-8);
-  return factors.rank() == matrix.cols();
+  std::map<int, int> columns;
+  for(const Row_sums* row : rows)
+    for(const auto& entry : *row)
+      columns.emplace(entry.first, static_cast<int>(columns.size()));
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<int>(rows.size()),
+                                                 static_cast<int>(columns.size()));
+  for(std::size_t r = 0; r < rows.size(); ++r)
+    for(const auto& [component, sum] : *rows[r])
+      matrix(static_cast<int>(r), columns[component]) = sum;
+  for(int k = 0; k < matrix.cols(); ++k)
+    matrix.col(k).normalize();
+  Eigen::FullPivLU<Eigen::MatrixXd> factors(matrix);
+  factors.setThreshold(smallest_sine);
+  // what can move without a change of any row; a column of zeros if nothing can
+  const Eigen::MatrixXd kernel = factors.kernel();
+  for(const auto& [component, k] : columns)
+    is_tied[component] = kernel.row(k).norm() <= smallest_sine * kernel.norm();
 }
 
-// Ties components that no edge ties, and unites those that rows connect: they are tied if only one
-// translation of each gives the rows their values. These depend on the sum of the coefficients that
-// a row has in a component, an entry of a matrix.
-inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& sets, Array<char>& is_tied)
+// Ties components that no edge ties, but rows: no translation of them leaves the rows their values.
+// These depend on sums of coefficients only.
+inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& components,
+                        Array<char>& is_tied)
 {
-  const int n = static_cast<int>(constraints.is_fixed.size());
-  Array<int> smallest(n); // of the component, -1 where there is no need of rows
-  for(int v = 0; v < n; ++v)
-    smallest[v] = constraints.is_fixed[v] || is_tied[sets.find(v)] ? -1 : sets.find(v);
-  Array<int> first;       // for each row the first vertex with such a component
-  constraints.for_each_row([&](auto begin, auto end, auto) {
-    const auto is_loose = [&](int v) { return smallest[v] >= 0; };
-    const auto v = std::find_if(begin, end, is_loose);
-    first.push_back(v == end ? -1 : *v);
-    for(auto w = v; w != end; ++w)
-      if(is_loose(*w))
-        sets.unite(*v, *w);
-  });
-
-  Array<int> column(n), number_of_rows(n, 0), number_of_columns(n, 0); // the last two for each set
-  for(int v = 0; v < n; ++v)
-    if(smallest[v] == v)
-      column[v] = number_of_columns[sets.find(v)]++;
-  for(int v : first)
-    if(v >= 0)
-      ++number_of_rows[sets.find(v)];
-  std::map<int, Eigen::MatrixXd> matrices; // for each set
-  std::size_t r = 0;
-  constraints.for_each_row([&](auto begin, auto end, auto coefficient) {
-    const int v = first[r++];
-    if(v < 0)
-      return;
-    const int set = sets.find(v);
-    Eigen::MatrixXd& matrix = matrices[set];
-    if(matrix.size() == 0)
-      matrix.setZero(number_of_rows[set], number_of_columns[set]);
-    auto row = matrix.row(--number_of_rows[set]);
+  // of the components that are not tied yet; sums that are not zero, relative to those of the
+  // absolute values
+  const auto loose_sums = [&](auto begin, auto end, auto coefficient) {
+    Row_sums sums;
     double size = 0;
-    for(auto w = begin; w != end; ++w, ++coefficient)
+    for(auto v = begin; v != end; ++v, ++coefficient)
     {
       size += std::abs(*coefficient);
-      if(smallest[*w] >= 0)
-        row[column[smallest[*w]]] += *coefficient;
+      if(const int k = components.find(*v); !constraints.is_fixed[*v] && !is_tied[k])
+        sums[k] += *coefficient;
     }
-    for(double& sum : row)
-      sum = std::abs(sum) > rounding_of_a_sum * size ? sum / size : 0;
+    for(auto entry = sums.begin(); entry != sums.end();)
+      if(std::abs(entry->second) > rounding_of_a_sum * size)
+        (entry++)->second /= size;
+      else
+        entry = sums.erase(entry);
+    return sums;
+  };
+  for(bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
+      if(const Row_sums sums = loose_sums(begin, end, coefficients); sums.size() == 1)
+        is_tied[sums.begin()->first] = is_changed = true;
+    });
+  }
+
+  // of what is left each row couples several components
+  std::vector<Row_sums> rows;
+  Disjoint_sets groups = components;
+  constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
+    Row_sums sums = loose_sums(begin, end, coefficients);
+    for(const auto& entry : sums)
+      groups.unite(sums.begin()->first, entry.first);
+    if(!sums.empty())
+      rows.push_back(std::move(sums));
   });
-  for(const auto& [set, matrix] : matrices)
-    is_tied[set] = has_full_column_rank(matrix);
+  std::map<int, std::vector<const Row_sums*>> rows_of; // for each group
+  for(const Row_sums& row : rows)
+    rows_of[groups.find(row.begin()->first)].push_back(&row);
+  for(const auto& group : rows_of)
+    tie_coupled(group.second, is_tied);
 }
 
 inline Free_components find_free_components(const Laplacian& laplacian,
@@ -124,7 +138,7 @@ inline Free_components find_free_components(const Laplacian& laplacian,
   for(int v = 0; v < n; ++v)
     is_tied[sets.find(v)] |= is_tied[v];
   tie_by_rows(constraints, sets, is_tied);
-  constraints.for_each_row([&](auto begin, auto end, auto) { // those of components that are tied
+  constraints.for_each_row([&](auto begin, auto end, auto) { // unites those that are tied
     int first = -1;
     for(auto v = begin; v != end; ++v)
       if(!is_fixed[*v] && is_tied[sets.find(*v)])
@@ -135,6 +149,20 @@ inline Free_components find_free_components(const Laplacian& laplacian,
   });
   for(int v = 0; v < n; ++v)
     result.component[v] = is_fixed[v] ? -1 : sets.find(v);
+  return result;
+}
+
+// An unconstrained vertex of a hard row that has no free vertex once these are fixed, or -1.
+inline int find_lost_row(const Weighted_rows& hard_rows, const Array<char>& is_fixed,
+                         const Free_components& components)
+{
+  int result = -1;
+  hard_rows.for_each_row([&](auto begin, auto end, auto) {
+    if(std::all_of(begin, end, [&](int v) { return is_fixed[v]; }))
+      for(auto v = begin; v != end && result < 0; ++v)
+        if(components.is_unconstrained(*v))
+          result = *v;
+  });
   return result;
 }
 
