@@ -55,7 +55,8 @@ enum class Status
   non_finite_point,     ///< a coordinate or a target is infinite or not a number
   non_finite_weight,    ///< the weight of an edge is infinite or not a number
   no_fixed_vertex,      ///< no vertex of the region is fixed or has a target of positive weight;
-                        ///< for `Surface_mesh_deformation` one unconstrained component is enough
+                        ///< for `Surface_mesh_deformation`, and where a hard control point has
+                        ///< corners in no other, one unconstrained component is enough
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
                         ///< its solution made the energy rise

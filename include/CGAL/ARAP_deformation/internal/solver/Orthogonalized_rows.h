@@ -33,10 +33,10 @@ namespace ARAP {
 namespace internal {
 
 // Rows of length 1 with the same solutions as some others, for their free vertices. Of two points
-// that are close to each other, a factor in single precision sees no difference but rounding errors.
-// So where a row has a large cosine with an earlier one, its part along that one is taken away, by
-// modified Gram-Schmidt; elsewhere that would only fill the rows. Three or more rows may still be
-// nearly dependent.
+// that are close to each other, a factor in single precision sees no difference but rounding
+// errors. So where a row has a large cosine with an earlier one, its part along that one is taken
+// away, by modified Gram-Schmidt; elsewhere that would only fill the rows. Three or more rows may
+// still be nearly dependent.
 class Orthogonalized_rows
 {
 public:
