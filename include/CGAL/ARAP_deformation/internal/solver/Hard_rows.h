@@ -63,9 +63,12 @@ public:
     {
       const Array<double> pivots = m_gram->pivots();
       for(int r = 0; r < size(); ++r)
-        if(const double length = m_orthogonalized.length(r);
-           !(length * length * pivots[r] > smallest_sine * smallest_sine)) // nor if it is not finite
+      {
+        const double length = m_orthogonalized.length(r);
+        const double squared_sine = length * length * pivots[r];
+        if(!(squared_sine > smallest_sine * smallest_sine)) // nor if it is not finite
           return r;
+      }
     }
     return -1;
   }
