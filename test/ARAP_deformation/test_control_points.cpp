@@ -480,6 +480,19 @@ void test_dependent()
     s.insert(place, {0.3, 0.5, 0.2}, infinite, shift);
     check_refused(s, Status::dependent_target, "control point 4");
   }
+  for(double distance : {3e-6, 1e-3}) // from a line through two points
+    for(int k = 0; k < 20; ++k)
+    {
+      test_case() = "three points nearly on a line, and a fourth, " + std::to_string(k);
+      Subject<2, Solver> s(shape);
+      const double a = 0.8 + 0.0093 * k, b = 0.02 + 0.0077 * k, c = 0.36 + 0.013 * k;
+      s.insert(place, {a, 1 - a, 0}, infinite, shift);
+      s.insert(place, {b, 1 - b, 0}, infinite, shift);
+      s.insert(place, {c - distance / 2, 1 - c - distance / 2, distance}, infinite, shift);
+      CHECK(s.deformation.deform());
+      s.insert(place, {0.3 + 0.01 * k, 0.4, 0.3 - 0.01 * k}, infinite, shift);
+      check_refused(s, Status::dependent_target, "control point 4");
+    }
   {
     test_case() = "many more points than vertices"; // what depends on others must not fill the rows
     Subject<2, Solver> s(shape, false);

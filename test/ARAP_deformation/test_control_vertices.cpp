@@ -1274,8 +1274,8 @@ void test_unconstrained()
     for(int r = 0; r < number_of_rows; ++r)
     {
       const std::vector<std::vector<double>> choice = {{1}, {0.3, 0.7}, {1, -1}, {0.25, 0.25, 0.5},
-                                                       {0.1, 0.2, -0.3}};
-      const std::vector<double>& b = choice[random(5)];
+                                                       {0.1, 0.2, -0.3}, {0.5, 0.5, 1e-13}};
+      const std::vector<double>& b = choice[random(6)];
       CGAL::ARAP::internal::Array<int> vertices;
       CGAL::ARAP::internal::Array<double> coefficients;
       const int stride = 1 + random(4), first = random(n - 2 * stride);

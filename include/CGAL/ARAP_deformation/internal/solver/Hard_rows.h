@@ -22,10 +22,12 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Orthogonalized_rows.h>
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -55,19 +57,21 @@ public:
   int size() const { return m_rows.size(); }
 
   // The first row that is a linear combination of those before it and of fixed vertices, or -1.
-  // What counts is the squared sine of its angle to their span. (A pivot that is zero, or none,
-  // spoils only pivots of later rows.)
+  // What counts is the squared sine of its angle to their span; behind a small pivot, the rounding
+  // errors of later ones too. (A pivot that is zero, or none, spoils only those of later rows.)
   int find_dependent() const
   {
     if(!is_empty())
     {
       const Array<double> pivots = m_gram->pivots();
+      double smallest = 1;
       for(int r = 0; r < size(); ++r)
       {
-        const double length = m_orthogonalized.length(r);
-        const double squared_sine = length * length * pivots[r];
-        if(!(squared_sine > smallest_sine * smallest_sine)) // nor if it is not finite
+        const double length = m_orthogonalized.length(r), pivot = pivots[r];
+        if(!(length * length * pivot > smallest_sine * smallest_sine) || // nor if it is not finite
+           !(pivot > rounding_of_a_sum / smallest))
           return r;
+        smallest = (std::min)(smallest, pivot);
       }
     }
     return -1;

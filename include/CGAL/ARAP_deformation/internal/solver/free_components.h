@@ -59,8 +59,8 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
   for(std::size_t r = 0; r < rows.size(); ++r)
     for(const auto& [component, sum] : *rows[r])
       matrix(static_cast<int>(r), columns[component]) = sum;
-  for(int k = 0; k < matrix.cols(); ++k)
-    matrix.col(k).normalize();
+  matrix.rowwise().normalize();
+  matrix.colwise().normalize();
   Eigen::FullPivLU<Eigen::MatrixXd> factors(matrix);
   factors.setThreshold(smallest_sine);
   // what can move without a change of any row; a column of zeros if nothing can
@@ -74,8 +74,8 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
 inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& components,
                         Array<char>& is_tied)
 {
-  // of the components that are not tied yet; sums that are not zero, relative to those of the
-  // absolute values
+  // those of components that are not tied yet, without sums that are next to nothing beside that
+  // of the absolute values: what a row would do with them is to throw the component far away
   const auto loose_sums = [&](auto begin, auto end, auto coefficient) {
     Row_sums sums;
     double size = 0;
@@ -86,8 +86,8 @@ inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& component
         sums[k] += *coefficient;
     }
     for(auto entry = sums.begin(); entry != sums.end();)
-      if(std::abs(entry->second) > rounding_of_a_sum * size)
-        (entry++)->second /= size;
+      if(std::abs(entry->second) > smallest_sine * size)
+        ++entry;
       else
         entry = sums.erase(entry);
     return sums;
