@@ -39,6 +39,7 @@
 #include <iterator>
 #include <limits>
 #include <list>
+#include <map>
 #include <memory>
 #include <random>
 #include <sstream>
@@ -1128,23 +1129,25 @@ Eigen::MatrixXd dense_matrix(const Eigen::MatrixXd& laplacian, const Eigen::Matr
   return a;
 }
 
+void add_edge(Eigen::MatrixXd& laplacian, int i, int j, double weight)
+{
+  laplacian(i, i) += weight;
+  laplacian(j, j) += weight;
+  laplacian(i, j) -= weight;
+  laplacian(j, i) -= weight;
+}
+
 void test_all()
 {
   constexpr int n = 60, width = 10;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  const auto add_edge = [&](int i, int j, double w) {
-    dense(i, i) += w;
-    dense(j, j) += w;
-    dense(i, j) -= w;
-    dense(j, i) -= w;
-  };
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> weight(0.5, 2), entry(-1, 1);
   std::uniform_int_distribution<int> vertex(0, n - 1);
   for(int v = 0; v < n; ++v)
   {
-    if(v % width > 0) add_edge(v - 1, v, weight(generator));
-    if(v >= width) add_edge(v - width, v, weight(generator));
+    if(v % width > 0) add_edge(dense, v - 1, v, weight(generator));
+    if(v >= width) add_edge(dense, v - width, v, weight(generator));
   }
   Laplacian laplacian;
   const Eigen::SparseMatrix<double> whole = dense.sparseView();
@@ -1251,11 +1254,7 @@ void test_unconstrained()
       if(const int i = random(n), j = random(n); i != j)
       {
         pattern(i, j) = pattern(j, i) = 1;
-        const double weight = random(4) > 0;
-        dense(i, i) += weight;
-        dense(j, j) += weight;
-        dense(i, j) -= weight;
-        dense(j, i) -= weight;
+        add_edge(dense, i, j, random(4) > 0);
       }
     Laplacian laplacian;
     const Eigen::SparseMatrix<double> whole = pattern.sparseView();
@@ -1289,27 +1288,20 @@ void test_unconstrained()
       is_across |= b.size() > 1;
     }
 
-    std::vector<int> free;
-    for(int v = 0; v < n; ++v)
-      if(!constraints.is_fixed[v])
-        free.push_back(v);
-    Eigen::MatrixXd matrix(free.size(), free.size());
-    const Eigen::MatrixXd all = dense + rows.transpose() * rows;
-    for(std::size_t i = 0; i < free.size(); ++i)
-      for(std::size_t j = 0; j < free.size(); ++j)
-        matrix(i, j) = all(free[i], free[j]);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense_matrix(
+      dense, rows, Eigen::VectorXd::Ones(number_of_rows),
+      {constraints.is_fixed.begin(), constraints.is_fixed.end()}));
     Eigen::VectorXd in_kernel = Eigen::VectorXd::Zero(n);
-    for(std::size_t k = 0; k < free.size(); ++k)
-      for(std::size_t i = 0; i < free.size() && eigen.eigenvalues()[k] < 1e-10; ++i)
-        in_kernel[free[i]] += std::abs(eigen.eigenvectors()(i, k));
+    for(int k = 0; k < n; ++k)
+      if(eigen.eigenvalues()[k] < 1e-10)
+        in_kernel += eigen.eigenvectors().col(k).cwiseAbs();
 
     const CGAL::ARAP::internal::Free_components found =
       find_free_components(laplacian, constraints);
     const CGAL::ARAP::internal::Free_components by_edges =
       find_free_components(laplacian, {constraints.is_fixed, {}, {}});
     std::map<int, bool> can_move; // whether some vertex of an unconstrained component can
-    for(int v : free)
+    for(int v = 0; v < n; ++v)
     {
       CHECK(found.is_unconstrained(v) || in_kernel[v] < 1e-6);
       if(found.is_unconstrained(v))

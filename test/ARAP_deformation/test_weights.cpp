@@ -479,8 +479,14 @@ void test_all()
   CHECK(report); // each free vertex is a part that nothing holds
   CHECK(report.unconstrained_components.size() ==
         std::size_t(std::count(s.selection.begin(), s.selection.end(), 1)));
+}
 
-  // parts that no edge connects, only control points in tetrahedra between them
+// Parts that no edge connects, only control points in tetrahedra between them.
+void test_parts()
+{
+  const Block solid = block(4, 2, 2);
+  std::vector<Point> points;
+  using Soup = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, decltype(solid.tetrahedra)>;
   double least = solid.points[0].x(), most = least;
   for(const Eigen::Vector3d& p : solid.points)
   {
@@ -490,7 +496,7 @@ void test_all()
   const auto layer = [&](std::size_t v) { // 0 to 4
     return static_cast<int>(std::lround(4 * (solid.points[v].x() - least) / (most - least)));
   };
-  using Halves = CGAL::ARAP_deformation<Soup, Traits>;
+  using Deformation = CGAL::ARAP_deformation<Soup, Traits>;
   // a deformation of all vertices, cut between layers, and the tetrahedra at the last cut
   const auto cut = [&](const std::vector<int>& cuts, std::vector<std::size_t>& between) {
     Edge_map_weight weights;
@@ -511,7 +517,7 @@ void test_all()
         }
     }
     points = points_of(solid.points);
-    Halves result(Soup(points, solid.tetrahedra), Traits({}, weights));
+    Deformation result(Soup(points, solid.tetrahedra), Traits({}, weights));
     CHECK(result.set_options(options_for(Cell_scheme::spokes())));
     for(std::size_t v = 0; v < points.size(); ++v)
       result.insert_roi_vertex(v);
@@ -519,15 +525,15 @@ void test_all()
   };
   for(double weight : {2.0, std::numeric_limits<double>::infinity()})
   {
-    const auto insert = [&](Halves& halves, std::size_t t, const std::vector<double>& coordinates) {
-      const auto inserted = halves.insert_control_point(t, coordinates);
+    const auto insert = [&](Deformation& d, std::size_t t, const std::vector<double>& coordinates) {
+      const auto inserted = d.insert_control_point(t, coordinates);
       CHECK(inserted);
-      CHECK(halves.translate(inserted.point, Eigen::Vector3d(1, 2, 3)));
-      CHECK(halves.set_target_weight(inserted.point, weight));
+      CHECK(d.translate(inserted.point, Eigen::Vector3d(1, 2, 3)));
+      CHECK(d.set_target_weight(inserted.point, weight));
     };
     test_case() = "control points of two components, weight " + std::to_string(weight);
     std::vector<std::size_t> between;
-    Halves halves = cut({2}, between);
+    Deformation halves = cut({2}, between);
     insert(halves, between.front(), {0.1, 0.2, 0.3, 0.4});
     CHECK(halves.deform().status == CGAL::ARAP::Status::no_fixed_vertex); // one for two
     CHECK(points == points_of(solid.points));
@@ -540,7 +546,7 @@ void test_all()
 
     test_case() = "two loose components beside a fixed one, weight " + std::to_string(weight);
     between.clear();
-    Halves thirds = cut({0, 2}, between);
+    Deformation thirds = cut({0, 2}, between);
     for(std::size_t v = 0; v < points.size(); ++v)
       if(layer(v) == 0)
       {
@@ -700,6 +706,7 @@ int main()
   simplices::test_all();
   polygons::test_all();
   edge_map::test_all();
+  edge_map::test_parts();
   conformance::test_all();
   return checks_result();
 }

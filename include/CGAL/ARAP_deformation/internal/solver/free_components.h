@@ -92,25 +92,24 @@ inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& component
         entry = sums.erase(entry);
     return sums;
   };
+  std::vector<Row_sums> rows; // at last those that couple several components
   for(bool is_changed = true; is_changed;)
   {
     is_changed = false;
+    rows.clear();
     constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
-      if(const Row_sums sums = loose_sums(begin, end, coefficients); sums.size() == 1)
+      Row_sums sums = loose_sums(begin, end, coefficients);
+      if(sums.size() == 1)
         is_tied[sums.begin()->first] = is_changed = true;
+      else if(!sums.empty())
+        rows.push_back(std::move(sums));
     });
   }
 
-  // of what is left each row couples several components
-  std::vector<Row_sums> rows;
   Disjoint_sets groups = components;
-  constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
-    Row_sums sums = loose_sums(begin, end, coefficients);
-    for(const auto& entry : sums)
-      groups.unite(sums.begin()->first, entry.first);
-    if(!sums.empty())
-      rows.push_back(std::move(sums));
-  });
+  for(const Row_sums& row : rows)
+    for(const auto& entry : row)
+      groups.unite(row.begin()->first, entry.first);
   std::map<int, std::vector<const Row_sums*>> rows_of; // for each group
   for(const Row_sums& row : rows)
     rows_of[groups.find(row.begin()->first)].push_back(&row);
