@@ -518,6 +518,17 @@ void test_dependent()
     CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
   }
   {
+    test_case() = "next to nothing is free";
+    Subject<2, Solver> s(shape);
+    const Control_point p = s.insert(place, {1e-9, 0.4, 0.6 - 1e-9}, infinite, shift);
+    for(std::size_t k : {1, 2})
+      CHECK(s.deformation.erase_roi_vertex(shape.simplices[place][k]));
+    check_refused(s, Status::dependent_target, "control point 1");
+    CHECK(s.deformation.set_target_weight(p, 2));
+    CHECK(s.deformation.deform());
+    CHECK_AT_MOST(largest_distance(s.points, points_of(shape.points)), 2 * shape.diameter());
+  }
+  {
     test_case() = "nothing free";
     Subject<2, Solver> s(shape);
     for(std::size_t v = 0; v < s.points.size(); ++v)
@@ -531,7 +542,37 @@ void test_dependent()
   }
 }
 
-// Pairs of points that are close to each other: with a factor in single precision too.
+// a simplex with coordinates
+using Location = std::pair<std::size_t, std::vector<double>>;
+
+// Two locations in a triangle.
+std::vector<Location> close_inside(std::size_t simplex, double distance)
+{
+  return {{simplex, {0.2, 0.3, 0.5}}, {simplex, {0.2, 0.3 + distance, 0.5 - distance}}};
+}
+
+// Two locations on both sides of an edge.
+std::vector<Location> close_to_edge(const Simplices& simplices, std::size_t simplex,
+                                    double distance)
+{
+  const auto is_in = [&](std::size_t s, std::size_t v) {
+    return std::count(simplices[s].begin(), simplices[s].end(), v) > 0;
+  };
+  std::size_t other = 0;
+  while(std::count_if(simplices[other].begin(), simplices[other].end(),
+                      [&](std::size_t v) { return is_in(simplex, v); }) != 2)
+    ++other;
+  const auto location = [&](std::size_t s, std::size_t neighbor) {
+    Location result{s, {}};
+    for(std::size_t v : simplices[s])
+      result.second.push_back(is_in(neighbor, v) ? 0.5 - distance / 2 : distance);
+    return result;
+  };
+  return {location(simplex, other), location(other, simplex)};
+}
+
+// Pairs of points that are close to each other, in a triangle or across an edge: with a factor in
+// single precision too.
 void test_close_pairs()
 {
   using Solver = CGAL::ARAP::Multifrontal_cholesky_solver;
@@ -549,9 +590,11 @@ void test_close_pairs()
       CGAL::ARAP_deformation<Soup<2>, Traits> d(Soup<2>(points, shape.simplices), Traits(solver));
       prepare(d, shape.scenario, numbers(points.size()));
       for(std::size_t place : shape.places(10, 3))
-        for(double step : {0.0, distance})
+        for(const Location& location : place % 2 == 0
+                                         ? close_inside(place, distance)
+                                         : close_to_edge(shape.simplices, place, distance))
         {
-          const auto inserted = d.insert_control_point(place, {0.2, 0.3 + step, 0.5 - step});
+          const auto inserted = d.insert_control_point(location.first, location.second);
           CHECK(d.translate(inserted.point, Eigen::Vector3d(0, 0.02, 0.1)));
         }
       CHECK(d.deform(30, 0));

@@ -1238,7 +1238,8 @@ void test_all()
 }
 
 // What is unconstrained, against the kernel of the dense matrix: edges of weight 1 or 0, and rows
-// of coefficients that often add up to zero or repeat each other, over several components too.
+// of coefficients that often add up to zero or repeat each other, over several components too, and
+// of vertices outside.
 void test_unconstrained()
 {
   constexpr int n = 12;
@@ -1273,18 +1274,23 @@ void test_unconstrained()
     for(int r = 0; r < number_of_rows; ++r)
     {
       const std::vector<std::vector<double>> choice = {{1}, {0.3, 0.7}, {1, -1}, {0.25, 0.25, 0.5},
-                                                       {0.1, 0.2, -0.3}, {0.5, 0.5, 1e-13}};
-      const std::vector<double>& b = choice[random(6)];
+                                                       {0.1, 0.2, -0.3}, {0.5, 0.5, 1e-13},
+                                                       {1e-8, 1e-8}};
+      const std::vector<double>& b = choice[random(7)];
       CGAL::ARAP::internal::Array<int> vertices;
       CGAL::ARAP::internal::Array<double> coefficients;
       const int stride = 1 + random(4), first = random(n - 2 * stride);
+      const auto turn = static_cast<std::size_t>(random(3));
       for(std::size_t k = 0; k < b.size(); ++k)
       {
-        vertices.push_back(first + stride * static_cast<int>(k));
+        vertices.push_back(first + stride * static_cast<int>((k + turn) % b.size()));
         coefficients.push_back(b[k]);
         rows(r, vertices[k]) = b[k];
       }
-      (random(2) ? constraints.rows : constraints.hard_rows).append(vertices, coefficients, 1);
+      const double elsewhere = random(2);
+      rows.row(r) /= std::sqrt(rows.row(r).squaredNorm() + elsewhere);
+      (random(2) ? constraints.rows : constraints.hard_rows)
+        .append(vertices, coefficients, 1, elsewhere);
       is_across |= b.size() > 1;
     }
 

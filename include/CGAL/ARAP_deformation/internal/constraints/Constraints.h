@@ -49,8 +49,10 @@ public:
   // adds the row of one vertex
   void append(int vertex, double weight);
 
-  // adds a row; its vertices differ
-  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight);
+  // Adds a row; its vertices differ. It may have others that cannot move and are no part of it: of
+  // their coefficients only the sum of squares counts, for its length.
+  void append(const Array<int>& vertices, const Array<double>& coefficients, double weight,
+              double squares_elsewhere = 0);
 
   // adds a row of others
   void append(const Weighted_rows& others, int r);
@@ -89,17 +91,30 @@ public:
   // whether each row has one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
-  // Calls f(begin, end, coefficients) for each row: the range of its vertices, and where the
-  // coefficients of these begin.
+  // A row as the range of its vertices.
+  struct Row
+  {
+    const int *first, *last;
+    const double* coefficients; // of these vertices
+    double length;              // the Euclidean norm of all coefficients
+
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+  };
+
+  Row row(int r) const
+  {
+    const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
+    const int* const vertices = m_vertices.items.data();
+    return {vertices + begin, vertices + end, m_coefficients.data() + begin, m_lengths[r]};
+  }
+
+  // calls f(row) for each row
   template <typename Function>
   void for_each_row(const Function& f) const
   {
     for(int r = 0; r < size(); ++r)
-    {
-      const int begin = m_vertices.begin[r], end = m_vertices.begin[r + 1];
-      f(m_vertices.items.begin() + begin, m_vertices.items.begin() + end,
-        m_coefficients.begin() + begin);
-    }
+      f(row(r));
   }
 
   // Calls f(v) for each vertex of a row that only one of the two has.
@@ -134,7 +149,7 @@ private:
 
   Index_lists m_vertices;       // of each row
   Array<double> m_coefficients; // of each item of these lists
-  Array<double> m_weights;      // of each row
+  Array<double> m_weights, m_lengths; // of each row
   bool m_is_diagonal = true;
 };
 
@@ -156,7 +171,7 @@ struct Constraints
   double inertia = 0;      // If not 0, each free vertex of positive mass has a row that ties it to
                            // where its inertia takes it; then this is the sum of their weights.
 
-  // calls f(begin, end, coefficients) for each row, first for the soft ones
+  // calls f(row) for each row, first for the soft ones
   template <typename Function>
   void for_each_row(const Function& f) const
   {

@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -39,27 +40,30 @@ void Weighted_rows::append(int vertex, double weight)
   m_vertices.end_list();
   m_coefficients.push_back(1);
   m_weights.push_back(weight);
+  m_lengths.push_back(1);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
 void Weighted_rows::append(const Array<int>& vertices, const Array<double>& coefficients,
-                           double weight)
+                           double weight, double squares_elsewhere)
 {
   m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
   m_vertices.end_list();
   m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
   m_weights.push_back(weight);
+  m_lengths.push_back(std::sqrt(std::inner_product(
+    coefficients.begin(), coefficients.end(), coefficients.begin(), squares_elsewhere)));
   m_is_diagonal &= vertices.size() == 1;
 }
 
 CGAL_ARAP_INLINE_FUNCTION
 void Weighted_rows::append(const Weighted_rows& others, int r)
 {
-  const auto begin = others.m_vertices.begin[r], end = others.m_vertices.begin[r + 1];
-  append(
-    Array<int>(others.m_vertices.items.begin() + begin, others.m_vertices.items.begin() + end),
-    Array<double>(others.m_coefficients.begin() + begin, others.m_coefficients.begin() + end),
-    others.m_weights[r]);
+  const Row row = others.row(r);
+  append(Array<int>(row.begin(), row.end()),
+         Array<double>(row.coefficients, row.coefficients + (row.end() - row.begin())),
+         others.m_weights[r]);
+  m_lengths.back() = row.length;
 }
 
 CGAL_ARAP_INLINE_FUNCTION

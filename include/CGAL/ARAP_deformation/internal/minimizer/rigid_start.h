@@ -73,7 +73,7 @@ public:
           around[*v] = component;
         }
     }
-    constraints.for_each_row([&](auto begin, auto end, auto) { unite(begin, end); });
+    constraints.for_each_row([&](const Row& row) { unite(row.begin(), row.end()); });
 
     int count = 0;
     Array<int> number(n, -1);
@@ -101,14 +101,15 @@ public:
     }
     m_can_be_rigid = Array<char>(count, true);
     int r = 0;
-    constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
-      const auto first = std::find_if(begin, end, is_free);
-      if(first != end)
+    constraints.for_each_row([&](const Row& row) {
+      const auto first = std::find_if(row.begin(), row.end(), is_free);
+      if(first != row.end())
       {
         const int part = m_part[*first];
-        add_fixed(part, begin, end);
+        add_fixed(part, row.begin(), row.end());
         rows.emplace_back(part, r);
-        if(!(std::abs(std::accumulate(coefficients, coefficients + (end - begin), -1.0)) <= 1e-12))
+        const double* const end = row.coefficients + (row.end() - row.begin());
+        if(!(std::abs(std::accumulate(row.coefficients, end, -1.0)) <= 1e-12))
           m_can_be_rigid[part] = false; // it is not invariant under translations
       }
       ++r;
@@ -168,6 +169,7 @@ public:
 
 private:
   using Pairs = std::vector<std::pair<int, int>>;
+  using Row = Weighted_rows::Row;
 
   static constexpr double tolerance = 1e-12; // of squares, also of points of type float
 
@@ -303,10 +305,10 @@ private:
         if(deformed[motion.part] >= 0)
           for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
             f(&m_fixed.items[k], &m_fixed.items[k] + 1, motion.part);
-      constraints.for_each_row([&](auto begin, auto end, auto) {
-        const auto v = std::find_if(begin, end, is_deformed);
-        if(v != end)
-          f(begin, end, m_part[*v]);
+      constraints.for_each_row([&](const Row& row) {
+        const auto v = std::find_if(row.begin(), row.end(), is_deformed);
+        if(v != row.end())
+          f(row.begin(), row.end(), m_part[*v]);
       });
     };
     for_each_constraint([&](auto begin, auto end, int) {
@@ -325,9 +327,9 @@ private:
         if(!is_turned[*v])
           sets.unite(*first, *v);
     }
-    constraints.for_each_row([&](auto begin, auto end, auto) {
-      for(auto v = begin; v != end; ++v)
-        sets.unite(*begin, *v);
+    constraints.for_each_row([&](const Row& row) {
+      for(int v : row)
+        sets.unite(*row.begin(), v);
     });
     Array<int> count(is_turned.size(), 0);  // for each set, of its constraints
     Array<int> holder(m_free.size(), -1);   // for each part a set with several constraints

@@ -57,8 +57,8 @@ public:
   void fix(int v);
   void pull(int v, double weight);
 
-  // A control point has corners, by their numbers in the region, with coefficients. Only those that
-  // are movable count.
+  // A control point has corners, by their numbers in the region, with coefficients. Those that are
+  // not movable are a constant in its position.
   void fix(Control_point point, const std::vector<int>& corners,
            const std::vector<double>& coefficients);
   void pull(Control_point point, const std::vector<int>& corners,

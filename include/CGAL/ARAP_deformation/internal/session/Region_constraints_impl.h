@@ -82,13 +82,16 @@ void Region_constraints::append(const std::vector<int>& corners,
 {
   Array<int> movable_corners;
   Array<double> their_coefficients;
+  double squares_elsewhere = 0;
   for(std::size_t k = 0; k < corners.size(); ++k)
     if(m_core.is_movable(corners[k]))
     {
       movable_corners.push_back(corners[k]);
       their_coefficients.push_back(coefficients[k]);
     }
-  rows.append(movable_corners, their_coefficients, weight);
+    else
+      squares_elsewhere += coefficients[k] * coefficients[k];
+  rows.append(movable_corners, their_coefficients, weight, squares_elsewhere);
 }
 
 CGAL_ARAP_INLINE_FUNCTION

@@ -48,9 +48,7 @@ public:
     std::map<int, std::vector<int>> rows_at; // for each vertex
     for(int r = 0; r < rows.size(); ++r)
     {
-      double square = 0;
-      rows.for_each_coefficient(r, [&](int, double b) { square += b * b; });
-      m_scale.push_back(reciprocal(std::sqrt(square)));
+      m_scale.push_back(reciprocal(rows.row(r).length));
       Row row;
       rows.for_each_coefficient(r, [&](int v, double b) {
         if(!is_fixed[v])
@@ -79,7 +77,7 @@ public:
   // these rows B, as columns: B^T; zero from the first on that depends on others
   const Sparse_matrix& columns() const { return m_columns; }
 
-  // what was left of a row of length 1, counting its fixed vertices too
+  // what was left of a row of length 1, counting its fixed vertices and others that cannot move
   double length(int r) const { return m_length[r]; }
 
   // the values of these rows where the given ones have such values; zero if there are none

@@ -74,19 +74,19 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
 inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& components,
                         Array<char>& is_tied)
 {
-  // those of components that are not tied yet, without sums that are next to nothing beside that
-  // of the absolute values: what a row would do with them is to throw the component far away
-  const auto loose_sums = [&](auto begin, auto end, auto coefficient) {
+  // those of components that are not tied yet, without sums that are next to nothing beside the
+  // length of the row: what it would do with them is to throw the component far away
+  const auto loose_sums = [&](const Weighted_rows::Row& row) {
     Row_sums sums;
-    double size = 0;
-    for(auto v = begin; v != end; ++v, ++coefficient)
+    const double* coefficient = row.coefficients;
+    for(int v : row)
     {
-      size += std::abs(*coefficient);
-      if(const int k = components.find(*v); !constraints.is_fixed[*v] && !is_tied[k])
+      if(const int k = components.find(v); !constraints.is_fixed[v] && !is_tied[k])
         sums[k] += *coefficient;
+      ++coefficient;
     }
     for(auto entry = sums.begin(); entry != sums.end();)
-      if(std::abs(entry->second) > smallest_sine * size)
+      if(std::abs(entry->second) > smallest_sine * row.length)
         ++entry;
       else
         entry = sums.erase(entry);
@@ -97,8 +97,8 @@ inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& component
   {
     is_changed = false;
     rows.clear();
-    constraints.for_each_row([&](auto begin, auto end, auto coefficients) {
-      Row_sums sums = loose_sums(begin, end, coefficients);
+    constraints.for_each_row([&](const Weighted_rows::Row& row) {
+      Row_sums sums = loose_sums(row);
       if(sums.size() == 1)
         is_tied[sums.begin()->first] = is_changed = true;
       else if(!sums.empty())
@@ -137,13 +137,13 @@ inline Free_components find_free_components(const Laplacian& laplacian,
   for(int v = 0; v < n; ++v)
     is_tied[sets.find(v)] |= is_tied[v];
   tie_by_rows(constraints, sets, is_tied);
-  constraints.for_each_row([&](auto begin, auto end, auto) { // unites those that are tied
+  constraints.for_each_row([&](const Weighted_rows::Row& row) { // unites those that are tied
     int first = -1;
-    for(auto v = begin; v != end; ++v)
-      if(!is_fixed[*v] && is_tied[sets.find(*v)])
+    for(int v : row)
+      if(!is_fixed[v] && is_tied[sets.find(v)])
       {
-        first = first < 0 ? *v : first;
-        sets.unite(first, *v);
+        first = first < 0 ? v : first;
+        sets.unite(first, v);
       }
   });
   for(int v = 0; v < n; ++v)
@@ -156,11 +156,11 @@ inline int find_lost_row(const Weighted_rows& hard_rows, const Array<char>& is_f
                          const Free_components& components)
 {
   int result = -1;
-  hard_rows.for_each_row([&](auto begin, auto end, auto) {
-    if(std::all_of(begin, end, [&](int v) { return is_fixed[v]; }))
-      for(auto v = begin; v != end && result < 0; ++v)
-        if(components.is_unconstrained(*v))
-          result = *v;
+  hard_rows.for_each_row([&](const Weighted_rows::Row& row) {
+    if(std::all_of(row.begin(), row.end(), [&](int v) { return is_fixed[v]; }))
+      for(int v : row)
+        if(result < 0 && components.is_unconstrained(v))
+          result = v;
   });
   return result;
 }
