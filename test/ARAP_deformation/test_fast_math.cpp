@@ -54,6 +54,7 @@ Report deform(double target, double coordinate, double weight)
 int main()
 {
   CHECK(deform(1, 1, 1));
+  CHECK(deform(1e200, 1, 1).status == Status::non_finite_energy);
   for(double bad : {std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::infinity()})
   {

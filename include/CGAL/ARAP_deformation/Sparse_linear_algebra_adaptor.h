@@ -17,10 +17,10 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -107,7 +107,7 @@ public:
       for(std::size_t k = 0; k < n; ++k)
       {
         x[k][c] = static_cast<double>(solution[static_cast<int>(k)] / m_state->denominator);
-        if(!std::isfinite(x[k][c]))
+        if(!internal::is_finite(x[k][c]))
           return false;
       }
     }

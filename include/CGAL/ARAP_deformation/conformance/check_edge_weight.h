@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/energy/edge_weight_requirements.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <algorithm>
 #include <array>
@@ -95,11 +96,12 @@ private:
       double largest = 0;
       for(double w : weights)
       {
-        m_violations.check(std::isfinite(w), "a weight is not finite in a well-shaped ", name);
+        m_violations.check(internal::is_finite(w), "a weight is not finite in a well-shaped ",
+                           name);
         m_weights.push_back(w);
         largest = (std::max)(largest, std::abs(w));
       }
-      if(!std::isfinite(largest))
+      if(!internal::is_finite(largest))
         continue;
       m_violations.check(m_weight.simplex_weights(simplex) == weights, "the weights of a ", name,
                          " differ when asked for again");
@@ -138,8 +140,9 @@ private:
           for(double sum : {size, -size})
           {
             const double w = m_weight.edge_weight(edge_set, i, j, sum);
-            m_violations.check(std::isfinite(w), "edge_weight() is not finite for a finite sum");
-            if(!std::isfinite(w))
+            m_violations.check(internal::is_finite(w),
+                               "edge_weight() is not finite for a finite sum");
+            if(!internal::is_finite(w))
               continue;
             m_violations.check(m_weight.edge_weight(edge_set, i, j, sum) == w,
                                "edge_weight() differs when asked for again");

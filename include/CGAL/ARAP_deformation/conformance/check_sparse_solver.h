@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/conformance/internal/Violations.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/solver/Linear_solver.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
 
@@ -192,7 +193,7 @@ private:
     double largest = 0;
     for(const Coordinates& row : rows)
     {
-      if(!std::isfinite(row[column]))
+      if(!internal::is_finite(row[column]))
         return row[column];
       largest = (std::max)(largest, std::abs(row[column]));
     }

@@ -19,11 +19,11 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Bordered_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/fill_reducing_order.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -71,8 +71,8 @@ struct Multifrontal_cholesky_solver::State
       return double_factor.substitution.solve(structure(), double_factor.values.get(), n, x);
     // very small and very large right-hand sides would leave the range of float
     const double largest = internal::largest_entry(x, n);
-    single_factor.substitution.solve(structure(), single_factor.values.get(), n, x,
-                                     largest > 1e-300 && std::isfinite(largest) ? largest : 1);
+    const double unit = largest > 1e-300 && internal::is_finite(largest) ? largest : 1;
+    single_factor.substitution.solve(structure(), single_factor.values.get(), n, x, unit);
   }
 
   // Whether refining the solution for a random right-hand side works. That is a power iteration: it

@@ -21,9 +21,9 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/dense_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace CGAL {
@@ -77,7 +77,7 @@ public:
 
     const auto is_safe = [&](int i, double reciprocal) {
       const double pivot = 1 / (reciprocal * reciprocal);
-      return std::isfinite(pivot) && pivot > smallest_pivots[order[i]];
+      return is_finite(pivot) && pivot > smallest_pivots[order[i]];
     };
     for(int j = 0; j < n; ++j)
       if(!is_safe(j, j < negative ? first[j * (height + 1)]

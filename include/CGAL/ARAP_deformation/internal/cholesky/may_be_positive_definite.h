@@ -15,10 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <Eigen/SparseCore>
-
-#include <cmath>
 
 namespace CGAL {
 namespace ARAP {
@@ -34,7 +33,7 @@ inline bool may_be_positive_definite(const Sparse_matrix& a)
     if(!diagonal || diagonal.row() != column || !(diagonal.value() > 0))
       return false;
     for(Sparse_matrix::InnerIterator entry(a, column); entry; ++entry)
-      if(!std::isfinite(entry.value()))
+      if(!is_finite(entry.value()))
         return false;
   }
   return true;

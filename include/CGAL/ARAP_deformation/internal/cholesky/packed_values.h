@@ -15,9 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 // The values of a supernode in the order in which a forward substitution reads them, and a backward
@@ -103,7 +103,7 @@ bool has_positive_diagonal(const Supernodal_structure& structure, const Number* 
     for(int j = 0; j < s.width; ++j)
     {
       const Number reciprocal = reciprocal_of_diagonal(s, values, j);
-      if(!(reciprocal > 0 && std::isfinite(reciprocal)))
+      if(!(reciprocal > 0 && is_finite(reciprocal)))
         return false;
     }
   return true;

@@ -18,11 +18,11 @@
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
 #include <CGAL/ARAP_deformation/internal/domain/barycentric_coordinates.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -94,7 +94,7 @@ public:
     }
     const bool is_inside = smallest_coordinate(best) >= 0 || distance <= tolerance;
     best.distance = is_inside ? 0 : distance * m_tree.extent();
-    if(!std::isfinite(smallest_coordinate(best)))
+    if(!is_finite(smallest_coordinate(best)))
       return std::nullopt;
     return best;
   }

@@ -18,6 +18,7 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Pseudorandom_vectors.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
@@ -272,7 +273,7 @@ private:
     double length = 0.1 * m_run.diameter / largest_entry(direction.data(), direction.size());
     if(curvature > 0)
       length = (std::min)(length, std::sqrt(tolerated / curvature));
-    if(!(length > 0) || !std::isfinite(length) || !std::isfinite(curvature))
+    if(!(length > 0) || !is_finite(length) || !is_finite(curvature))
       return false;
     const double sign = look.is_along_force() ? 1 : -1;
     Array<Coordinates> step;
@@ -313,7 +314,7 @@ private:
   bool descend_along(Array<Coordinates>& iterate, const Array<Coordinates>& direction, double first,
                      double longest, int steps)
   {
-    if(!std::isfinite(first))
+    if(!is_finite(first))
       return false;
     const Array<Coordinates> before = m_run.x;
     Array<Coordinates> lowest, step;

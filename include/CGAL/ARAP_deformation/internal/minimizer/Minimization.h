@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Observer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
@@ -249,7 +250,7 @@ public:
   {
     const double difference = report.energy.back() - m_value;
     const double rounding = energy_resolution(m_value, report);
-    return difference > 1e5 * rounding || !std::isfinite(m_value)
+    return difference > 1e5 * rounding || !is_finite(m_value)
          ? difference : force_before() + force_after();
   }
 
@@ -258,7 +259,7 @@ public:
   bool is_higher() const
   {
     const double before = report.energy.back();
-    return std::isfinite(m_value) && m_value > before + energy_resolution(before, report);
+    return is_finite(m_value) && m_value > before + energy_resolution(before, report);
   }
 
   // Whether it is higher by far more than rounding errors: what the solver returns is nothing like
@@ -280,7 +281,7 @@ public:
     }
     report.energy.push_back(m_value);
     keep_rotations();
-    if(!std::isfinite(m_value))
+    if(!is_finite(m_value))
       return Status::non_finite_energy;
     estimate_gap();
     const bool is_power_of_two = (report.iterations & (report.iterations - 1)) == 0;

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Coarse_pairs.h>
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -271,7 +272,7 @@ private:
   static double unit(const Array<Coordinates>& d)
   {
     const double largest = largest_entry(d.data(), d.size());
-    return largest > 0 && std::isfinite(largest) ? largest : 1;
+    return largest > 0 && is_finite(largest) ? largest : 1;
   }
 
   // from the oldest to the newest

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Pseudorandom_vectors.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
@@ -85,7 +86,7 @@ public:
     m_run.change_of_force(m_p, m_z); // - A p
     const double pap = -dot_product(m_p, m_z);
     if(!(pap > least_curvature * m_p_square))
-      return std::isfinite(pap) ? Finding::negative_curvature : Finding::failure;
+      return is_finite(pap) ? Finding::negative_curvature : Finding::failure;
     const double alpha = m_r_square / pap;
     m_curvature += alpha * m_r_square;
     for_each_block(n, [&](std::size_t begin, std::size_t end) {

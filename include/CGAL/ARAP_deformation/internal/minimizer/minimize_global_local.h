@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -40,7 +41,7 @@ inline Status minimize_global_local(Minimization& run)
   Array<Coordinates> step;
   while(report.iterations < run.options.iterations)
   {
-    if(!std::isfinite(report.energy.back()))
+    if(!is_finite(report.energy.back()))
       return Status::non_finite_energy;
     if(!run.is_nothing_free())
     {
@@ -57,7 +58,7 @@ inline Status minimize_global_local(Minimization& run)
        std::abs((before - now) / now) < run.options.tolerance)
       return Status::converged;
   }
-  return std::isfinite(report.energy.back()) ? Status::iteration_limit
+  return is_finite(report.energy.back()) ? Status::iteration_limit
                                              : Status::non_finite_energy;
 }
 

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
@@ -75,7 +76,7 @@ int Constrained_system::find_singular_vertex(const Constraints& constraints) con
     if(i == j) diagonal[i] += entry;
   });
   for(int v = 0; v < n; ++v)
-    if(!constraints.is_fixed[v] && (!(diagonal[v] > 0) || !std::isfinite(diagonal[v])))
+    if(!constraints.is_fixed[v] && (!(diagonal[v] > 0) || !is_finite(diagonal[v])))
       return v;
   return -1;
 }
@@ -100,7 +101,7 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
       weight += std::abs(b) * diagonal_entry(m_laplacian.matrix, v);
     });
     if(is_needed)
-      result.rows.append(vertices, coefficients, weight > 0 && std::isfinite(weight) ? weight : 1);
+      result.rows.append(vertices, coefficients, weight > 0 && is_finite(weight) ? weight : 1);
   }
   return result;
 }
@@ -162,7 +163,7 @@ bool Constrained_system::factorize(const Constraints& constraints, Stages& stage
   for(int v = 0; v < matrix.cols(); ++v)
   {
     double& diagonal = diagonal_entry(matrix, v);
-    if(is_fixed[v] && (!(diagonal > 0) || !std::isfinite(diagonal)))
+    if(is_fixed[v] && (!(diagonal > 0) || !is_finite(diagonal)))
       diagonal = 1;
     diagonal *= diagonal_factor(m_laplacian);
     for(Sparse_matrix::InnerIterator entry(matrix, v); entry; ++entry)
