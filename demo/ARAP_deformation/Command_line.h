@@ -121,6 +121,17 @@ inline std::vector<std::string> mesh_files(const Command_line& line)
   return files;
 }
 
+// the other outputs that were asked for
+inline std::vector<std::string> other_files(const Command_line& line)
+{
+  std::vector<std::string> files;
+  for(const std::string& file : {line.report, line.image, line.animation, line.save_selection,
+                                 line.save_transform})
+    if(!file.empty())
+      files.push_back(file);
+  return files;
+}
+
 // Outputs must be different files and must not be inputs; only the mesh may be deformed in place.
 inline void check_outputs(const Command_line& line)
 {
@@ -144,8 +155,7 @@ inline void check_outputs(const Command_line& line)
     if(!place.empty() && !places.insert(place).second)
       throw Usage_error("the file " + output + " is given for two things");
   }
-  for(const std::string& other : {line.report, line.image, line.animation, line.save_selection,
-                                  line.save_transform})
+  for(const std::string& other : other_files(line))
   {
     check(other, line.mesh);
     for(const std::string& output : outputs)

@@ -56,6 +56,13 @@ public:
         insert(h);
   }
 
+  // Inserts the corners of a face.
+  void insert(Mesh::Face_index f)
+  {
+    for(Mesh::Halfedge_index h : CGAL::halfedges_around_face(m_mesh.halfedge(f), m_mesh))
+      insert(h);
+  }
+
   // Inserts the corners of all faces at a vertex.
   void insert(Mesh::Vertex_index v)
   {

@@ -33,6 +33,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -193,21 +194,24 @@ private:
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");
-    std::pair<std::size_t, std::optional<std::size_t>> accessors(
-      Gltf::whole(attributes.at("POSITION")), {});
+    const std::size_t accessor = Gltf::whole(attributes.at("POSITION"));
+    std::optional<std::size_t> normals, tangents;
     if(attributes.contains("NORMAL"))
-      accessors.second = Gltf::whole(attributes["NORMAL"]);
-    const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
+      normals = Gltf::whole(attributes["NORMAL"]);
+    if(attributes.contains("TANGENT"))
+      tangents = Gltf::whole(attributes["TANGENT"]);
+    const Gltf::Array positions = m_gltf.array(accessor, "VEC3");
     if(positions.component != Gltf::FLOAT ||
-       (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT))
-      throw std::runtime_error("has positions or normals that are quantized");
+       (normals && m_gltf.array(*normals, "VEC3").component != Gltf::FLOAT) ||
+       (tangents && m_gltf.array(*tangents, "VEC4").component != Gltf::FLOAT))
+      throw std::runtime_error("has positions, normals or tangents that are quantized");
 
-    const auto same = m_pieces.lower_bound({accessors.first, std::nullopt}); // with any normals
-    if(same != m_pieces.end() && same->first.first == accessors.first &&
+    const auto same = m_pieces.lower_bound({accessor, {}, {}}); // with any normals
+    if(same != m_pieces.end() && std::get<0>(same->first) == accessor &&
        same->second.to_scene.matrix() != to_scene.matrix())
-      throw std::runtime_error("the accessor " + std::to_string(accessors.first) + " has the "
+      throw std::runtime_error("the accessor " + std::to_string(accessor) + " has the "
                                "positions of two nodes in different places");
-    Piece& piece = m_pieces[accessors];
+    Piece& piece = m_pieces[{accessor, normals, tangents}];
     if(piece.vertices.empty())
     {
       piece.to_scene = to_scene;
@@ -249,14 +253,18 @@ private:
   {
     for(const auto& [accessors, piece] : m_pieces)
     {
-      const Gltf::Array positions = gltf.array(accessors.first, "VEC3");
+      const auto& [accessor, normals, tangents] = accessors;
+      const Gltf::Array positions = gltf.array(accessor, "VEC3");
       for(std::size_t i = 0; i < piece.vertices.size(); ++i)
         if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
           gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
                                                     vector(m_mesh.point(v))));
-      gltf.update_bounds(accessors.first);
-      if(accessors.second)
-        turn_normals(gltf, gltf.array(*accessors.second, "VEC3"), piece);
+      gltf.update_bounds(accessor);
+      const Eigen::Matrix3d m = piece.to_scene.linear();
+      if(normals) // they are mapped by the cofactors
+        turn(gltf, gltf.array(*normals, "VEC3"), m.inverse().transpose(), piece);
+      if(tangents)
+        turn(gltf, gltf.array(*tangents, "VEC4"), m, piece);
     }
   }
 
@@ -271,22 +279,23 @@ private:
     return Mesh::Vertex_index(static_cast<Mesh::size_type>(place->second));
   }
 
-  // Each normal turns with its corners.
-  void turn_normals(Gltf& gltf, const Gltf::Array& normals, const Piece& piece) const
+  // Each vector turns with its corners.
+  void turn(Gltf& gltf, const Gltf::Array& vectors, const Eigen::Matrix3d& to_scene,
+            const Piece& piece) const
   {
-    for(std::size_t i = 0; i < piece.vertices.size() && i < normals.size; ++i)
+    const Eigen::Matrix3d from_scene = to_scene.inverse();
+    for(std::size_t i = 0; i < piece.vertices.size() && i < vectors.size; ++i)
     {
       Corner_rotation rotation(m_mesh, m_rest_points);
       for(std::size_t face : piece.faces[i])
         rotation.insert(Mesh::Face_index(static_cast<Mesh::size_type>(face)), piece.vertices[i]);
       if(!rotation.has_moved())
         continue;
-      const auto n = m_gltf.vector(normals, i);
-      const Eigen::Matrix3d m = piece.to_scene.linear(); // normals are mapped by its cofactors
-      const Eigen::Vector3d in_scene = m.inverse().transpose() * Eigen::Vector3d(n[0], n[1], n[2]);
+      const auto v = m_gltf.vector(vectors, i);
+      const Eigen::Vector3d in_scene = to_scene * Eigen::Vector3d(v[0], v[1], v[2]);
       const auto turned = rotation({in_scene[0], in_scene[1], in_scene[2]});
-      gltf.set_vector(normals, i, coordinates(
-        (m.transpose() * Eigen::Vector3d(turned.x(), turned.y(), turned.z())).normalized()));
+      gltf.set_vector(vectors, i, coordinates(
+        (from_scene * Eigen::Vector3d(turned.x(), turned.y(), turned.z())).normalized()));
     }
   }
 
@@ -295,7 +304,9 @@ private:
   bool m_has_images = false, m_are_images_left = false; // in files of their own
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
-  std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces; // of two accessors
+  // for the accessors of its positions, normals and tangents
+  std::map<std::tuple<std::size_t, std::optional<std::size_t>, std::optional<std::size_t>>, Piece>
+    m_pieces;
   internal::Polygons m_faces;
   std::vector<Kernel::Point_3> m_rest_points;
   Mesh m_mesh; // deformed

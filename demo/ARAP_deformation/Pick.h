@@ -108,7 +108,8 @@ public:
           result.push_back(v);
     if(result.empty())
     {
-      std::ostringstream message;
+      std::ostringstream message; // what it tells can be given as it is
+      message.precision(std::numeric_limits<double>::max_digits10);
       message << m_name << ": picks no vertex; the bounding box of the mesh is box:" << box.xmin()
               << ',' << box.ymin() << ',' << box.zmin() << ',' << box.xmax() << ',' << box.ymax()
               << ',' << box.zmax();

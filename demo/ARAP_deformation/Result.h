@@ -154,10 +154,8 @@ inline void print_summary(std::ostream& out, const Command_line& line, const Res
       << "written: " << mesh_files(line).front();
   if(line.is_sequence && line.frames > 1)
     out << " to " << mesh_files(line).back();
-  for(const std::string& file : {line.report, line.image, line.animation, line.save_selection,
-                                 line.save_transform})
-    if(!file.empty())
-      out << ", " << file;
+  for(const std::string& file : other_files(line))
+    out << ", " << file;
   out << '\n';
 }
 

@@ -141,11 +141,17 @@ private:
     for(const Source_text::Normal& normal : m_source.normals)
     {
       Corner_rotation turned(m_mesh, m_rest_points);
-      for(const auto& [face, vertex] : normal.corners)
-        if(const Mesh::Vertex_index v(static_cast<Mesh::size_type>(vertex)); face)
-          turned.insert(Mesh::Face_index(static_cast<Mesh::size_type>(*face)), v);
-        else
+      for(const Source_text::Corner& corner : normal.corners)
+      {
+        const Mesh::Face_index f(static_cast<Mesh::size_type>(corner.face.value_or(0)));
+        const Mesh::Vertex_index v(static_cast<Mesh::size_type>(corner.vertex.value_or(0)));
+        if(!corner.face)
           turned.insert(v);
+        else if(!corner.vertex)
+          turned.insert(f);
+        else
+          turned.insert(f, v);
+      }
       if(turned.has_moved())
         m_source.replace(normal.place, normal.value, turned(normal.value));
     }

@@ -45,12 +45,18 @@ public:
   };
   using Triple = std::array<Span, 3>;
 
-  // A normal, and the corners that use it: of a face, or of all faces, at a vertex.
+  // that of a face at a vertex, or all corners of one of them
+  struct Corner
+  {
+    std::optional<std::size_t> face, vertex;
+  };
+
+  // a normal, and the corners that use it
   struct Normal
   {
     Triple place;
     Kernel::Vector_3 value;
-    std::vector<std::pair<std::optional<std::size_t>, std::size_t>> corners;
+    std::vector<Corner> corners;
   };
 
   std::string text;

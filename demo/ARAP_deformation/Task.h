@@ -209,6 +209,8 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
                         line.all_handles.plane;
   if(line.handles.empty() && all.empty() && is_moved)
     throw std::runtime_error("nothing moves: no vertex belongs to a handle of " + line.selection);
+  if(task.handles.empty() && !line.save_transform.empty())
+    throw std::runtime_error("--save-transform: there is no handle");
 
   const auto key_frames = internal::read_key_frames(line, task.handles.size());
   const bool are_together = // all handles move as one

@@ -14,6 +14,8 @@
 
 #include "Tetrahedra_text.h"
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -47,7 +49,9 @@ public:
 
     words = section("POINTS", words.end());
     const long long points = read(words);
-    words.next(); // the type of numbers
+    if(const std::string type = boost::algorithm::to_lower_copy(std::string(words.next()));
+       type != "float" && type != "double")
+      refuse(words, "expected POINTS of the type float or double, but found");
     for(long long i = 0; i < points; ++i)
       read_point(words, [i] { return "point " + std::to_string(i); });
     read_cells(words.end());

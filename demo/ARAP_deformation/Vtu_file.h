@@ -49,6 +49,8 @@ public:
     const Array& points = array("Points", "");
     if(points.get("NumberOfComponents") != "3")
       refuse_at(points.place, "the Points need NumberOfComponents=\"3\"");
+    if(const std::string type = points.get("type"); type != "Float32" && type != "Float64")
+      refuse_at(points.place, "the Points are " + in_quotes(type) + ", not Float32 or Float64");
     if(points.get("format") == "ascii")
       read_text_of(points);
     else
@@ -369,11 +371,8 @@ private:
 
   void read_bytes_of(const Array& points)
   {
-    const std::string type = points.get("type");
-    if(type != "Float32" && type != "Float64")
-      refuse_at(points.place, "the Points are " + in_quotes(type) + ", not Float32 or Float64");
     m_encoded_points = decode(points);
-    const std::size_t n = number_of_points(), size = type == "Float32" ? 4 : 8;
+    const std::size_t n = number_of_points(), size = points.get("type") == "Float32" ? 4 : 8;
     std::string_view bytes = m_encoded_points->bytes;
     if(bytes.size() != 3 * size * n)
       refuse_at(points.place, "there are " + std::to_string(n) + " points, but the array has " +

@@ -35,6 +35,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
@@ -218,12 +219,12 @@ void print_version(std::ostream& out)
 // Where the summary goes: not into an output.
 std::ostream& summary_stream(const Command_line& line)
 {
-  const std::string standard_output = "/dev/stdout";
-  bool is_taken = false;
-  for(const std::string& file : {line.output, line.report, line.image, line.animation,
-                                 line.save_selection, line.save_transform})
-    is_taken = is_taken || (!file.empty() && is_same_file(file, standard_output));
-  return is_taken ? std::cerr : std::cout;
+  const auto is_taken = [](const std::vector<std::string>& files) {
+    return std::any_of(files.begin(), files.end(), [](const std::string& file) {
+      return is_same_file(file, "/dev/stdout");
+    });
+  };
+  return is_taken(mesh_files(line)) || is_taken(other_files(line)) ? std::cerr : std::cout;
 }
 
 // Says what of the input the output does not keep.

@@ -213,7 +213,7 @@ inline std::stringstream check_obj_file(std::istream& in, const std::string& fil
     throw std::runtime_error(file + ": has no faces");
   for(const auto& [normal, face, vertex] : uses)
     if(normal >= 0 && normal < static_cast<long long>(source->normals.size()))
-      source->normals[normal].corners.emplace_back(face, vertex);
+      source->normals[normal].corners.push_back({face, vertex});
   return out;
 }
 

@@ -136,7 +136,8 @@ public:
           read(p);
   }
 
-  // Finds the coordinates and normals of the vertices; the text of `source` is that of the stream.
+  // Finds the coordinates of vertices, and the normals of vertices and faces; the text of `source`
+  // is that of the stream.
   void find_places(Source_text& source)
   {
     source.numbers = !is_binary() ? Source_text::Numbers::text
@@ -146,6 +147,7 @@ public:
     for(const Element& element : m_elements)
     {
       const bool has_normals =
+        (is_vertex(element) || is_face(element)) &&
         3 == std::count_if(element.properties.begin(), element.properties.end(), is_normal);
       if(is_vertex(element))
         for(const Property& p : element.properties)
@@ -170,14 +172,16 @@ public:
             direction[p.name[1] - 'x'] = value;
           }
         }
-        if(!is_vertex(element))
-          continue;
-        source.points.push_back(point);
-        source.row_ends.push_back(end);
+        Source_text::Corner corners = {i, std::nullopt};
+        if(is_vertex(element))
+        {
+          source.points.push_back(point);
+          source.row_ends.push_back(end);
+          corners = {std::nullopt, i};
+        }
         if(direction != std::array<double, 3>())
           source.normals.push_back(
-            {normal, {direction[0], direction[1], direction[2]},
-             {{std::nullopt, source.points.size() - 1}}});
+            {normal, {direction[0], direction[1], direction[2]}, {corners}});
       }
     }
   }

@@ -864,6 +864,10 @@ void test_picks()
   refuse("--handle z:7..", 1, "--handle z:7..: picks no vertex; the bounding box of the mesh is "
                               "box:-1,-1,0,1,1,5");
   refuse("--fix sphere:9,9,9,1 --handle z:..1", 1, "--fix sphere:9,9,9,1: picks no vertex");
+  write("far.off", "OFF\n3 1 0\n1234567.125 0 0\n1234568.875 0 0\n0 1 0\n3 0 1 2\n");
+  check_refused("far.off --handle z:7.." + rest, 1, "box:0,0,0,1234568.875,1,0");
+  check_refused("in.off --fix z:..5% --gravity 1,0,0 --frames 2 -o new.off "
+                "--save-transform new.def", 1, "--save-transform: there is no handle");
   refuse("--handle z:4.5.. --move 0,0,1 --handle z:4..", 1, "--handle z:4.5..: a later --fix or");
   refuse("--handle list:104", 1, "there is no vertex 104; they are numbered from 0 to 103");
   refuse("--handle list:@missing", 1, "missing: there is no such file");
@@ -938,13 +942,13 @@ Glb read_glb(const std::string& file)
 }
 
 // Two triangles, of two vertices each at their common edge, since their texture coordinates differ
-// there; in a node that is turned, scaled and moved.
+// there; in a node that is turned, stretched and moved.
 void test_gltf()
 {
   test_case() = "glTF";
   using P = Eigen::Vector3d;
   const std::vector<P> local = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
-  const P normal(0, 0, 1);
+  const P normal(0, 0, 1), tangent(0.8f, 0.6f, 0);
   std::vector<float> numbers;
   for(const P& p : local)
     numbers.insert(numbers.end(), {float(p.x()), float(p.y()), float(p.z())});
@@ -952,38 +956,49 @@ void test_gltf()
     numbers.insert(numbers.end(), {0, 0, 1});
   for(std::size_t i = 0; i < local.size(); ++i)
     numbers.insert(numbers.end(), {float(i), 0.5f});
+  for(std::size_t i = 0; i < local.size(); ++i)
+    numbers.insert(numbers.end(), {0.8f, 0.6f, 0, -1});
   write("part.bin", std::string(reinterpret_cast<const char*>(numbers.data()),
                                 4 * numbers.size()));
   auto json = nlohmann::json::parse(R"({
     "asset": {"version": "2.0", "extras": {"by": "hand"}},
-    "buffers": [{"uri": "part.bin", "byteLength": 192}],
-    "bufferViews": [{"buffer": 0, "byteLength": 144}, {"buffer": 0, "byteOffset": 144,
-                                                       "byteLength": 48}],
+    "buffers": [{"uri": "part.bin", "byteLength": 288}],
+    "bufferViews": [{"buffer": 0, "byteLength": 144},
+                    {"buffer": 0, "byteOffset": 144, "byteLength": 144}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
                   {"bufferView": 0, "byteOffset": 72, "componentType": 5126, "count": 6,
                    "type": "VEC3"},
-                  {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"}],
+                  {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"},
+                  {"bufferView": 1, "byteOffset": 48, "componentType": 5126, "count": 6,
+                   "type": "VEC4"}],
     "materials": [{"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
-                                "material": 0}]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2,
+                                               "TANGENT": 3}, "material": 0}]}],
     "nodes": [{"children": [1], "translation": [1, 2, 3]},
-              {"mesh": 0, "rotation": [0.6, 0, 0, 0.8], "scale": [2, 2, 2]}],
+              {"mesh": 0, "rotation": [0.6, 0, 0, 0.8], "scale": [2, 1, 3]}],
     "scenes": [{"nodes": [0]}]})");
   write("in.gltf", json.dump());
   CHECK(run("in.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o out.glb --quiet").exit_code == 0);
   const Glb glb = read_glb("out.glb");
-  const Affine_map to_scene = {2 * Eigen::Quaterniond(0.8, 0.6, 0, 0).toRotationMatrix(),
-                               P(1, 2, 3)};
+  const Affine_map to_scene = {Eigen::Quaterniond(0.8, 0.6, 0, 0).toRotationMatrix() *
+                                 P(2, 1, 3).asDiagonal(), P(1, 2, 3)};
   const Affine_map turn =
     motion_about(P(0, 1, 0), rigid_motion(50 * std::acos(-1.0) / 180, P(1, 2, 3), P(0, 0, 0)));
   const Affine_map expected = to_scene.inverse() * turn * to_scene;
+  const P turned_normal = (expected.linear.inverse().transpose() * normal).normalized(),
+          turned_tangent = (expected.linear * tangent).normalized();
+  const auto check_vector = [&](std::size_t begin, const P& v) {
+    for(std::size_t k = 0; k < 3; ++k)
+      CHECK_AT_MOST(std::abs(glb.numbers[begin + k] - v[static_cast<int>(k)]), 2e-6);
+  };
   for(std::size_t i = 0; i < 6; ++i)
-    for(int k = 0; k < 3; ++k)
-    {
-      CHECK_AT_MOST(std::abs(glb.numbers[3 * i + k] - (expected * local[i])[k]), 1e-6);
-      CHECK_AT_MOST(std::abs(glb.numbers[18 + 3 * i + k] - (expected.linear * normal)[k]), 1e-6);
-    }
-  for(std::size_t i = 36; i < numbers.size(); ++i)
+  {
+    check_vector(3 * i, expected * local[i]);
+    check_vector(18 + 3 * i, turned_normal);
+    check_vector(48 + 4 * i, turned_tangent);
+    CHECK(glb.numbers[51 + 4 * i] == -1);
+  }
+  for(std::size_t i = 36; i < 48; ++i)
     CHECK(glb.numbers[i] == numbers[i]);
   auto rest = glb.json;
   for(const char* bound : {"min", "max"})
@@ -1081,25 +1096,27 @@ void test_gltf()
   auto indexed = json;
   indexed["accessors"].push_back(
     {{"bufferView", 1}, {"componentType", 5125}, {"count", 4}, {"type", "SCALAR"}});
-  indexed["meshes"][0]["primitives"][0]["indices"] = 3;
+  indexed["meshes"][0]["primitives"][0]["indices"] = 4;
   for(const auto& [component, phrase] : std::map<int, std::string>{
         {5125, "has a list of triangles that ends with a part of one"},
         {5122, "has indices that are no unsigned integers"},
         {5126, "has indices that are no unsigned integers"}})
   {
-    indexed["accessors"][3]["componentType"] = component;
+    indexed["accessors"][4]["componentType"] = component;
     write("bad.gltf", indexed.dump());
     check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
   }
-  refuse("/accessors/0/componentType", 5123, "has positions or normals that are quantized");
+  for(const char* accessor : {"0", "1", "3"})
+    refuse("/accessors/" + std::string(accessor) + "/componentType", 5123,
+           "has positions, normals or tangents that are quantized");
   refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
-  refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 192 bytes");
+  refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 288 bytes");
   refuse("/buffers/0/uri", (folder / "part.bin").string(), "has a buffer whose place is not rel");
 #if defined(__unix__) || defined(__APPLE__)
   fs::create_symlink("/dev/zero", folder / "zero.bin"); // has no end
   const std::string unlimited = command;
   limit_command();
-  refuse("/buffers/0/uri", "zero.bin", "a buffer has less than its 192 bytes");
+  refuse("/buffers/0/uri", "zero.bin", "a buffer has less than its 288 bytes");
   command = unlimited;
 #endif
   refuse("/buffers/0/uri", "data:;base64,=*=", "has a buffer that is not in base64");
@@ -1930,6 +1947,8 @@ void test_other_formats()
   refuse("vtk", "vtk\n", ": does not start with '# vtk DataFile'");
   refuse("vtk", replaced(grid, "ASCII", "BINARY"), ", line 3: only ASCII files can be read, but");
   refuse("vtk", replaced(grid, "UNSTRUCTURED_GRID", "POLYDATA"), ", line 4: only an UNSTRUCTURED");
+  refuse("vtk", replaced(grid, " double\n", " int\n"),
+         ", line 5: expected POINTS of the type float or double, but found 'int'");
   refuse("vtk", replaced(grid, "\n10\n", "\n12\n"), "a cell of the type 12 with 4 vertices, after");
   refuse("vtk", replaced(grid, "0 1 2 ", "0 1 99999 "), "but found '99999'");
   refuse("vtk", replaced(grid, "\n0 3 7 ", "\n3 3 7 "), "an integer from 0 to 0, but found '3'");

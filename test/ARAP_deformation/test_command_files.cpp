@@ -424,6 +424,20 @@ void test_kept()
   CHECK(deformed("mixed.ply", mixed + "-1 0.5 0 1 2 3\n3 0 1 2\n3 0 2 3\n") ==
         mixed + "0 0.5 1 1 2 3\n3 0 1 2\n3 0 2 3\n");
 
+  const std::string of_faces = ply("ascii", "float", "4", "uchar int") + "0 -1 0\n1 0 0\n0 1 0\n";
+  std::string with_normals = of_faces;
+  with_normals.insert(of_faces.find("end_header"),
+                      "property float nx\nproperty double ny\nproperty float nz\n");
+  const std::string turned_ply =
+    deformed("of_faces.ply", with_normals + "-1 0.5 0\n3 0 1 2 0 0 1\n3 0 2 3 0 1 2\n");
+  const std::string kept = "0 0.5 1\n3 0 1 2 0 0 1\n3 0 2 3 ";
+  std::array<double, 3> turned_normal = {};
+  std::istringstream(turned_ply.substr(turned_ply.find(kept) + kept.size())) >>
+    turned_normal[0] >> turned_normal[1] >> turned_normal[2];
+  CHECK(turned_ply.find(kept) != std::string::npos);
+  CHECK_AT_MOST(std::abs(turned_normal[0] - 2) + std::abs(turned_normal[1] - 1) +
+                  std::abs(turned_normal[2]), 1e-12);
+
   const auto header = [](const std::string& format) {
     return "ply\nformat " + format + " 1.0\ncomment by hand\nelement lists 1\n"
            "property list uchar short things\nelement vertex 4\nproperty int before\n"
@@ -816,6 +830,9 @@ void test_vtu()
          ": there are 7 points, but the array has 72 bytes");
   refuse("vtu", replaced(text, "NumberOfCells=\"4\"", "NumberOfCells=\"5\""),
          ": there are 5 cells, but 4 offsets and 4 types");
+  for(const std::string& each : {text, raw})
+    refuse("vtu", replaced(each, "Float32", "Int32"),
+           "the Points are 'Int32', not Float32 or Float64");
   refuse("vtu", replaced(text, "2\n1\n1\n</", "2\nnan\n1\n</"),
          ": expected a finite number, a coordinate in point 5, but found 'nan'");
   refuse("vtu", replaced(text, "4\n5\n</", "4\n6\n</"),
@@ -1028,6 +1045,10 @@ void test_descriptors()
   check_log(call + "--report link_to_stdout >> log", "old\n{\n");
   CHECK(fs::is_symlink(folder / "link_to_stdout"));
   fs::remove(folder / "log");
+  const Run done = run_arap("arap in.off --selection in.sel --transform in.def --frames 2 "
+                            "-o kept.off > kept-0001.off");
+  CHECK(done.exit_code == 0);
+  CHECK(done.err.find("written: kept-0001.off to kept-0002.off") != std::string::npos);
 
   check_failed(call + "--report /dev/fd/9", 1, "/dev/fd/9: cannot be written");
   check_failed(call + "--report /dev/fd/3 3< in.def", 2, "is given for two things");
