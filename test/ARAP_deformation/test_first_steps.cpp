@@ -465,6 +465,32 @@ void test_laplacian_beside_others()
                  Eigen::Vector3d(0, 0, 1)).norm(), 1e-9);
 }
 
+// Two parts that turn rigidly, but not together, though two of their cells share a rotation: the
+// rigid motions are compared with the guess, not with where the vertices were before.
+void test_laplacian_after_a_run()
+{
+  test_case() = "Laplacian guess after a run";
+  const Shape shape = two_components(sheet(10));
+  const std::size_t n = shape.points.size() / 2;
+  const Scenario s = scenario(sheet(10));
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation d(mesh);
+  Options options = options_for(Cell_scheme::spokes());
+  options.initial_guess = Initial_guess::laplacian;
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(vertices(mesh));
+  for(std::size_t v = 0; v < 2 * n; ++v)
+    if(s.selection[v % n] != 1)
+      d.insert_control_vertex(Vertex(v), point(
+        Eigen::AngleAxisd(v < n ? 1 : -1, Eigen::Vector3d::UnitZ()) * shape.points[v]));
+  const auto is_free = std::find(s.selection.begin(), s.selection.end(), 1);
+  const auto shared = static_cast<std::size_t>(is_free - s.selection.begin()) + 25;
+  CHECK(d.set_groups([=](Vertex v) { return std::size_t(v) % n == shared ? 0 : -1; }));
+  const Report first = d.deform(20, 0), second = d.deform(20, 0);
+  CHECK(first && second && first.final_energy() < 0.99 * first.energy[0]);
+  CHECK_AT_MOST(std::abs(second.energy[0] - first.energy[0]), 1e-9 * first.energy[0]);
+}
+
 // Handles on a straight line, up to rounding, leave a rotation about it free: there is none.
 void test_line()
 {
@@ -1287,6 +1313,7 @@ int main()
   rigid::test_control_point_and_handle();
   rigid::test_laplacian();
   rigid::test_laplacian_beside_others();
+  rigid::test_laplacian_after_a_run();
   rigid::test_line();
   rigid::test_rows();
   undo::test_state();

@@ -413,10 +413,10 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   }
   const bool has_other_start =
     !is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
-  if(is_laplacian && !are_all_placed(is_placed))
+  if(is_laplacian)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!guess_by_laplacian(is_placed, targets, x) ||
+    if((!are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x)) ||
        (has_other_start &&
         !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
       return {Status::solver_failed};

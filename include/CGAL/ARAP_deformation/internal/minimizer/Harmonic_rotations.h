@@ -179,7 +179,7 @@ public:
         m_unknown.append(v, 1);
     for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
       for(int r = 0; r < rows->size(); ++r)
-        if(rows->position(r) < 0)
+        if(rows == &constraints.hard_rows || rows->position(r) < 0)
           m_unknown.append(*rows, r);
   }
 

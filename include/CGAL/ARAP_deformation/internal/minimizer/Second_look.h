@@ -146,7 +146,7 @@ public:
         l(i, j) = l(j, i) = dot_product(*vectors[i], *metric_vectors[j]);
       }
     const Eigen::Vector3d best = lowest_combination(a, l);
-    if(!best.allFinite() || best[0] == 0)
+    if(!is_finite({best[0], best[1], best[2]}) || best[0] == 0)
       return false;
     combine(m_q, best[1], m_w, best[2], m_q);
     combine(m_aq, best[1], m_z, best[2], m_aq);
