@@ -320,8 +320,9 @@ public:
   ///
   /// Its target is its current position, with infinite weight. Refuses a simplex that is not there
   /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one
-  /// within 1e-9, or are too few or too many (`ARAP::Status::invalid_coordinates`). Divide
-  /// coordinates that were computed in `float` by their sum first.
+  /// within 1e-9 (of the largest of them, if that is more than 1), or are too few or too many
+  /// (`ARAP::Status::invalid_coordinates`). Divide coordinates that were computed in `float` by
+  /// their sum first.
   /// \param s a simplex
   /// \param coordinates a range of numbers, or a list in braces: the barycentric coordinates, in
   ///        the order of `domain().simplex_vertices(s)`
@@ -348,7 +349,7 @@ public:
   /// returns whether `point` is a control point of this object.
   bool is_control_point(ARAP::Control_point point) const
   {
-    return m_session.vertices().find_target(point) != nullptr;
+    return m_session.vertices().is_control(point);
   }
 
   /// returns the control points, in the order in which they were inserted. Linear time.
@@ -659,7 +660,8 @@ public:
   }
 
   /// returns the velocity of `v`: what the last `advance()` has moved it, over the time step, or
-  /// what was set since. Zero at first, and after `deform()` and `reset()`.
+  /// what was set since. Zero at first, after `deform()` and `reset()`, and when `v` has left the
+  /// region of interest.
   ARAP::Coordinates velocity(vertex_descriptor v) const { return m_session.velocity(v); }
 
   /// sets the velocity with which the next step begins, whose type has `operator[]` for as many
@@ -739,7 +741,7 @@ private:
     static_assert(std::is_convertible_v<const Handle&, Known> || std::is_integral_v<Handle>,
                   "ARAP_deformation: what has a target is a vertex or a control point");
     const Known known = static_cast<Known>(handle);
-    CGAL_precondition_msg(m_session.vertices().find_target(known) != nullptr,
+    CGAL_precondition_msg(m_session.vertices().is_control(known),
                           "what is no control vertex or control point has no target: insert it");
     return known;
   }

@@ -438,6 +438,33 @@ void check_refused(Subject& s, Status status, const std::string& text)
   CHECK(largest_distance(before, s.points) == 0);
 }
 
+struct First_edge_weight : CGAL::ARAP::Uniform_weight
+{
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t i, std::size_t j, double) const
+  {
+    return i + j == 1 ? 1 : 0;
+  }
+};
+
+// An edge that no weight ties to others, but a point to which it contributes next to nothing.
+void test_small_share()
+{
+  test_case() = "a component with a small share in a point";
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, First_edge_weight>;
+  std::vector<Point> points = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(1, -1, 0)};
+  const Simplices triangles = {{0, 1, 2}, {1, 0, 3}};
+  CGAL::ARAP_deformation<Soup<2>, Traits> d(Soup<2>(points, triangles));
+  for(std::size_t v : {0, 1})
+    d.insert_roi_vertex(v);
+  constexpr double share = 2e-6;
+  const auto inserted = d.insert_control_point(0, {share, 0, 1 - share});
+  d.erase_roi_vertex(2);
+  CHECK(inserted && d.translate(inserted.point, Eigen::Vector3d(0, 0, share / 2)));
+  CHECK(d.deform());
+  for(std::size_t v : {0, 1})
+    CHECK_AT_MOST((vector(points[v]) - Eigen::Vector3d(double(v), 0, 0.5)).norm(), 1e-9);
+}
+
 // Points that others determine.
 template <typename Solver>
 void test_dependent()
@@ -627,6 +654,9 @@ void test_input()
   CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
   CHECK(d.insert_control_point(f, {0.2, 0.3, 0.5}).status == Status::not_a_simplex);
   CHECK(d.roi_vertices().empty() && d.control_points().empty());
+  Subject<2> soup(triangles());
+  CHECK(soup.deformation.insert_control_point(soup.shape.simplices.size(), {1, 0, 0}).status ==
+        Status::not_a_simplex);
 
   // only corners that count enter the region of interest
   const auto inserted = d.insert_control_point(Mesh::Face_index(9), {0, 0.4, 0.6});
@@ -1281,6 +1311,23 @@ void test_cell_of_other_size()
   CHECK(found && found->simplex == 1 && found->coordinates.size() == 4);
 }
 
+// Far away, the coordinates of a point are large, and so are the rounding errors of their sum.
+void test_far_away()
+{
+  test_case() = "a point far away from a tetrahedron";
+  Subject<3> s(tetrahedra());
+  for(double distance : {1e3, 1e6, 1e8})
+    for(double angle : {0.1, 1.2, 2.3, 3.4, 4.5, 5.6})
+    {
+      const Point far(distance * std::cos(angle), distance * std::sin(angle), distance / 3);
+      const auto found = CGAL::ARAP::locate(s.deformation.domain(), far);
+      const auto inserted = s.deformation.insert_control_point(*found);
+      CHECK(inserted);
+      CHECK_AT_MOST((vector(s.deformation.control_point_position(inserted.point)) -
+                     vector(far)).norm(), 1e-12 * distance * distance);
+    }
+}
+
 void test_function()
 {
   test_case() = "arap_deform";
@@ -1377,24 +1424,30 @@ void test(Held_shape<Dimension> shape)
     expected.push_back(vector(p));
   const std::vector<std::size_t> places = shape.places(5, 4);
   for(const double weight : {infinite, 1.0, 1e4})
-    for(const std::size_t count : {1, 5})
+    for(const std::size_t count : {0, 1, 5}) // 0: one at a corner
     {
       test_case() = shape.name + ", guess with " + std::to_string(count) + " points of weight " +
                     std::to_string(weight);
       Subject<Dimension> with(shape);
       CHECK(with.deformation.set_options(options));
-      for(std::size_t k = 0; k < count; ++k)
+      for(std::size_t k = 0; k < (std::max)(count, std::size_t(1)); ++k)
       {
-        const auto& corners = shape.simplices[places[count == 1 ? 2 : k]];
-        const std::vector<double> c = coordinates(corners.size(), k);
+        const std::size_t place = places[count < 5 ? 2 : k];
+        const auto& corners = shape.simplices[place];
+        std::vector<double> c = coordinates(corners.size(), k);
+        if(count == 0)
+        {
+          c.assign(corners.size(), 0);
+          c[0] = 1;
+        }
         Eigen::Vector3d shift(0, 0, 0);
         for(std::size_t i = 0; i < corners.size(); ++i)
           shift += c[i] * (expected[corners[i]] - vector(with.points[corners[i]]));
-        with.insert(places[count == 1 ? 2 : k], c, weight, shift);
+        with.insert(place, c, weight, shift);
       }
       CHECK(with.deformation.deform(0, 0));
       CHECK_AT_MOST(largest_distance(with.points, expected),
-                    (count == 1 ? 1e-8 : 0.06) * shape.diameter());
+                    (count < 5 ? 1e-8 : 0.06) * shape.diameter());
     }
 }
 
@@ -1415,6 +1468,7 @@ int main()
   refusals::test_dependent<CGAL::Default>();
   refusals::test_dependent<Compiled_LDLT_solver>();
   refusals::test_close_pairs();
+  refusals::test_small_share();
   refusals::test_input();
   histories::test_stages();
   histories::test_reset();
@@ -1429,6 +1483,7 @@ int main()
   locations::test_folded_quad();
   locations::test_cell_of_other_size();
   locations::test_function();
+  locations::test_far_away();
   guess::test_all();
   return checks_result();
 }

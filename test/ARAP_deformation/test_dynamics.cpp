@@ -392,6 +392,9 @@ void undo_and_refuse()
   deformation.insert_roi_vertices(numbers(n));
   deformation.erase_roi_vertex(5);
   CHECK(!deformation.set_velocity(5, Vector3d(1, 0, 0)));
+  CHECK(deformation.set_velocity(6, Vector3d(1, 0, 0))); // it is at rest when it comes back
+  CHECK(deformation.erase_roi_vertex(6) && deformation.insert_roi_vertex(6));
+  CHECK(deformation.velocity(6) == (Coordinates{0, 0, 0}));
   deformation.insert_control_vertex(0);
   deformation.insert_control_vertex(n - 1, point(model.points[n - 1] + Vector3d(0, 0, 0.2)));
   CHECK(deformation.set_target_weight(n - 1, 0.7));

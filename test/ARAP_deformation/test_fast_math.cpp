@@ -51,10 +51,26 @@ Report deform(double target, double coordinate, double weight)
   return deformation.deform(5, 0);
 }
 
+// Three of them depend on each other, but for rounding errors.
+void test_points_on_an_edge()
+{
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  for(double share : {0.5, 0.3, 0.6, 0.43})
+  {
+    CGAL::ARAP_deformation<Mesh> deformation(mesh);
+    for(auto v : mesh.vertices())
+      deformation.insert_roi_vertex(v);
+    for(double a : {1.0, share, 0.0})
+      CHECK(deformation.insert_control_point(Mesh::Face_index(0), {a, 1 - a, 0}));
+    CHECK(deformation.deform().status == Status::dependent_target);
+  }
+}
+
 int main()
 {
   CHECK(deform(1, 1, 1));
   CHECK(deform(1e200, 1, 1).status == Status::non_finite_energy);
+  test_points_on_an_edge();
   for(double bad : {std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::infinity()})
   {

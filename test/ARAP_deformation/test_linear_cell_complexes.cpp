@@ -147,6 +147,8 @@ void check_refused(const std::string& name, const Make& make)
   for(auto v : deformation.domain().vertices())
     deformation.insert_roi_vertex(v);
   deformation.insert_control_vertex(*deformation.domain().vertices().begin());
+  CHECK(deformation.insert_control_point(99999, {1, 0, 0, 0}).status ==
+        CGAL::ARAP::Status::not_a_simplex);
   const CGAL::ARAP::Report report = deformation.deform();
   CHECK(report.status == CGAL::ARAP::Status::not_a_simplex);
   CHECK(report.message.find("vertex ") == 0);

@@ -356,6 +356,18 @@ struct Fewer_vertices : Soup
   auto vertices() const { return boost::counting_range(std::size_t(0), std::size_t(5)); }
 };
 
+struct Denies_a_vertex : Soup
+{
+  using Soup::Soup;
+  bool is_vertex(std::size_t v) const { return v != 4; }
+};
+
+struct Denies_a_simplex : Soup
+{
+  using Soup::Soup;
+  bool is_simplex(std::size_t s) const { return s != 4; }
+};
+
 struct Mirrored_points : Soup
 {
   using Soup::Soup;
@@ -499,6 +511,8 @@ void test_all()
   check_model<Forgets_a_simplex>("a simplex is not given exactly once at each of its corners");
   check_model<Other_corners>("simplex_vertices() and for_each_incident_simplex() give different");
   check_model<Fewer_vertices>("a corner of a simplex is not in vertices()");
+  check_model<Denies_a_vertex>("is_vertex() denies a vertex of vertices()");
+  check_model<Denies_a_simplex>("is_simplex() denies what for_each_incident_simplex() gives");
   check_model<Mirrored_points>("coordinates() and make_point() are not inverse to each other");
   check_model<Keeps_points>("point() is not what set_point() and is_in_place() make it");
   check_model<Throwing>("the domain threw an exception: no such table");

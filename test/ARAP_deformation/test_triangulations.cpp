@@ -101,6 +101,23 @@ void test_infinite_vertex()
   CHECK(report.message == "element 1 of the targets: the mesh has no such vertex");
   CHECK(t == rest);
   CHECK(!CGAL::ARAP::make_triangulation_domain(t).is_vertex(t.infinite_vertex()));
+
+  CGAL::ARAP_deformation<Triangulation> deformation(t);
+  CHECK(!deformation.is_roi_vertex(t.infinite_vertex()));
+  CHECK(!deformation.is_control_vertex(t.infinite_vertex()));
+#ifdef CGAL_NDEBUG // else a precondition says so
+  CHECK(!deformation.insert_roi_vertex(t.infinite_vertex()));
+  CHECK(!deformation.insert_control_vertex(t.infinite_vertex()));
+  CHECK(!deformation.insert_control_vertex(t.infinite_vertex(), Epick::Point_3(0, 0, 0)));
+  const auto refused = deformation.set_target_position(t.infinite_vertex(),
+                                                       Epick::Point_3(0, 0, 0));
+  CHECK(refused.status == CGAL::ARAP::Status::not_a_control_vertex);
+  CHECK(refused.message.find("a vertex that the mesh does not have") == 0);
+#endif
+  for(auto cell : {Triangulation::Cell_handle(), t.infinite_cell()})
+    CHECK(deformation.insert_control_point(cell, {0.25, 0.25, 0.25, 0.25}).status ==
+          CGAL::ARAP::Status::not_a_simplex);
+  CHECK(deformation.roi_vertices().empty());
 }
 
 void test_shelf()

@@ -18,10 +18,12 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/may_be_positive_definite.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
@@ -140,7 +142,8 @@ public:
     m_state->right_hand_side = rows;
     m_state->solution = m_state->solver.solve(m_state->right_hand_side);
     rows = m_state->solution;
-    return m_state->solver.info() == Eigen::Success && m_state->solution.allFinite();
+    return m_state->solver.info() == Eigen::Success &&
+           std::all_of(x, x + n, [](const Coordinates& p) { return internal::is_finite(p); });
   }
 
 private:

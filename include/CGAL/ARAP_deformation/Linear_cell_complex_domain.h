@@ -109,6 +109,9 @@ public:
     return m_tables->incidences->is_isolated(index(v));
   }
 
+  /// returns whether there was a simplex of that number when the domain was constructed.
+  bool is_simplex(simplex_descriptor s) const { return s < m_tables->corners.size(); }
+
   /// returns the vertices of `s`, those of a face in their order around it; an empty range if `s`
   /// is not a closed face or not a tetrahedron.
   auto simplex_vertices(simplex_descriptor s) const

@@ -100,7 +100,8 @@ public:
 
   /// returns `v`.
   /// \pre `v` is smaller than the number of points. In Release all functions that take a vertex or
-  ///      a simplex throw `std::out_of_range` if there is none of that number.
+  ///      a simplex throw `std::out_of_range` if there is none of that number, but
+  ///      `is_simplex()`.
   std::size_t index(vertex_descriptor v) const { return checked("vertex ", v, m_points->size()); }
 
   /// returns the point of `v` in the input range.
@@ -120,6 +121,9 @@ public:
 
   /// returns whether no simplex is incident to `v`.
   bool is_isolated(vertex_descriptor v) const { return m_incidences->is_isolated(index(v)); }
+
+  /// returns whether there is a simplex of that number.
+  bool is_simplex(simplex_descriptor s) const { return s < m_simplices->size(); }
 
   /// returns the corners of `s`, or an empty range if one of them does not exist.
   auto simplex_vertices(simplex_descriptor s) const

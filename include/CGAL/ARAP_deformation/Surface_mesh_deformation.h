@@ -297,7 +297,7 @@ public:
   /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
-    if(!std::isnan(tolerance)) // which the session refuses
+    if(!internal::is_nan(tolerance)) // which the session refuses
       tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
     return m_session.deform(iterations, tolerance, Default_visitor());
   }

@@ -126,6 +126,9 @@ public:
     return is_isolated;
   }
 
+  /// returns whether `s` is a selected cell, and not a default-constructed handle.
+  bool is_simplex(simplex_descriptor s) const { return s != simplex_descriptor() && is_in(s); }
+
   /// returns the vertices of the cell `s`.
   std::array<vertex_descriptor, 4> simplex_vertices(simplex_descriptor s) const
   {

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_in_domain.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,7 @@ private:
   // each simplex must be the same when visited from any of its corners
   void check_simplices(vertex_descriptor v)
   {
+    require(internal::is_vertex_of(m_domain, v), "is_vertex() denies a vertex of vertices()", v);
     bool is_isolated = true;
     m_domain.for_each_incident_simplex(v, [&](simplex_descriptor s, const auto& corners) {
       is_isolated = false;
@@ -102,6 +104,8 @@ private:
               "for_each_incident_simplex() gives a simplex with a corner twice", v);
       require(Domain::dimension == 2 ? sorted.size() >= 3 : sorted.size() == 4,
               "the number of corners of a simplex is not that of the dimension", v);
+      require(internal::is_simplex_of(m_domain, s),
+              "is_simplex() denies what for_each_incident_simplex() gives", v);
       require(sorted == sorted_indices(m_domain.simplex_vertices(s)),
               "simplex_vertices() and for_each_incident_simplex() give different corners", v);
       for(vertex_descriptor w : own)

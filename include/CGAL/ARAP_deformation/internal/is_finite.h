@@ -21,14 +21,20 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// tells by the exponent, since -ffast-math takes std::isfinite() to be true
-inline bool is_finite(double x)
+// These look at the bits, since -ffast-math takes std::isfinite() to be true and std::isnan() to be
+// false.
+
+constexpr std::uint64_t bits_of_infinity = 0x7ff0000000000000;
+
+inline std::uint64_t bits_of_magnitude(double x)
 {
-  constexpr std::uint64_t exponent = 0x7ff0000000000000;
   std::uint64_t bits;
   std::memcpy(&bits, &x, sizeof(bits));
-  return (bits & exponent) != exponent;
+  return bits & ~(std::uint64_t(1) << 63);
 }
+
+inline bool is_finite(double x) { return bits_of_magnitude(x) < bits_of_infinity; }
+inline bool is_nan(double x) { return bits_of_magnitude(x) > bits_of_infinity; }
 
 } // namespace internal
 } // namespace ARAP

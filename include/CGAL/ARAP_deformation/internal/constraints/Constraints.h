@@ -88,7 +88,7 @@ public:
     return sum;
   }
 
-  // whether each row has one vertex, so that B^T M B is diagonal
+  // whether each row has at most one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 
   // A row as the range of its vertices.

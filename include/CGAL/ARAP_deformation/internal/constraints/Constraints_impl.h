@@ -53,7 +53,7 @@ void Weighted_rows::append(const Array<int>& vertices, const Array<double>& coef
   m_weights.push_back(weight);
   m_lengths.push_back(std::sqrt(std::inner_product(
     coefficients.begin(), coefficients.end(), coefficients.begin(), squares_elsewhere)));
-  m_is_diagonal &= vertices.size() == 1;
+  m_is_diagonal &= vertices.size() <= 1;
 }
 
 CGAL_ARAP_INLINE_FUNCTION

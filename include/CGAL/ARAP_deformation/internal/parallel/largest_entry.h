@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 
 #include <cmath>
@@ -26,7 +27,7 @@ namespace ARAP {
 namespace internal {
 
 // the larger of two numbers, or NaN if one of them is
-inline double larger_or_nan(double a, double b) { return b <= a || std::isnan(a) ? a : b; }
+inline double larger_or_nan(double a, double b) { return b <= a || is_nan(a) ? a : b; }
 
 // the largest absolute value of a coordinate of n points, or NaN if there is one
 inline double largest_entry(const Coordinates* points, std::size_t n)

@@ -15,9 +15,9 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -131,7 +131,7 @@ template <typename Iterator>
 int sort_and_add_up(Iterator begin, Iterator end)
 {
   const auto value = [](const auto& pair) {
-    return std::isnan(pair.second) ? std::numeric_limits<double>::infinity() : pair.second;
+    return is_nan(pair.second) ? std::numeric_limits<double>::infinity() : pair.second;
   };
   std::sort(begin, end, [](const auto& a, const auto& b) { return a.first < b.first; });
   Iterator last = begin;

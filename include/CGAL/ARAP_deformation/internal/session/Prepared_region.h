@@ -142,6 +142,7 @@ public:
       stages.weights = true;
       m_ready.values = m_ready.constraints = none;
       Energy_model model;
+      m_outcome = Outcome(); // as long as something may throw
       m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
       if(!m_outcome)
         return m_outcome;
@@ -150,7 +151,10 @@ public:
         m_ready.values = m_present.values;
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
+    {
+      m_outcome = Outcome();
       m_outcome = update(vertices, values, options, stages);
+    }
     return m_outcome;
   }
 

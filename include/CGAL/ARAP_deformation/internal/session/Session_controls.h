@@ -17,7 +17,8 @@
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#include <CGAL/ARAP_deformation/internal/is_valid.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_in_domain.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core.h>
 #include <CGAL/ARAP_deformation/internal/session/Cell_values.h>
@@ -35,7 +36,6 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -45,10 +45,6 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
-
-template <typename Domain>
-using Call_is_simplex = decltype(std::declval<const Domain&>().is_simplex(
-  std::declval<const typename Domain::simplex_descriptor&>()));
 
 // The options, the region of interest, and its control vertices and control points. What is changed
 // here tells the prepared region which stages are out of date. No call is taken while a run works.
@@ -143,7 +139,7 @@ public:
 
   bool insert_control(vertex_descriptor v)
   {
-    if(refuse_in_a_run())
+    if(refuse_in_a_run() || !m_vertices.is_vertex(v))
       return false;
     const bool was_roi = m_vertices.is_roi(v);
     std::optional<Point> moved; // others may have moved it
@@ -178,10 +174,14 @@ public:
       return Control_point_insertion(Outcome(
         Status::not_a_simplex, "the simplex that was given for a control point is not there"));
     held.coordinates.assign(std::begin(coordinates), std::end(coordinates));
-    const double sum = std::accumulate(held.coordinates.begin(), held.coordinates.end(), 0.0);
-    if(held.coordinates.size() != held.corners.size() || !(std::abs(sum - 1) <= 1e-9) ||
-       !std::all_of(held.coordinates.begin(), held.coordinates.end(),
-                    [](double c) { return is_finite(c); }))
+    double sum = 0, size = 1; // of numbers of this size, rounding errors are as large
+    for(double c : held.coordinates)
+    {
+      sum += c;
+      size = (std::max)(size, std::abs(c));
+    }
+    if(held.coordinates.size() != held.corners.size() || !is_finite(sum) ||
+       !(std::abs(sum - 1) <= 1e-9 * size && sum >= 0.5))
       return Control_point_insertion(outcome(Status::invalid_coordinates, "a control point"));
     for(std::size_t k = held.corners.size(); k-- > 0;)
       if(held.coordinates[k] == 0)
@@ -231,7 +231,12 @@ protected:
 
   const Domain& domain() const { return m_vertices.domain(); }
 
-  std::string name(vertex_descriptor v) const { return vertex_name(domain().index(v)); }
+  std::string name(vertex_descriptor v) const
+  {
+    return is_vertex_of(domain(), v) ? vertex_name(domain().index(v))
+                                     : "a vertex that the mesh does not have";
+  }
+
   std::string name(Control_point point) const { return control_point_name(point); }
 
   // the control point if its corners are where a function of vertices tells
@@ -248,9 +253,8 @@ protected:
   // the corners of a simplex; false if it is not one of the domain
   bool collect_corners(const simplex_descriptor& s, std::vector<vertex_descriptor>& corners) const
   {
-    if constexpr(is_valid<Call_is_simplex, Domain>)
-      if(!domain().is_simplex(s))
-        return false;
+    if(!is_simplex_of(domain(), s))
+      return false;
     for(vertex_descriptor v : domain().simplex_vertices(s))
       corners.push_back(v);
     bool is_there = false;

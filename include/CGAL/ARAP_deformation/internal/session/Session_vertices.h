@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/domain/is_vertex_of.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_in_domain.h>
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Held_point.h>
@@ -192,11 +192,24 @@ public:
 
   bool is_roi(vertex_descriptor v) const
   {
-    const Entry* entry = find(v);
+    const Entry* entry = is_vertex_of(m_domain, v) ? find(v) : nullptr;
     return entry != nullptr && entry->is_roi;
   }
 
-  bool is_control(vertex_descriptor v) const { return find_target(v) != nullptr; }
+  bool is_control(vertex_descriptor v) const
+  {
+    return is_vertex_of(m_domain, v) && find_target(v) != nullptr;
+  }
+
+  bool is_control(Control_point point) const { return find_target(point) != nullptr; }
+
+  // in Release false for what is no vertex, if the domain can tell
+  bool is_vertex(vertex_descriptor v) const
+  {
+    const bool is_one = is_vertex_of(m_domain, v);
+    CGAL_precondition_msg(is_one, "the mesh has no such vertex");
+    return is_one;
+  }
 
   // The functions that change the sets return whether they did.
 
@@ -229,7 +242,7 @@ public:
     Entry* entry = find(v);
     if(entry == nullptr || !entry->is_roi)
       return false;
-    entry->is_roi = entry->is_control = false;
+    leave_roi(*entry);
     return true;
   }
 
@@ -248,7 +261,7 @@ public:
     for(Entry& entry : m_entries)
     {
       is_change |= entry.is_roi;
-      entry.is_roi = entry.is_control = false;
+      leave_roi(entry);
     }
     return is_change;
   }
@@ -434,14 +447,6 @@ private:
     return static_cast<std::size_t>(&entry - m_entries.data());
   }
 
-  // in Release false for what is no vertex, if the domain can tell
-  bool is_vertex(vertex_descriptor v) const
-  {
-    const bool is_one = is_vertex_of(m_domain, v);
-    CGAL_precondition_msg(is_one, "the mesh has no such vertex");
-    return is_one;
-  }
-
   bool enter_roi(Entry& entry)
   {
     if(entry.is_roi)
@@ -449,6 +454,14 @@ private:
     entry.is_roi = true;
     entry.insertion = m_number_of_insertions++;
     return true;
+  }
+
+  // it comes back at rest
+  void leave_roi(Entry& entry)
+  {
+    entry.is_roi = entry.is_control = false;
+    if(const std::size_t k = place(entry); k < m_velocities.size())
+      m_velocities[k] = {0, 0, 0};
   }
 
   Entry& find_or_insert(vertex_descriptor v)

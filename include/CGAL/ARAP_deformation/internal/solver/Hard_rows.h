@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_substitution.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Orthogonalized_rows.h>
@@ -68,7 +69,7 @@ public:
       for(int r = 0; r < size(); ++r)
       {
         const double length = m_orthogonalized.length(r), pivot = pivots[r];
-        if(!(length * length * pivot > smallest_sine * smallest_sine) || // nor if it is not finite
+        if(!is_finite(pivot) || !(length * length * pivot > smallest_sine * smallest_sine) ||
            !(pivot > rounding_of_a_sum / smallest))
           return r;
         smallest = (std::min)(smallest, pivot);

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <Eigen/SparseCore>
@@ -55,7 +56,7 @@ public:
           row[v] = b * m_scale.back();
       });
       m_length.push_back(take_away_others(r, all, rows_at, row));
-      if(!(m_length.back() > smallest_sine)) // nor if it is not finite
+      if(!is_finite(m_length.back()) || !(m_length.back() > smallest_sine))
         break;
       for(auto& [v, b] : row)
       {

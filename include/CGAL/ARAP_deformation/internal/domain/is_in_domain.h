@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_VERTEX_OF_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_VERTEX_OF_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_IN_DOMAIN_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_IN_DOMAIN_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -37,8 +37,23 @@ bool is_vertex_of([[maybe_unused]] const Domain& domain,
     return true;
 }
 
+template <typename Domain>
+using Call_is_simplex = decltype(std::declval<const Domain&>().is_simplex(
+  std::declval<typename Domain::simplex_descriptor>()));
+
+// whether s is a simplex of the domain, as far as it can tell
+template <typename Domain>
+bool is_simplex_of([[maybe_unused]] const Domain& domain,
+                   [[maybe_unused]] const typename Domain::simplex_descriptor& s)
+{
+  if constexpr(is_valid<Call_is_simplex, Domain>)
+    return domain.is_simplex(s);
+  else
+    return true;
+}
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_VERTEX_OF_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_DOMAIN_IS_IN_DOMAIN_H
