@@ -152,12 +152,15 @@ private:
     const auto add_label = [&](int v, const Label& added) {
       Label* place = labels_of(v);
       Label* const end = place + most_labels;
-      for(; place != end && place->node >= 0 &&
-            (place->distance < added.distance || place->node <= added.node); ++place)
+      const auto comes_first = [&](const Label& label) {
+        return label.node >= 0 &&
+               (label.distance < added.distance || label.node <= added.node);
+      };
+      if(comes_first(end[-1])) // most often, all others do
+        return false;
+      for(; comes_first(*place); ++place)
         if(place->node == added.node)
           return false;
-      if(place == end)
-        return false;
       std::move_backward(place, end - 1, end);
       *place = added;
       return true;
