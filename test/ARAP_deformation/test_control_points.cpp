@@ -438,33 +438,6 @@ void check_refused(Subject& s, Status status, const std::string& text)
   CHECK(largest_distance(before, s.points) == 0);
 }
 
-struct First_edge_weight : CGAL::ARAP::Uniform_weight
-{
-  double edge_weight(CGAL::ARAP::Edge_set, std::size_t i, std::size_t j, double) const
-  {
-    return i + j == 1 ? 1 : 0;
-  }
-};
-
-// An edge that no weight ties to others, but a point to which it contributes next to nothing.
-void test_small_share()
-{
-  test_case() = "a component with a small share in a point";
-  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, First_edge_weight>;
-  std::vector<Point> points = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(1, -1, 0)};
-  const Simplices triangles = {{0, 1, 2}, {1, 0, 3}};
-  CGAL::ARAP_deformation<Soup<2>, Traits> d(Soup<2>(points, triangles));
-  for(std::size_t v : {0, 1})
-    d.insert_roi_vertex(v);
-  constexpr double share = 2e-6;
-  const auto inserted = d.insert_control_point(0, {share, 0, 1 - share});
-  d.erase_roi_vertex(2);
-  CHECK(inserted && d.translate(inserted.point, Eigen::Vector3d(0, 0, share / 2)));
-  CHECK(d.deform());
-  for(std::size_t v : {0, 1})
-    CHECK_AT_MOST((vector(points[v]) - Eigen::Vector3d(double(v), 0, 0.5)).norm(), 1e-9);
-}
-
 // Points that others determine.
 template <typename Solver>
 void test_dependent()
@@ -1468,7 +1441,6 @@ int main()
   refusals::test_dependent<CGAL::Default>();
   refusals::test_dependent<Compiled_LDLT_solver>();
   refusals::test_close_pairs();
-  refusals::test_small_share();
   refusals::test_input();
   histories::test_stages();
   histories::test_reset();

@@ -93,18 +93,12 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
     Array<int> vertices;
     Array<double> coefficients;
     bool is_needed = false;
-    double weight = 0, largest = 0;
+    double weight = 0;
     constraints.hard_rows.for_each_coefficient(r, [&](int v, double b) {
-      if(!constraints.is_fixed[v])
-        largest = (std::max)(largest, std::abs(b));
-    });
-    constraints.hard_rows.for_each_coefficient(r, [&](int v, double b) {
-      if(constraints.is_fixed[v] || b == 0)
-        return;
       vertices.push_back(v);
-      coefficients.push_back(b / largest);
+      coefficients.push_back(b);
       is_needed |= components.is_unconstrained(v);
-      weight += std::abs(coefficients.back()) * diagonal_entry(m_laplacian.matrix, v);
+      weight += std::abs(b) * diagonal_entry(m_laplacian.matrix, v);
     });
     if(is_needed)
       result.rows.append(vertices, coefficients, weight > 0 && is_finite(weight) ? weight : 1);
