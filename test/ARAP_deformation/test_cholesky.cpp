@@ -401,39 +401,6 @@ void test_blocks()
   CHECK(cholesky.structure().blocks().size() > 20);
 }
 
-// Nested dissection is chosen where it pays, in volumes.
-void test_automatic_ordering()
-{
-  test_case() = "automatic ordering";
-  constexpr int n = 30;
-  Edges edges;
-  for(int k = 0; k < n * n * n; ++k)
-  {
-    if(k % n > 0)
-      edges.emplace_back(k, k - 1);
-    if(k / n % n > 0)
-      edges.emplace_back(k, k - n);
-    if(k >= n * n)
-      edges.emplace_back(k, k - n * n);
-  }
-  const auto factor_bytes = [](const Sparse_matrix& a, Fill_reducing_ordering ordering) {
-    Multifrontal_cholesky_solver solver(ordering);
-    CHECK(solver.analyze(a));
-    return solver.factor_bytes();
-  };
-  const Sparse_matrix volume = laplacian(n * n * n, edges, 0.01), surface = large_matrix();
-  const auto minimum_degree = Fill_reducing_ordering::minimum_degree,
-             nested_dissection = Fill_reducing_ordering::nested_dissection,
-             automatic = Fill_reducing_ordering::automatic;
-  CHECK(factor_bytes(volume, automatic) == factor_bytes(volume, nested_dissection));
-  CHECK(factor_bytes(surface, automatic) == factor_bytes(surface, minimum_degree));
-  if(internal::has_nested_dissection)
-  {
-    CHECK(factor_bytes(volume, automatic) < 0.8 * factor_bytes(volume, minimum_degree));
-    CHECK(factor_bytes(surface, automatic) != factor_bytes(surface, nested_dissection));
-  }
-}
-
 // the columns of a supernode and the update below them, with that many threads
 Eigen::MatrixXd eliminated(Eigen::MatrixXd front, int width, unsigned int threads)
 {
@@ -572,7 +539,6 @@ int main()
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
 #endif
   test_blocks();
-  test_automatic_ordering();
   test_largest_entry();
   test_supernodes();
   test_packed_values();

@@ -23,12 +23,7 @@ namespace ARAP {
 /// the factor.
 enum class Fill_reducing_ordering
 {
-  /// Approximate minimum degree; but if `Multifrontal_cholesky_solver` has METIS, and the
-  /// factorization would take more than 40,000 multiplications for a row of the matrix, nested
-  /// dissection if that takes fewer. This is so for volumes of more than about ten thousand
-  /// vertices, and for no surface of usual size. The default.
-  automatic,
-  /// Approximate minimum degree: for surfaces the fastest preprocessing.
+  /// Approximate minimum degree. The default: the fastest preprocessing.
   minimum_degree,
   /// Nested dissection by METIS, or minimum degree if a solver has no METIS. The ordering takes
   /// about four times as long; the factor of a large surface is an eighth to a quarter smaller, and

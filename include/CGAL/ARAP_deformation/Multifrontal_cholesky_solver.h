@@ -76,7 +76,7 @@ public:
 
   /// constructs a solver with the default ordering that has nothing analyzed.
   explicit Multifrontal_cholesky_solver(Factor_precision precision)
-    : Multifrontal_cholesky_solver(Fill_reducing_ordering::automatic, precision)
+    : Multifrontal_cholesky_solver(Fill_reducing_ordering::minimum_degree, precision)
   {}
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
@@ -117,7 +117,7 @@ public:
 private:
   struct State;
 
-  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::automatic;
+  Fill_reducing_ordering m_ordering = Fill_reducing_ordering::minimum_degree;
   Factor_precision m_precision = Factor_precision::double_precision;
   internal::Unshared_ptr<State> m_state;
 };

@@ -61,18 +61,7 @@ struct Multifrontal_cholesky_solver::State
 {
   State(const Sparse_matrix& a, Fill_reducing_ordering ordering)
     : cholesky(a, internal::fill_reducing_order(a, ordering))
-  {
-    // multiplications for a row: nested dissection takes as long as some ten thousand
-    constexpr double expensive = 40000;
-    const double work = structure().factorization_work();
-    if(!internal::has_nested_dissection || ordering != Fill_reducing_ordering::automatic ||
-       !(work > expensive * static_cast<double>(a.cols())))
-      return;
-    internal::Supernodal_cholesky dissected(
-      a, internal::fill_reducing_order(a, Fill_reducing_ordering::nested_dissection));
-    if(dissected.structure().factorization_work() < work)
-      cholesky = std::move(dissected);
-  }
+  {}
 
   const internal::Supernodal_structure& structure() const { return cholesky.structure(); }
 

@@ -93,16 +93,6 @@ public:
   // how many all have
   std::size_t values_size() const { return m_values_size; }
 
-  // how many multiplications the factorization takes
-  double factorization_work() const
-  {
-    double work = 0;
-    for(const Supernode& s : m_supernodes)
-      for(int height = s.width + s.below; height > s.below; --height)
-        work += 0.5 * height * height;
-    return work;
-  }
-
   // the memory that a sweep over the factor reads: the values and the rows
   std::size_t number_of_bytes(std::size_t size_of_number = sizeof(double)) const
   {

@@ -74,12 +74,6 @@ inline Array<int> metis_order(const Sparse_matrix& a)
 }
 #endif
 
-#ifdef CGAL_METIS_ENABLED
-constexpr bool has_nested_dissection = true;
-#else
-constexpr bool has_nested_dissection = false;
-#endif
-
 // An ordering for which the factor of the symmetric matrix has few entries that are not zero.
 inline Array<int> fill_reducing_order(const Sparse_matrix& a, Fill_reducing_ordering ordering)
 {
