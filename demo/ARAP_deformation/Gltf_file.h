@@ -33,7 +33,6 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -117,6 +116,7 @@ private:
     Eigen::Affine3d to_scene;
     std::vector<Mesh::Vertex_index> vertices;
     std::vector<std::vector<std::size_t>> faces;
+    std::set<std::size_t> tangents; // their accessors
   };
 
   static Eigen::Vector3d vector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -194,24 +194,27 @@ private:
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");
-    const std::size_t accessor = Gltf::whole(attributes.at("POSITION"));
-    std::optional<std::size_t> normals, tangents;
+    std::pair<std::size_t, std::optional<std::size_t>> accessors(
+      Gltf::whole(attributes.at("POSITION")), {});
     if(attributes.contains("NORMAL"))
-      normals = Gltf::whole(attributes["NORMAL"]);
+      accessors.second = Gltf::whole(attributes["NORMAL"]);
+    std::optional<std::size_t> tangents;
     if(attributes.contains("TANGENT"))
       tangents = Gltf::whole(attributes["TANGENT"]);
-    const Gltf::Array positions = m_gltf.array(accessor, "VEC3");
+    const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
     if(positions.component != Gltf::FLOAT ||
-       (normals && m_gltf.array(*normals, "VEC3").component != Gltf::FLOAT) ||
+       (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT) ||
        (tangents && m_gltf.array(*tangents, "VEC4").component != Gltf::FLOAT))
       throw std::runtime_error("has positions, normals or tangents that are quantized");
 
-    const auto same = m_pieces.lower_bound({accessor, {}, {}}); // with any normals
-    if(same != m_pieces.end() && std::get<0>(same->first) == accessor &&
+    const auto same = m_pieces.lower_bound({accessors.first, std::nullopt}); // with any normals
+    if(same != m_pieces.end() && same->first.first == accessors.first &&
        same->second.to_scene.matrix() != to_scene.matrix())
-      throw std::runtime_error("the accessor " + std::to_string(accessor) + " has the "
+      throw std::runtime_error("the accessor " + std::to_string(accessors.first) + " has the "
                                "positions of two nodes in different places");
-    Piece& piece = m_pieces[{accessor, normals, tangents}];
+    Piece& piece = m_pieces[accessors];
+    if(tangents)
+      piece.tangents.insert(*tangents);
     if(piece.vertices.empty())
     {
       piece.to_scene = to_scene;
@@ -253,18 +256,17 @@ private:
   {
     for(const auto& [accessors, piece] : m_pieces)
     {
-      const auto& [accessor, normals, tangents] = accessors;
-      const Gltf::Array positions = gltf.array(accessor, "VEC3");
+      const Gltf::Array positions = gltf.array(accessors.first, "VEC3");
       for(std::size_t i = 0; i < piece.vertices.size(); ++i)
         if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
           gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
                                                     vector(m_mesh.point(v))));
-      gltf.update_bounds(accessor);
+      gltf.update_bounds(accessors.first);
       const Eigen::Matrix3d m = piece.to_scene.linear();
-      if(normals) // they are mapped by the cofactors
-        turn(gltf, gltf.array(*normals, "VEC3"), m.inverse().transpose(), piece);
-      if(tangents)
-        turn(gltf, gltf.array(*tangents, "VEC4"), m, piece);
+      if(accessors.second) // they are mapped by the cofactors
+        turn(gltf, gltf.array(*accessors.second, "VEC3"), m.inverse().transpose(), piece);
+      for(std::size_t tangents : piece.tangents)
+        turn(gltf, gltf.array(tangents, "VEC4"), m, piece);
     }
   }
 
@@ -304,9 +306,8 @@ private:
   bool m_has_images = false, m_are_images_left = false; // in files of their own
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
-  // for the accessors of its positions, normals and tangents
-  std::map<std::tuple<std::size_t, std::optional<std::size_t>, std::optional<std::size_t>>, Piece>
-    m_pieces;
+  // for the accessors of its positions and normals
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces;
   internal::Polygons m_faces;
   std::vector<Kernel::Point_3> m_rest_points;
   Mesh m_mesh; // deformed

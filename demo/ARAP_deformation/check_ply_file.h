@@ -144,6 +144,7 @@ public:
                      : m_format == "binary_big_endian" ? Source_text::Numbers::big_endian
                                                        : Source_text::Numbers::little_endian;
     source.properties_end = m_properties_end;
+    std::size_t number_of_faces = 0;
     for(const Element& element : m_elements)
     {
       const bool has_normals =
@@ -172,12 +173,14 @@ public:
             direction[p.name[1] - 'x'] = value;
           }
         }
-        Source_text::Corner corners = {i, std::nullopt};
+        Source_text::Corner corners;
+        if(is_face(element))
+          corners.face = number_of_faces++;
         if(is_vertex(element))
         {
+          corners.vertex = source.points.size();
           source.points.push_back(point);
           source.row_ends.push_back(end);
-          corners = {std::nullopt, i};
         }
         if(direction != std::array<double, 3>())
           source.normals.push_back(

@@ -320,7 +320,7 @@ public:
   ///
   /// Its target is its current position, with infinite weight. Refuses a simplex that is not there
   /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one
-  /// within 1e-9 (of the largest of them, if that is more than 1), or are too few or too many
+  /// within 1e-9, or 1e-14 times the largest if that is more, or are too few or too many
   /// (`ARAP::Status::invalid_coordinates`). Divide coordinates that were computed in `float` by
   /// their sum first.
   /// \param s a simplex

@@ -21,9 +21,12 @@
 #include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 using namespace CGAL::ARAP;
 
@@ -71,6 +74,12 @@ int main()
   CHECK(deform(1, 1, 1));
   CHECK(deform(1e200, 1, 1).status == Status::non_finite_energy);
   test_points_on_an_edge();
+  for(std::size_t k : {0, 4000, 9999})
+  {
+    std::vector<Coordinates> rows(10000, {1, -2, 0});
+    rows[k][1] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(internal::is_nan(internal::largest_entry(rows.data(), rows.size())));
+  }
   for(double bad : {std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::infinity()})
   {

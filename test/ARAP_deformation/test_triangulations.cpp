@@ -105,6 +105,9 @@ void test_infinite_vertex()
   CGAL::ARAP_deformation<Triangulation> deformation(t);
   CHECK(!deformation.is_roi_vertex(t.infinite_vertex()));
   CHECK(!deformation.is_control_vertex(t.infinite_vertex()));
+  CHECK(!deformation.erase_roi_vertex(t.infinite_vertex()));
+  CHECK(!deformation.erase_control_vertex(t.infinite_vertex()));
+  CHECK(deformation.velocity(t.infinite_vertex()) == (CGAL::ARAP::Coordinates{0, 0, 0}));
 #ifdef CGAL_NDEBUG // else a precondition says so
   CHECK(!deformation.insert_roi_vertex(t.infinite_vertex()));
   CHECK(!deformation.insert_control_vertex(t.infinite_vertex()));

@@ -25,10 +25,14 @@ enum class Fill_reducing_ordering
 {
   /// Approximate minimum degree. The default: the fastest preprocessing.
   minimum_degree,
-  /// Nested dissection by METIS, or minimum degree if a solver has no METIS. The ordering takes
-  /// about four times as long; the factor of a large surface is an eighth to a quarter smaller, and
-  /// so is the time of each global step. It pays for thousands of iterations with one set of
-  /// control vertices.
+  /// Nested dissection by METIS, or minimum degree if a solver has no METIS. In large volumes it
+  /// pays: with 30,000 vertices the global step takes two thirds of the time, and preprocessing no
+  /// longer. For surfaces the ordering takes about four times as long; the factor of a large one is
+  /// an eighth to a quarter smaller, and so is the time of each global step: it pays for thousands
+  /// of iterations with one set of control vertices.
+  ///
+  /// While METIS 5.1 works, it handles the signals `SIGTERM` and `SIGABRT` of the process. No other
+  /// thread should use METIS then, and a signal that arrives leads to minimum degree.
   nested_dissection
 };
 

@@ -109,7 +109,8 @@ public:
         add_fixed(part, row.begin(), row.end());
         rows.emplace_back(part, r);
         const double* const end = row.coefficients + (row.end() - row.begin());
-        if(!(std::abs(std::accumulate(row.coefficients, end, -1.0)) <= 1e-12))
+        if(!(std::abs(std::accumulate(row.coefficients, end, -1.0)) <=
+             1e-12 * (std::max)(1.0, row.length)))
           m_can_be_rigid[part] = false; // it is not invariant under translations
       }
       ++r;

@@ -27,7 +27,10 @@ namespace ARAP {
 namespace internal {
 
 // the larger of two numbers, or NaN if one of them is
-inline double larger_or_nan(double a, double b) { return b <= a || is_nan(a) ? a : b; }
+inline double larger_or_nan(double a, double b)
+{
+  return is_nan(b) || (b > a && !is_nan(a)) ? b : a;
+}
 
 // the largest absolute value of a coordinate of n points, or NaN if there is one
 inline double largest_entry(const Coordinates* points, std::size_t n)

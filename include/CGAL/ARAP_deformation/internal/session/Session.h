@@ -115,7 +115,7 @@ public:
 
   Coordinates velocity(vertex_descriptor v) const
   {
-    return m_vertices.velocity(m_vertices.find(v));
+    return m_vertices.velocity(m_vertices.find_known(v));
   }
 
   bool set_velocity(vertex_descriptor v, const Coordinates& velocity)

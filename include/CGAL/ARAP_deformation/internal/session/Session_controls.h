@@ -36,6 +36,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -174,14 +175,7 @@ public:
       return Control_point_insertion(Outcome(
         Status::not_a_simplex, "the simplex that was given for a control point is not there"));
     held.coordinates.assign(std::begin(coordinates), std::end(coordinates));
-    double sum = 0, size = 1; // of numbers of this size, rounding errors are as large
-    for(double c : held.coordinates)
-    {
-      sum += c;
-      size = (std::max)(size, std::abs(c));
-    }
-    if(held.coordinates.size() != held.corners.size() || !is_finite(sum) ||
-       !(std::abs(sum - 1) <= 1e-9 * size && sum >= 0.5))
+    if(held.coordinates.size() != held.corners.size() || !complete(held.coordinates))
       return Control_point_insertion(outcome(Status::invalid_coordinates, "a control point"));
     for(std::size_t k = held.corners.size(); k-- > 0;)
       if(held.coordinates[k] == 0)
@@ -189,8 +183,6 @@ public:
         held.corners.erase(held.corners.begin() + static_cast<std::ptrdiff_t>(k));
         held.coordinates.erase(held.coordinates.begin() + static_cast<std::ptrdiff_t>(k));
       }
-      else
-        held.coordinates[k] /= sum;
     held.target.point = Domain::make_point(held.position(
       [this](vertex_descriptor v) { return Domain::coordinates(present(v)); }));
     // before what may throw: no region that is there knows the entries that are made
@@ -262,6 +254,21 @@ protected:
       domain().for_each_incident_simplex(
         corners[0], [&](const simplex_descriptor& t, const auto&) { is_there |= t == s; });
     return is_there;
+  }
+
+  // Adds what a sum of barycentric coordinates lacks of 1 to the largest of them: a division would
+  // move points that are far away. Returns false if that is more than rounding errors.
+  static bool complete(std::vector<double>& coordinates)
+  {
+    const double sum = std::accumulate(coordinates.begin(), coordinates.end(), 0.0);
+    if(coordinates.empty() || !is_finite(sum))
+      return false;
+    double& largest = *std::max_element(coordinates.begin(), coordinates.end(),
+      [](double a, double b) { return std::abs(a) < std::abs(b); });
+    if(!(std::abs(sum - 1) <= (std::max)(1e-9, 1e-14 * std::abs(largest))))
+      return false;
+    largest += 1 - sum;
+    return true;
   }
 
   // Whether a visitor, or another function of the user, has called that a run calls.

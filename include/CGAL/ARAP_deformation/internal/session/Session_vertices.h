@@ -183,22 +183,34 @@ public:
   // to be called when the rest shape is overwritten
   void read_surroundings_again() { m_surroundings.read_again(m_domain); }
 
+  // the same, nullptr also for what is no vertex
+  const Entry* find_known(vertex_descriptor v) const
+  {
+    return is_vertex_of(m_domain, v) ? find(v) : nullptr;
+  }
+
+  Entry* find_known(vertex_descriptor v)
+  {
+    return const_cast<Entry*>(std::as_const(*this).find_known(v));
+  }
+
   // the entry of v if it is a control vertex, else nullptr
   Entry* find_control(vertex_descriptor v)
   {
-    Entry* entry = find(v);
+    Entry* entry = find_known(v);
     return entry != nullptr && entry->is_control ? entry : nullptr;
   }
 
   bool is_roi(vertex_descriptor v) const
   {
-    const Entry* entry = is_vertex_of(m_domain, v) ? find(v) : nullptr;
+    const Entry* entry = find_known(v);
     return entry != nullptr && entry->is_roi;
   }
 
   bool is_control(vertex_descriptor v) const
   {
-    return is_vertex_of(m_domain, v) && find_target(v) != nullptr;
+    const Entry* entry = find_known(v);
+    return entry != nullptr && entry->is_control;
   }
 
   bool is_control(Control_point point) const { return find_target(point) != nullptr; }
@@ -239,7 +251,7 @@ public:
 
   bool erase_roi(vertex_descriptor v)
   {
-    Entry* entry = find(v);
+    Entry* entry = find_known(v);
     if(entry == nullptr || !entry->is_roi)
       return false;
     leave_roi(*entry);
