@@ -65,8 +65,8 @@ public:
       }
       all.push_back(std::move(row));
     }
-    m_scale.resize(rows.size(), 0);
-    m_length.resize(rows.size(), 0);
+    m_scale.resize(static_cast<std::size_t>(rows.size()), 0);
+    m_length.resize(static_cast<std::size_t>(rows.size()), 0);
     Array<Eigen::Triplet<double, int>> entries;
     for(std::size_t r = 0; r < all.size(); ++r)
       for(const auto& [v, b] : all[r])
