@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/flat_types.h>
+
 #include <cstdint>
 #include <cstring>
 
@@ -35,6 +37,11 @@ inline std::uint64_t bits_of_magnitude(double x)
 
 inline bool is_finite(double x) { return bits_of_magnitude(x) < bits_of_infinity; }
 inline bool is_nan(double x) { return bits_of_magnitude(x) > bits_of_infinity; }
+
+inline bool is_finite(const Coordinates& a)
+{
+  return is_finite(a[0]) && is_finite(a[1]) && is_finite(a[2]);
+}
 
 } // namespace internal
 } // namespace ARAP

@@ -118,11 +118,6 @@ inline bool is_rotation(const Matrix_3x3& m)
   return error < 1e-10 && determinant(m) > 0; // not if there is an NaN
 }
 
-inline bool is_finite(const Coordinates& a)
-{
-  return is_finite(a[0]) && is_finite(a[1]) && is_finite(a[2]);
-}
-
 // the index of the first point with a coordinate that is infinite or not a number, or -1
 inline int find_non_finite(const Array<Coordinates>& points)
 {
