@@ -989,7 +989,7 @@ void test_gltf()
           turned_tangent = (expected.linear * tangent).normalized();
   const auto check_vector = [&](std::size_t begin, const P& v) {
     for(std::size_t k = 0; k < 3; ++k)
-      CHECK_AT_MOST(std::abs(glb.numbers[begin + k] - v[static_cast<int>(k)]), 2e-6);
+      CHECK_AT_MOST(std::abs(glb.numbers[begin + k] - v[static_cast<int>(k)]), 1e-6);
   };
   for(std::size_t i = 0; i < 6; ++i)
   {

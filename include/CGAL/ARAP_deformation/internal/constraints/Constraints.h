@@ -37,6 +37,26 @@ constexpr double smallest_sine = 1e-6;
 class Weighted_rows
 {
 public:
+  // A row as the range of its vertices.
+  struct Row
+  {
+    const int *first, *last;
+    const double* coefficients; // of these vertices
+    double length;              // the Euclidean norm of all coefficients
+
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+
+    // Calls f(v, b) for each vertex and its coefficient.
+    template <typename Function>
+    void for_each_coefficient(const Function& f) const
+    {
+      const double* b = coefficients;
+      for(int v : *this)
+        f(v, *b++);
+    }
+  };
+
   int size() const { return m_vertices.size(); }
 
   // the vertex of a row that is the position of one vertex, or -1
@@ -55,7 +75,7 @@ public:
               double squares_elsewhere = 0);
 
   // adds a row of others
-  void append(const Weighted_rows& others, int r);
+  void append(const Row& row, double weight);
 
   double weight(int r) const { return m_weights[r]; }
 
@@ -76,8 +96,7 @@ public:
   template <typename Function>
   void for_each_coefficient(int r, const Function& f) const
   {
-    for(int k = m_vertices.begin[r]; k < m_vertices.begin[r + 1]; ++k)
-      f(m_vertices.items[k], m_coefficients[k]);
+    row(r).for_each_coefficient(f);
   }
 
   // B_r x
@@ -90,17 +109,6 @@ public:
 
   // whether each row has at most one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
-
-  // A row as the range of its vertices.
-  struct Row
-  {
-    const int *first, *last;
-    const double* coefficients; // of these vertices
-    double length;              // the Euclidean norm of all coefficients
-
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-  };
 
   Row row(int r) const
   {
@@ -149,7 +157,8 @@ private:
 
   Index_lists m_vertices;       // of each row
   Array<double> m_coefficients; // of each item of these lists
-  Array<double> m_weights, m_lengths; // of each row
+  Array<double> m_weights;      // of each row
+  Array<double> m_lengths;      // the same
   bool m_is_diagonal = true;
 };
 

@@ -47,23 +47,21 @@ CGAL_ARAP_INLINE_FUNCTION
 void Weighted_rows::append(const Array<int>& vertices, const Array<double>& coefficients,
                            double weight, double squares_elsewhere)
 {
-  m_vertices.items.insert(m_vertices.items.end(), vertices.begin(), vertices.end());
-  m_vertices.end_list();
-  m_coefficients.insert(m_coefficients.end(), coefficients.begin(), coefficients.end());
-  m_weights.push_back(weight);
-  m_lengths.push_back(std::sqrt(std::inner_product(
-    coefficients.begin(), coefficients.end(), coefficients.begin(), squares_elsewhere)));
-  m_is_diagonal &= vertices.size() <= 1;
+  append({vertices.data(), vertices.data() + vertices.size(), coefficients.data(),
+          std::sqrt(std::inner_product(coefficients.begin(), coefficients.end(),
+                                       coefficients.begin(), squares_elsewhere))}, weight);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Weighted_rows::append(const Weighted_rows& others, int r)
+void Weighted_rows::append(const Row& row, double weight)
 {
-  const Row row = others.row(r);
-  append(Array<int>(row.begin(), row.end()),
-         Array<double>(row.coefficients, row.coefficients + (row.end() - row.begin())),
-         others.m_weights[r]);
-  m_lengths.back() = row.length;
+  const std::ptrdiff_t n = row.end() - row.begin();
+  m_vertices.items.insert(m_vertices.items.end(), row.begin(), row.end());
+  m_vertices.end_list();
+  m_coefficients.insert(m_coefficients.end(), row.coefficients, row.coefficients + n);
+  m_weights.push_back(weight);
+  m_lengths.push_back(row.length);
+  m_is_diagonal &= n <= 1;
 }
 
 CGAL_ARAP_INLINE_FUNCTION

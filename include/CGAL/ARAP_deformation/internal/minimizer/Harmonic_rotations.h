@@ -180,7 +180,7 @@ public:
     for(const Weighted_rows* rows : {&constraints.rows, &constraints.hard_rows})
       for(int r = 0; r < rows->size(); ++r)
         if(rows == &constraints.hard_rows || rows->position(r) < 0)
-          m_unknown.append(*rows, r);
+          m_unknown.append(rows->row(r), rows->weight(r));
   }
 
   // The rotation vector of each vertex, or nothing if no handle has one, or if the solver fails.

@@ -108,9 +108,9 @@ public:
         const int part = m_part[*first];
         add_fixed(part, row.begin(), row.end());
         rows.emplace_back(part, r);
-        const double* const end = row.coefficients + (row.end() - row.begin());
-        if(!(std::abs(std::accumulate(row.coefficients, end, -1.0)) <=
-             1e-12 * (std::max)(1.0, row.length)))
+        double excess = -1;
+        row.for_each_coefficient([&](int, double b) { excess += b; });
+        if(!(std::abs(excess) <= 1e-12 * (std::max)(1.0, row.length)))
           m_can_be_rigid[part] = false; // it is not invariant under translations
       }
       ++r;

@@ -140,11 +140,11 @@ public:
 
   bool insert_control(vertex_descriptor v)
   {
-    if(refuse_in_a_run() || !m_vertices.is_vertex(v))
+    if(refuse_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
     std::optional<Point> moved; // others may have moved it
-    if(takes_points() && m_vertices.find(v) != nullptr)
+    if(takes_points() && m_vertices.find_known(v) != nullptr)
       moved = domain().point(v);
     if(!m_vertices.insert_control(v, moved))
       return false;

@@ -215,14 +215,6 @@ public:
 
   bool is_control(Control_point point) const { return find_target(point) != nullptr; }
 
-  // in Release false for what is no vertex, if the domain can tell
-  bool is_vertex(vertex_descriptor v) const
-  {
-    const bool is_one = is_vertex_of(m_domain, v);
-    CGAL_precondition_msg(is_one, "the mesh has no such vertex");
-    return is_one;
-  }
-
   // The functions that change the sets return whether they did.
 
   bool insert_roi(vertex_descriptor v) { return is_vertex(v) && enter_roi(find_or_insert(v)); }
@@ -457,6 +449,14 @@ private:
   std::size_t place(const Entry& entry) const // of one of m_entries, no copy
   {
     return static_cast<std::size_t>(&entry - m_entries.data());
+  }
+
+  // in Release false for what is no vertex, if the domain can tell
+  bool is_vertex(vertex_descriptor v) const
+  {
+    const bool is_one = is_vertex_of(m_domain, v);
+    CGAL_precondition_msg(is_one, "the mesh has no such vertex");
+    return is_one;
   }
 
   bool enter_roi(Entry& entry)

@@ -78,13 +78,10 @@ inline void tie_by_rows(const Constraints& constraints, Disjoint_sets& component
   // length of the row: what it would do with them is to throw the component far away
   const auto loose_sums = [&](const Weighted_rows::Row& row) {
     Row_sums sums;
-    const double* coefficient = row.coefficients;
-    for(int v : row)
-    {
+    row.for_each_coefficient([&](int v, double b) {
       if(const int k = components.find(v); !constraints.is_fixed[v] && !is_tied[k])
-        sums[k] += *coefficient;
-      ++coefficient;
-    }
+        sums[k] += b;
+    });
     for(auto entry = sums.begin(); entry != sums.end();)
       if(std::abs(entry->second) > smallest_sine * row.length)
         ++entry;
