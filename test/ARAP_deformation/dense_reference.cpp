@@ -419,7 +419,7 @@ double Dense_reference::coupling(Cells scheme, std::size_t i, std::size_t j) con
       if(std::minmax(a, b) == std::minmax(t[l], t[(l + 1) % t.size()]))
         weight += (m_rest[a] - m_rest[b]).norm();
     }
-  return weight / apart.norm();
+  return apart.norm() > 1e-10 ? weight / apart.norm() : 0; // not where they lie on each other
 }
 
 void Dense_reference::couple(Cells scheme)

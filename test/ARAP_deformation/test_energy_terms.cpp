@@ -910,6 +910,51 @@ void test_states(const Model& model)
     }
 }
 
+// Smooth rotations start from those of the shape as it is, also in a region that is new: a shape at
+// its minimum stays there. Before, they started from identities, which turned it back.
+template <int Dimension>
+void test_other_regions(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    test_case() = model.name + ", smooth rotations in another region";
+    Terms terms;
+    terms.smoothing_length = 0.1 * diameter_of(model.points);
+    Run<Dimension> run(model, s, cells, terms, Minimizer::quasi_newton);
+    auto& d = run.deformation;
+    const double energy = d.deform(2000, 1e-12).final_energy();
+    std::size_t v = 0; // a vertex that is moved, and stays there
+    while(s.selection[v] != 2 || s.targets[v] == model.points[v])
+      ++v;
+    CHECK(d.erase_roi_vertex(v));
+    const Report report = d.deform(1, 0);
+    CHECK(report.stages.region);
+    CHECK_AT_MOST(report.energy[0], 1.01 * energy);
+  }
+}
+
+// Faces that lie on each other have no distance over which rotations could be smooth, in whatever
+// order their corners are.
+void test_double_faces(const Model& model)
+{
+  const Scenario s = whole_scenario(model);
+  Terms terms;
+  terms.smoothing_length = 0.2 * diameter_of(model.points);
+  for(const int rotated : {0, 1, 2})
+  {
+    test_case() = model.name + ", double faces, rotated by " + std::to_string(rotated);
+    Model twice = model;
+    for(Dense_reference::Simplex face : model.simplices)
+    {
+      std::reverse(face.begin(), face.end());
+      std::rotate(face.begin(), face.begin() + rotated, face.end());
+      twice.simplices.push_back(face);
+    }
+    iterates::compare<2>(twice, s, Cell_scheme::elements(), Dense_reference::ELEMENTS, terms);
+  }
+}
+
 // cells of stiffness 0, now here and now there, keep the pattern of the matrix
 void test_no_stiffness(const Model& model)
 {
@@ -1131,6 +1176,10 @@ void test_all()
   test_long_lengths<3>(iterates::solid());
   test_states<2>(models.front());
   test_states<3>(iterates::solid());
+  test_other_regions<2>(models.front());
+  test_other_regions<3>(iterates::solid());
+  for(const Model& model : models)
+    test_double_faces(model);
   test_no_stiffness(models.front());
   test_wrong_values(models.front());
   test_huge_lengths(models.front());

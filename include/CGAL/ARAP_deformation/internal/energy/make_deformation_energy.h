@@ -149,28 +149,33 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
     return Smooth_rotations(std::move(neighbors), std::move(weights));
   }
 
-  Array<Coordinates> centroids(number_of_cells, Coordinates{0, 0, 0});
   std::map<std::array<int, 3>, std::vector<int>> simplices_at; // each facet
   for(int s = 0; s < number_of_cells; ++s)
   {
-    const int n = region.number_of_corners(s);
-    for(int k = 0; k < n; ++k)
-      add(centroids[s], 1.0 / n, region.rest[region.corners_of(s)[k]]);
     for_each_facet(region, s,
                    [&](const std::array<int, 3>& facet) { simplices_at[facet].push_back(s); });
   }
+  const auto centroid = [&](int s, const Coordinates& origin) {
+    Coordinates sum = {0, 0, 0};
+    const int n = region.number_of_corners(s);
+    for(int k = 0; k < n; ++k)
+      add(sum, 1.0 / n, difference(region.rest[region.corners_of(s)[k]], origin));
+    return sum;
+  };
   std::vector<std::vector<std::pair<int, double>>> lists(static_cast<std::size_t>(number_of_cells));
   for(const auto& [facet, simplices] : simplices_at)
     for(int s : simplices)
       for(int other : simplices)
         if(s != other && !share_rotation(s, other))
         {
-          const Coordinates side = difference(region.rest[facet[1]], region.rest[facet[0]]),
-                            apart = difference(centroids[s], centroids[other]);
+          const Coordinates& origin = region.rest[facet[0]];
+          const Coordinates side = difference(region.rest[facet[1]], origin),
+                            apart = difference(centroid(s, origin), centroid(other, origin));
+          if(!(dot(apart, apart) > 1e-20 * dot(side, side))) // at one place, up to rounding
+            continue;
           Coordinates content = side;
           if(facet[2] >= 0)
-            content = scaled(
-              cross(side, difference(region.rest[facet[2]], region.rest[facet[0]])), 0.5);
+            content = scaled(cross(side, difference(region.rest[facet[2]], origin)), 0.5);
           const double weight = std::sqrt(dot(content, content) / dot(apart, apart));
           if(is_finite(weight))
             lists[static_cast<std::size_t>(s)].emplace_back(other, factor * weight);

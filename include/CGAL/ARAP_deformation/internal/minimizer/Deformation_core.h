@@ -107,6 +107,11 @@ public:
   const Array<Matrix_3x3>& rotations() const { return m_rotations; }
   void set_rotations(Array<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
 
+  // Where a run goes on from the rotations before, but there are none, as of a new region: makes
+  // them those of the positions that it starts from.
+  void complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
+                unsigned int number_of_threads);
+
   // Moves the free vertices of x, whose other vertices are at their final positions, and fits the
   // rotations but for those that frames give. Targets that are sets become the projections of the
   // final positions. What it prepares for guesses and coarse metrics is kept for the next run.

@@ -349,6 +349,18 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
+                                unsigned int number_of_threads)
+{
+  if(rotations.empty() && m_state->energy.are_rotations_state() &&
+     m_order == Minimization_order::local_first && x != m_region.rest)
+    run_with_threads(threads(number_of_threads), [&] {
+      for(int k = 0; k <= 10; ++k) // then smooth them
+        m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
+    });
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
 {
   return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),

@@ -41,6 +41,7 @@ Run::~Run() = default;
 CGAL_ARAP_INLINE_FUNCTION
 Outcome Run::run(const Options& options, const Observer& observe, Report& report)
 {
+  m_core.core->complete(m_rotations, m_core.positions, options.threads);
   const Diagnosis diagnosis =
     m_core.core->run(options, observe, targets, positions, m_rotations, report);
   for(const Targets::Set& set : targets.sets)
