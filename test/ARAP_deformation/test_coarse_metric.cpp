@@ -21,6 +21,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_matrix.h>
+#include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
@@ -77,12 +78,17 @@ void test_transfer(const Region& region)
   Array<Coordinates> u = random_vectors(2 * static_cast<std::size_t>(m), random);
   Array<Coordinates> step(static_cast<std::size_t>(n), Coordinates{0, 0, 0}),
                            force = random_vectors(step.size(), random);
-  for(const bool has_fixed : {false, true})
+  enum Fixed { none, some, far_away }; // some: a node among them
+  for(const Fixed fixed : {none, some, far_away})
   {
     Array<char> is_fixed(n, false);
-    if(has_fixed) // a node among them
-      for(int v = 0; v < n; v += 1 + v % 7)
-        is_fixed[v] = true;
+    for(int v = 0; fixed == some && v < n; v += 1 + v % 7)
+      is_fixed[v] = true;
+    if(fixed == far_away)
+    {
+      is_fixed[0] = true;
+      problem.x[0] = {1e7, -2e7, 3e7};
+    }
     transfer.place(is_fixed, problem.x);
     for(int node = 0; node < m; ++node)
       if(transfer.is_fixed(node))
@@ -98,11 +104,13 @@ void test_transfer(const Region& region)
     const double expected = dot_product(force, step);
     CHECK_AT_MOST(std::abs(dot_product(transfer.restricted(force), u) - expected),
                   1e-11 * dot_product(u, u));
-    if(has_fixed)
+    if(fixed == some)
       continue;
     const Coordinates translation = random(), rotation = random();
     for(int node = 0; node < m; ++node)
     {
+      if(transfer.is_fixed(node))
+        continue;
       const Coordinates& y = problem.x[static_cast<std::size_t>(space.vertex_of(node))];
       u[2 * static_cast<std::size_t>(node)] = cross(rotation, y);
       add(u[2 * static_cast<std::size_t>(node)], 1, translation);
@@ -112,6 +120,10 @@ void test_transfer(const Region& region)
     transfer.add_prolonged(u, step);
     for(std::size_t v = 0; v < step.size(); ++v)
     {
+      const int* const nodes = space.nodes(static_cast<int>(v));
+      if(std::any_of(nodes, nodes + Coarse_space::most_nodes,
+                     [&](int node) { return transfer.is_fixed(node); }))
+        continue;
       Coordinates expected_step = cross(rotation, problem.x[v]);
       add(expected_step, 1, translation);
       const Coordinates error = difference(step[v], expected_step);
@@ -206,6 +218,31 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
         return is_finite(p);
       }));
     }
+}
+
+// Where a vertex has so many neighbors that it couples hundreds of nodes there is no matrix: it
+// would be dense.
+void test_fan()
+{
+  for(const std::size_t n : {2000, 40000})
+  {
+    test_case() = "fan of " + std::to_string(n);
+    std::vector<Eigen::Vector3d> points(1, {0, 0, 1});
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for(std::size_t k = 0; k < n; ++k)
+    {
+      const double angle = 2 * std::acos(-1.0) * double(k) / double(n);
+      points.emplace_back(std::cos(angle), std::sin(angle), 0);
+      triangles.push_back({0, k + 1, (k + 1) % n + 1});
+    }
+    Problem problem(problem::region_of(points, triangles), Energy_model(), 0);
+    Minimization run = problem.minimization();
+    run.evaluate();
+    const CGAL::ARAP::Sparse_matrix& laplacian = problem.system.laplacian().matrix;
+    Coarse_metric metric(problem.energy, laplacian, problem.region.rest);
+    CHECK(metric.build(problem.energy, laplacian, problem.constraints.is_fixed, problem.x,
+                       problem.rotations) == (n == 2000));
+  }
 }
 
 Array<char> fixed_vertices(const Region& region)
@@ -346,5 +383,6 @@ int main()
   coarse::test_transfer(problem::region_of(sheet.points, sheet.triangles));
   coarse::test_matrix("sheet", sheet.points, sheet.triangles);
   coarse::test_matrix("bar", bar.points, bar.tetrahedra);
+  coarse::test_fan();
   return checks_result();
 }

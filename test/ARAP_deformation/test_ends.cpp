@@ -140,6 +140,57 @@ void test_derivative(const std::string& name, const std::vector<Eigen::Vector3d>
     }
 }
 
+// Sets of points of type float, some diameters from the origin: their projections are rounded,
+// which the derivative of a projection hardly notices.
+void test_rounded_sets(Region region)
+{
+  test_case() = "derivative, sets of rounded points";
+  for(Coordinates& p : region.rest)
+    add(p, 10, {1, 1, 1});
+  const Coordinates normal = scaled({1, -2, 0.5}, 1 / std::sqrt(5.25));
+  Array<Coordinates> changes[2];
+  for(const bool is_rounded : {false, true})
+  {
+    Problem problem(region, Energy_model(), 0.01);
+    const auto rounded = [=](Coordinates p) {
+      for(double& c : p)
+        c = is_rounded ? static_cast<float>(c) : c;
+      return p;
+    };
+    problem.constraints.rows.append(1, 1.5);
+    problem.targets.add_soft({0, 0, 0});
+    problem.targets.add_set([=](const Coordinates& p) {
+      Coordinates projection = rounded(p);
+      add(projection, 0.3 - dot(normal, projection), normal);
+      return rounded(projection);
+    });
+    if(is_rounded)
+      problem.targets.precision = 1e-7;
+    Minimization run = problem.minimization();
+    run.evaluate();
+    run.prepare_second_derivative();
+    Array<Coordinates> step(run.x.size(), Coordinates{0, 0, 0});
+    step[1] = {0.1, -0.2, 0.3};
+    run.change_of_force(step, changes[is_rounded]);
+    run.clear_second_derivative();
+  }
+  const Coordinates error = difference(changes[0][1], changes[1][1]);
+  CHECK_AT_MOST(std::sqrt(dot(error, error)), 0.01);
+}
+
+// A target that hardly pulls, and is far away, leaves a strain what it is.
+void test_far_target(const Region& region)
+{
+  test_case() = "a far target";
+  Problem problem(region, Energy_model(), 0.01);
+  problem.constraints.rows.append(1, 1e-30);
+  problem.targets.add_soft({1e7, 0, 0});
+  Minimization run = problem.minimization();
+  run.evaluate();
+  run.report.energy.push_back(run.value());
+  CHECK(run.value() > 1e-6 && !run.is_at_zero());
+}
+
 // Where all rotations are given the energy is quadratic, the metric is its second derivative, and
 // one step finds the gap. Next to a minimum a look finds it too, and no negative curvature.
 void test_gap(const Region& region)
@@ -227,6 +278,8 @@ void test_all()
   test_derivative("bar", bar.points, bar.tetrahedra);
   test_disturbance();
   test_gap(region_of(sheet.points, sheet.triangles));
+  test_rounded_sets(region_of(sheet.points, sheet.triangles));
+  test_far_target(region_of(sheet.points, sheet.triangles));
 }
 
 } // namespace derivative

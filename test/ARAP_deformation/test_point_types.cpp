@@ -45,6 +45,36 @@ void test_point_type(double tolerance)
           tolerance);
 }
 
+// Registration to a plane, with points far from the origin: a look at the end finds that it is a
+// minimum, whatever rounding makes of the derivative of projections.
+template <typename Point_>
+void test_registration(const char* name)
+{
+  test_case() = std::string("registration, ") + name;
+  const Shape shape = shapes()[9];
+  using Domain = Polygon_soup_domain<std::vector<Point_>, decltype(shape.triangles)>;
+  const double far_away = 10 * shape.diameter();
+  std::vector<Point_> points;
+  for(const auto& p : shape.points)
+    points.push_back(Domain::make_point({p.x() + far_away, p.y() + far_away, p.z() + far_away}));
+  CGAL::ARAP_deformation<Domain> deformation(Domain(points, shape.triangles));
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    deformation.insert_roi_vertex(v);
+    if(v % 3 != 0)
+      continue;
+    deformation.insert_control_vertex(v);
+    CHECK(deformation.set_target_weight(v, 1));
+    CHECK(deformation.set_target_set(v, [far_away](const Point_& p) {
+      auto c = Domain::coordinates(p); // onto a plane
+      const double distance = (c[2] - far_away - 0.2 * (c[0] - c[1])) / 1.08;
+      return Domain::make_point({c[0] + 0.2 * distance, c[1] - 0.2 * distance, c[2] - distance});
+    }));
+  }
+  const CGAL::ARAP::Report report = deformation.deform();
+  CHECK(report && report.end == CGAL::ARAP::End::minimum);
+}
+
 // Points with two coordinates are deformed as those in the plane z = 0, and stay there: compressed,
 // they do not give way to the side.
 template <typename Point_2>
@@ -198,6 +228,8 @@ int main()
   test_point_type<Simple_cartesian<float>::Point_3>(1e-5);
   test_point_type<std::array<double, 3>>(1e-12);
   test_point_type<std::array<float, 3>>(1e-5);
+  test_registration<std::array<double, 3>>("double");
+  test_registration<std::array<float, 3>>("float");
   test_plane<Epeck::Point_2>(1e-12);
   test_plane<Simple_cartesian<double>::Point_2>(1e-12);
   test_plane<std::array<double, 2>>(1e-12);

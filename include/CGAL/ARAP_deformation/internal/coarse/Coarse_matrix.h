@@ -52,14 +52,17 @@ public:
                 const Sparse_matrix& laplacian)
     : m_pattern(transfer, energy, laplacian)
   {
-    set_pattern(transfer.space().number_of_nodes());
+    if(m_pattern.is_sparse)
+      set_pattern(transfer.space().number_of_nodes());
   }
 
-  // Computes C at the positions of `transfer` and factorizes it. `matrix` is L with the rows of the
-  // constraints.
+  // Computes C at the positions of `transfer` and factorizes it; false if that is not possible.
+  // `matrix` is L with the rows of the constraints.
   bool build(const Coarse_transfer& transfer, const Deformation_energy& energy,
              const Sparse_matrix& matrix, const Array<Matrix_3x3>& rotations)
   {
+    if(!m_pattern.is_sparse)
+      return false;
     const Array<char> is_fitted = energy.fitted_cells();
     std::fill_n(m_matrix.valuePtr(), m_matrix.nonZeros(), 0.0);
     constexpr int batch_size = 64; // groups, which are added up in their order

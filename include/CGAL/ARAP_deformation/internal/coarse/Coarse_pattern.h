@@ -47,6 +47,7 @@ struct Coarse_pattern
   Index_lists cells; // of each group
   Index_lists nodes; // those that the cells and columns of each group couple
   Index_lists rows;  // for each node itself and the later ones that it is coupled with, in order
+  bool is_sparse = true; // else there are no lists: the matrix would take too much memory
 
   Coarse_pattern(const Coarse_transfer& transfer, const Deformation_energy& energy,
                  const Sparse_matrix& laplacian)
@@ -64,7 +65,8 @@ struct Coarse_pattern
         transfer.for_each_vertex(group, [&](int v) {
           for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
             found.add_vertex(static_cast<int>(entry.row()));
-          found.couple(groups[k]);
+          groups[k].is_sparse &= found.size() <= most_nodes_of_column;
+          found.couple(groups[k], most_nodes_of_column);
         });
         for(int i = cells_near.begin[group]; i < cells_near.begin[group + 1]; ++i)
         {
@@ -77,7 +79,10 @@ struct Coarse_pattern
         found.clear(groups[k]);
       }
     }, m / 16 + 1); // each block has an array of all nodes
-    append_lists(groups);
+    is_sparse = std::all_of(groups.begin(), groups.end(),
+                            [](const Group& group) { return group.is_sparse; });
+    if(is_sparse)
+      append_lists(groups);
   }
 
 private:
@@ -85,10 +90,15 @@ private:
   // one rigid part, it would become dense.
   static constexpr std::size_t most_nodes_of_cell = 24;
 
+  // Without a column the matrix would be too soft. A vertex with so many neighbors that it couples
+  // more nodes, as the apex of a large fan, leaves no matrix.
+  static constexpr std::size_t most_nodes_of_column = 256;
+
   struct Group
   {
     Array<int> cells, nodes;
     Array<char> is_coupled; // for each pair of places in `nodes`
+    bool is_sparse = true;
   };
 
   // the nodes of one cell or column after the other, in groups
@@ -111,9 +121,11 @@ private:
           }
     }
 
-    // Couples the nodes of the vertices that were added since the last call, unless there are none,
-    // or more than this.
-    bool couple(Group& group, std::size_t most = static_cast<std::size_t>(-1))
+    // the number of nodes of the vertices that were added since the last call
+    std::size_t size() const { return m_found.size(); }
+
+    // Couples them, unless there are none, or more than this.
+    bool couple(Group& group, std::size_t most)
     {
       const bool are_few = !m_found.empty() && m_found.size() <= most;
       for(int& node : m_found)

@@ -139,9 +139,16 @@ public:
   {
     m_is_fixed = is_fixed;
     m_points.resize(is_fixed.size());
+    Coordinates origin = {0, 0, 0};
+    for(int v = 0; v < m_space.number_of_vertices(); ++v)
+      if(!is_fixed[v] && m_space.has_nodes(v)) // others may be far away
+      {
+        origin = x[v];
+        break;
+      }
     for(std::size_t v = 0; v < m_points.size(); ++v)
       for(std::size_t k = 0; k < 3; ++k)
-        m_points[v][k] = static_cast<float>(x[v][k] - x[0][k]);
+        m_points[v][k] = static_cast<float>(x[v][k] - origin[k]);
   }
 
   bool is_fixed(int node) const { return m_is_fixed[m_space.vertex_of(node)] != 0; }
@@ -205,7 +212,7 @@ private:
   Coarse_space m_space;
   Index_lists m_vertices_of; // each group
   Array<char> m_is_fixed;    // for each vertex
-  // Relative to one of them. Single precision saves memory: P is what it makes of them.
+  // Relative to one that moves. Single precision saves memory: P is what it makes of them.
   Array<std::array<float, 3>> m_points;
 };
 

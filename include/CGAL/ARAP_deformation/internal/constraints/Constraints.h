@@ -204,6 +204,7 @@ struct Targets
 
   Array<Coordinates> soft, hard; // one for each row
   std::vector<Set> sets;         // of soft rows, in their order
+  double precision = 1e-14;      // relative, of the points that projections take and return
   std::vector<Frame> frames;     // the rotations that are given to cells
 
   void project(const Weighted_rows& rows, const Array<Coordinates>& x);

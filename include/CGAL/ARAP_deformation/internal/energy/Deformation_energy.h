@@ -146,8 +146,11 @@ public:
     });
   }
 
-  // The natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape, enlarged with the
-  // square of the size of what positions and targets span, if that is larger.
+  // the natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape
+  double scale() const { return m_scale; }
+
+  // the same, enlarged with the square of the size of what positions and targets span, if that is
+  // larger
   double scale(const Bounding_box& box) const
   {
     const double size = box.squared_length();

@@ -187,7 +187,10 @@ public:
       if(!(length > 0))
         continue;
       const auto r = static_cast<std::size_t>(set.row);
-      const double h = 1e-7 * diameter / length;
+      double largest = diameter; // coordinate, which tells the rounding error
+      for(double c : moved)
+        largest = (std::max)(largest, std::abs(c));
+      const double h = std::sqrt(m_targets.precision * largest * diameter) / length;
       add(moved, h, value);
       targets[r] = scaled(difference(set.projection(moved), m_targets.soft[r]), 1 / h);
     }
@@ -322,7 +325,7 @@ public:
   bool is_at_zero() const
   {
     return is_nothing_free() ||
-           std::abs(m_value) <= (std::max)(negligible_energy(report), 1e-12 * report.energy_scale);
+           std::abs(m_value) <= (std::max)(negligible_energy(report), 1e-12 * m_energy.scale());
   }
 
   // what may be left to be gained where a run ends

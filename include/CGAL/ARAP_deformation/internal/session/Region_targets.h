@@ -163,11 +163,14 @@ private:
                             Targets& targets)
   {
     targets.add_soft(difference(Domain::coordinates(target.point), share));
-    if(target.set)
-      targets.add_set([&target, share](Coordinates c) {
-        add(c, 1, share);
-        return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
-      });
+    if(!target.set)
+      return;
+    if(Domain::coordinates(Domain::make_point({1 + 1e-10, 0, 0}))[0] == 1)
+      targets.precision = 1e-7; // of type float
+    targets.add_set([&target, share](Coordinates c) {
+      add(c, 1, share);
+      return difference(Domain::coordinates(target.set(Domain::make_point(c))), share);
+    });
   }
 
   const Domain& domain() const { return m_vertices.domain(); }
