@@ -41,6 +41,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -133,6 +134,12 @@ struct Own_points
   {
     return vector(get(CGAL::vertex_point, mesh, v));
   }
+
+  template <typename TriangleMesh, typename Vertex>
+  void set_point(TriangleMesh& mesh, Vertex v, const Eigen::Vector3d& p) const
+  {
+    put(CGAL::vertex_point, mesh, v, Point(p.x(), p.y(), p.z()));
+  }
 };
 
 struct Other_points
@@ -192,6 +199,12 @@ public:
   Deformation* operator->() { return m_deformation.get(); }
   auto vertex(std::size_t k) const { return m_vertices[k]; }
   Eigen::Vector3d point(std::size_t k) const { return m_setup.point(m_mesh, m_vertices[k]); }
+
+  // moves a point of the mesh, without the object
+  void set_point(std::size_t k, const Eigen::Vector3d& p)
+  {
+    m_setup.set_point(m_mesh, m_vertices[k], p);
+  }
 
   const auto& all_vertices() const { return m_vertices; }
 
@@ -513,6 +526,88 @@ void test_iterates()
   }
 }
 
+// Vertices that have left the region of interest, and return to it after it was used: they start
+// from the rest shape, without rotations.
+template <typename Pair>
+void test_returns()
+{
+  for(const Shape& shape : shapes())
+  {
+    test_case() = "returns, " + shape.name;
+    const Scenario s = scenario(shape, 0.8);
+    Pair pair(shape);
+    pair.both([&](auto& side) { prepare(*side.operator->(), s, side.all_vertices()); });
+    pair.deform(5, 0);
+    pair.both([&](auto& side) {
+      side->clear_roi_vertices();
+      side->insert_control_vertex(side.vertex(0));
+      side.set_target(0, shape.points[0]);
+      side->clear_roi_vertices();
+      prepare(*side.operator->(), s, side.all_vertices());
+    });
+    pair.deform(1, 0);
+  }
+}
+
+// The rest shape is that of the first use of a vertex.
+template <typename Pair>
+void test_moved_points()
+{
+  for(const Shape& shape : shapes())
+  {
+    test_case() = "moved points, " + shape.name;
+    const Scenario s = scenario(shape, 0.8);
+    Pair pair(shape);
+    pair.both([&](auto& side) {
+      for(std::size_t k = 0; k < shape.points.size(); ++k)
+        if(s.selection[k] != 0)
+          side->insert_roi_vertex(side.vertex(k));
+      for(std::size_t k = 0; k < shape.points.size(); ++k)
+        if(s.selection[k] == 2)
+          side->insert_control_vertex(side.vertex(k));
+      for(std::size_t k = 0; k < shape.points.size(); ++k)
+        side.set_point(k, Eigen::Vector3d(1.5 * shape.points[k] + Eigen::Vector3d(1, 2, 3)));
+    });
+    pair.tie();
+    const std::vector<std::size_t> controls = pair.controls();
+    for(std::size_t k : std::set<std::size_t>{controls.front(), controls.back()})
+    {
+      CHECK_AT_MOST((pair.ours().target(k) - pair.ours().point(k)).norm(), 0.0);
+      const Eigen::Vector3d target = pair.ours().point(k) + 0.1 * random_vector(pair.diameter());
+      pair.both([&](auto& side) { side.set_target(k, target); });
+    }
+    pair.deform(3, 0);
+    pair.both([](auto& side) { side->reset(); });
+    pair.compare();
+  }
+}
+
+// a function that names the type of the point map
+double uniform_weight(Mesh::Halfedge_index, Mesh&, Mesh::Property_map<Mesh::Vertex_index, Point>)
+{
+  return 1;
+}
+
+void test_function_as_weight()
+{
+  test_case() = "function as weight";
+  using Weight = decltype(&uniform_weight);
+  Mesh mesh = make_mesh<Mesh>(shapes()[0]), other = mesh;
+  const auto deformed = [](auto& deformation, Mesh& m) {
+    prepare(deformation, scenario(shapes()[0], 0.8), all_vertices(m));
+    deformation.deform(3, 0);
+    return points_of(m);
+  };
+  Our_class<Mesh, CGAL::ORIGINAL_ARAP, Weight> ours(
+    mesh, get(boost::vertex_index, mesh), get(boost::halfedge_index, mesh),
+    get(CGAL::vertex_point, mesh), &uniform_weight);
+  Cgal_class<Mesh, CGAL::ORIGINAL_ARAP, Weight> cgals(
+    other, get(boost::vertex_index, other), get(boost::halfedge_index, other),
+    get(CGAL::vertex_point, other), &uniform_weight);
+  CHECK_AT_MOST(largest_distance(deformed(ours, mesh), deformed(cgals, other)),
+                bound * shapes()[0].diameter());
+}
+
 // the points after four iterations of our class on a shape
 template <typename Deformation, typename Prepare>
 std::vector<Point> run(const Shape& shape, const Prepare& prepare_deformation)
@@ -758,6 +853,9 @@ void test_all(unsigned int first_seed)
     Smoothed::alpha = alpha;
     test_iterates<Smoothed_pair>();
   }
+  test_returns<Pair_of<Mesh, CGAL::ORIGINAL_ARAP>>();
+  test_moved_points<Pair_of<Mesh, CGAL::SPOKES_AND_RIMS>>();
+  test_function_as_weight();
   test_models();
   test_indices();
   test_failures();

@@ -16,7 +16,6 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
-#include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
@@ -80,14 +79,18 @@ namespace ARAP {
 /// - *Points.* A run computes in `double`, and rounds to the type of the points once, at the end.
 ///   `CGAL::to_double()` must accept the coordinates of the points. Outside the region of interest
 ///   only points of vertices that leave it are written.
+///   `overwrite_initial_geometry()` takes points of the region of interest that others have moved
+///   for the present ones, too.
 /// - *Index maps.* The halfedge index map may number the halfedges in any order.
 /// - *Copies.* The class cannot be copied, whatever its template arguments.
-/// - *Cost.* `erase_roi_vertex()` takes amortized constant time. Functions that only read are
+/// - *Cost.* `erase_roi_vertex()` takes amortized constant time. `roi_vertices()` takes linear
+///   time, and only its next call brings what it returned up to date. Functions that only read are
 ///   `const`; `target_position()` returns a copy, and does not move back vertices that have left
 ///   the region of interest.
 ///   Another `set_sre_arap_alpha()` costs a numeric factorization.
 ///
-/// \tparam TM a model of `FaceGraph` and `VertexListGraph` all of whose faces are triangles
+/// \tparam TM a model of `FaceGraph`, `VertexListGraph` and `HalfedgeListGraph`, for `SRE_ARAP`
+///         also of `FaceListGraph` and `BidirectionalGraph`, all of whose faces are triangles
 /// \tparam VIM a model of `ReadablePropertyMap` from the vertices to 0, 1, ...
 /// \tparam HIM a model of `ReadablePropertyMap` from the halfedges to 0, 1, ...
 /// \tparam TAG `SPOKES_AND_RIMS`, `ORIGINAL_ARAP` or `SRE_ARAP`
@@ -299,7 +302,7 @@ public:
   {
     if(!internal::is_nan(tolerance)) // which the session refuses
       tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
-    return m_session.deform(iterations, tolerance, Default_visitor());
+    return m_session.deform(iterations, tolerance);
   }
 
   /// moves the region of interest, targets included, back to the rest shape.

@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
@@ -44,18 +46,6 @@ public:
   Drop_in_session(Domain domain, const Traits& traits)
     : Base(std::move(domain), traits, cgal_rules())
   {}
-
-  bool insert_roi(vertex_descriptor v)
-  {
-    read_again(v);
-    return Base::insert_roi(v);
-  }
-
-  bool insert_control(vertex_descriptor v)
-  {
-    read_again(v);
-    return Base::insert_control(v);
-  }
 
   bool erase_roi(vertex_descriptor v)
   {
@@ -88,8 +78,15 @@ public:
     return Base::change_target(v, f);
   }
 
+  Report deform(unsigned int iterations, double tolerance)
+  {
+    read_entered();
+    return Base::deform(iterations, tolerance, Default_visitor());
+  }
+
   Outcome preprocess()
   {
+    read_entered();
     Outcome prepared = Base::preprocess();
     if(prepared)
       put_back_erased();
@@ -108,11 +105,20 @@ public:
     Base::overwrite_initial_geometry();
   }
 
-  // moves what has left the region of interest back to the rest shape
+  // moves what has left the region of interest back to the rest shape, and forgets its rotations
   void put_back_erased()
   {
     if(this->is_region_written())
       return;
+    read_entered();
+    m_prepared.forget_rotations([this](vertex_descriptor v) {
+      bool is_near = m_vertices.is_roi(v);
+      this->domain().for_each_incident_simplex(v, [&](const auto&, const auto& corners) {
+        for(vertex_descriptor corner : corners)
+          is_near = is_near || m_vertices.is_roi(corner);
+      });
+      return !is_near;
+    });
     for(Entry& entry : m_vertices.entries())
       if(this->is_put_back(entry))
       {
@@ -145,15 +151,20 @@ private:
         keep_target(&entry);
   }
 
-  // A vertex that was put back, and enters the region of interest again, is where the mesh has it.
-  void read_again(vertex_descriptor v)
+  // What has entered the region of interest is where the mesh has it when that is next used.
+  void read_entered()
   {
-    Entry* entry = m_vertices.find(v);
-    if(!entry || entry->is_roi || entry->was_roi)
+    if(this->is_region_written() || m_prepared.has_region())
       return;
-    Point rest = this->domain().point(v), present = rest;
-    entry->rest = std::move(rest);
-    m_vertices.present(*entry) = std::move(present);
+    for(Entry& entry : m_vertices.entries())
+      if(entry.is_roi && !entry.was_roi)
+      {
+        const Point point = this->domain().point(entry.vertex);
+        entry.rest = point;
+        m_vertices.present(entry) = point;
+        if(entry.is_control)
+          m_vertices.target(entry) = point;
+      }
   }
 };
 

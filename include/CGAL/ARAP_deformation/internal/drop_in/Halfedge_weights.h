@@ -45,6 +45,8 @@ struct Double_point_map
 
   VertexPointMap points;
 
+  operator const VertexPointMap&() const { return points; } // what a function of a user may take
+
   friend value_type get(const Double_point_map& map, const key_type& v)
   {
     const auto& p = get(map.points, v);

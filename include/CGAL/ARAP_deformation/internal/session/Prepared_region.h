@@ -100,6 +100,19 @@ public:
         positions[v] = Domain::coordinates(point);
   }
 
+  // makes those rotations identities that are at vertices which satisfy a predicate
+  template <typename Predicate>
+  void forget_rotations(const Predicate& is_forgotten)
+  {
+    if(!m_prepared)
+      return;
+    Array<Matrix_3x3> rotations = core().rotations();
+    for(std::size_t c = 0; c < rotations.size(); ++c)
+      if(is_forgotten(m_prepared->region->vertices[c]))
+        rotations[c] = identity_matrix();
+    core().set_rotations(std::move(rotations));
+  }
+
   // how many vertices are in the region of interest, and how many controls there are
   std::size_t roi_size() const { return m_roi_size; }
   std::size_t number_of_controls() const { return m_number_of_controls; }
