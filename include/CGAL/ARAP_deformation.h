@@ -539,9 +539,9 @@ public:
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
-  /// Equation (3) of the paper; where the map has no value it is 1. Costs one numeric
-  /// factorization. `ARAP::Status::invalid_stiffness` is what a run returns if a value is negative
-  /// or not finite.
+  /// Equation (3) of the paper; where the map has no value it is 1. The map is asked for cells
+  /// around the region of interest, too. Takes new weights and a numeric factorization.
+  /// `ARAP::Status::invalid_stiffness` is what a run returns if a value is negative or not finite.
   template <typename StiffnessMap>
   ARAP::Outcome set_stiffness(StiffnessMap stiffness)
   {
@@ -684,10 +684,11 @@ public:
 
   /// returns the region of interest, the control vertices and control points, their targets and
   /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
-  /// memory. Options, stiffness and groups are no part of it: a program that lets its users change
-  /// these keeps them itself, and sets them before it restores the state, which has the rotations
-  /// of the cells of then. Nor is the factor: where that, or the region, was computed again since,
-  /// runs from a restored state have the same iterates only up to rounding.
+  /// memory. What functions of target sets refer to must live as long as a state that has them.
+  /// Options, stiffness and groups are no part of it: a program that lets its users change these
+  /// keeps them itself, and sets them before it restores the state, which has the rotations of the
+  /// cells of then. Nor is the factor: where that, or the region, was computed again since, runs
+  /// from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
