@@ -185,10 +185,7 @@ public:
 
   void set_targets(Indices handles, Numbers targets) override
   {
-    require(targets.rows == handles.rows && targets.columns == 3,
-            "there are " + std::to_string(handles.rows) + " handles, but " +
-            std::to_string(targets.rows) + " targets of " + std::to_string(targets.columns) +
-            " coordinates");
+    require_rows(handles, "handles", targets, "targets");
     std::size_t row = 0;
     for_each(handles, [&](auto handle) {
       return m_deformation.set_target_position(handle, point_at(targets[row++]));
@@ -201,6 +198,13 @@ public:
       const Point p = m_deformation.target_position(known);
       std::copy(p.begin(), p.end(), point);
     });
+  }
+  double weight(std::int32_t handle) const override
+  {
+    require_handle(handle);
+    double weight = 0;
+    visit_handle(handle, [&](auto known) { weight = m_deformation.target_weight(known); });
+    return weight;
   }
   void transform(Indices handles, Numbers matrix, bool from_rest) override
   {
@@ -258,7 +262,12 @@ public:
     m_has_groups = groups.rows > 0;
   }
 
-  void preprocess() override { require(m_deformation.preprocess()); }
+  std::string preprocess() override
+  {
+    Outcome prepared = m_deformation.preprocess();
+    require(prepared);
+    return prepared.message;
+  }
   Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) override
   {
     return checked(m_deformation.deform(iterations, tolerance, visitor_of(visitor)));
@@ -272,6 +281,28 @@ public:
       return forces.rows == 0 ? Point{0, 0, 0} : point_at(forces[v]);
     };
     return checked(m_deformation.advance(dynamics, force_at, visitor_of(visitor)));
+  }
+
+  std::vector<double> velocities() const override
+  {
+    std::vector<double> result;
+    for(std::size_t v : domain().vertices())
+    {
+      const Coordinates velocity = m_deformation.velocity(v);
+      result.insert(result.end(), velocity.begin(), velocity.end());
+    }
+    return result;
+  }
+  void set_velocities(Indices vertices, Numbers velocities) override
+  {
+    require_rows(vertices, "vertices", velocities, "velocities");
+    refuse_in_a_run();
+    const std::vector<std::size_t> chosen = vertices_of(vertices);
+    for(std::size_t v : chosen)
+      require(m_deformation.is_roi_vertex(v),
+              "vertex " + std::to_string(v) + " is not in the region of interest");
+    for(std::size_t k = 0; k < chosen.size(); ++k)
+      m_deformation.set_velocity(chosen[k], point_at(velocities[k]));
   }
 
   void reset() override
@@ -375,6 +406,14 @@ private:
       require(m_deformation.is_control_vertex(v),
               "vertex " + std::to_string(v) + " is not a control vertex");
     return result;
+  }
+
+  static void require_rows(Indices indices, const char* what, Numbers points, const char* values)
+  {
+    require(points.rows == indices.rows && points.columns == 3,
+            "there are " + std::to_string(indices.rows) + " " + what + ", but " +
+            std::to_string(points.rows) + " " + values + " of " + std::to_string(points.columns) +
+            " coordinates");
   }
 
   bool is_vertex(std::int32_t handle) const

@@ -107,6 +107,7 @@ public:
 
   virtual void set_targets(Indices handles, Numbers targets) = 0; // k x 3
   virtual void target(std::int32_t handle, double* point) const = 0;
+  virtual double weight(std::int32_t handle) const = 0; // infinite: hard
   // targets p to A p, with a 3 x 4 or 4 x 4 matrix; of the rest shape or of the present targets
   virtual void transform(Indices handles, Numbers matrix, bool from_rest) = 0;
   virtual void set_weight(Indices handles, double weight) = 0; // infinite: hard
@@ -119,9 +120,13 @@ public:
   virtual void set_stiffness(Numbers values) = 0;
   virtual void set_groups(Indices groups) = 0;
 
-  virtual void preprocess() = 0; // what the next call of deform() needs, before it is made
+  // what the next call of deform() needs, before it is made; returns a sentence on what it found
+  virtual std::string preprocess() = 0;
   virtual Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) = 0;
   virtual Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) = 0;
+  // n x 3: those that the next time step begins with, zero outside the region of interest
+  virtual std::vector<double> velocities() const = 0;
+  virtual void set_velocities(Indices vertices, Numbers velocities) = 0; // k x 3
 
   virtual void reset() = 0;
   virtual void make_rest_shape() = 0; // of the present positions

@@ -285,7 +285,7 @@ ARAP_EXPORT bool arap_set_groups(Array_deformation* d, const std::int32_t* group
 
 ARAP_EXPORT bool arap_preprocess(Array_deformation* d)
 {
-  return answer_of([&] { d->preprocess(); });
+  return answer_of([&] { answer.message = d->preprocess(); });
 }
 // with options for this call
 ARAP_EXPORT bool arap_deform(Array_deformation* d, const char* texts, std::size_t n, bool visits)
@@ -334,6 +334,19 @@ ARAP_EXPORT void arap_delete_state(std::any* state) { delete state; }
 ARAP_EXPORT bool arap_energy(const Array_deformation* d)
 {
   return answer_of([&] { add(std::vector<double>{d->energy()}); });
+}
+ARAP_EXPORT bool arap_velocities(const Array_deformation* d)
+{
+  return answer_of([&] { add(d->velocities()); });
+}
+ARAP_EXPORT bool arap_set_velocities(Array_deformation* d, const std::int32_t* vertices,
+                                     std::size_t n, const double* velocities, std::size_t rows)
+{
+  return answer_of([&] { d->set_velocities({vertices, n}, {velocities, rows, 3}); });
+}
+ARAP_EXPORT bool arap_weight(const Array_deformation* d, std::int32_t handle)
+{
+  return answer_of([&] { add(std::vector<double>{d->weight(handle)}); });
 }
 ARAP_EXPORT bool arap_rotations(const Array_deformation* d)
 {

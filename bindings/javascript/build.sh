@@ -12,23 +12,22 @@ for library in CGAL boost; do ln -sfn "/usr/include/$library" "$out/include/$lib
 # Debian's emscripten needs modules in this folder, and emscripten 3.1 takes node for a browser if there is a fetch()
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs} NODE_OPTIONS=--no-experimental-fetch
 # WebAssembly can only round to nearest, which CGAL has to be told
-flags="-std=c++17 -O3 -DNDEBUG -Wall -Wextra -Wshadow -fwasm-exceptions ${ARAP_WASM_FLAGS--msimd128}
+read -ra extra_flags <<<"${ARAP_WASM_FLAGS--msimd128}"
+flags=(-std=c++17 -O3 -DNDEBUG -Wall -Wextra -Wshadow -fwasm-exceptions "${extra_flags[@]}"
        -DCGAL_EIGEN3_ENABLED -DCGAL_DISABLE_GMP=1 -DCGAL_ALWAYS_ROUND_TO_NEAREST -DCGAL_DISABLE_ROUNDING_MATH_CHECK
-       -DFE_UNDERFLOW=0 -DCGAL_ARAP_DEFORMATION_COMPILED -I$root/include -isystem $out/include -isystem /usr/include/eigen3"
-objects=
+       -DFE_UNDERFLOW=0 -DCGAL_ARAP_DEFORMATION_COMPILED "-I$root/include" -isystem "$out/include" -isystem /usr/include/eigen3)
+objects=()
 pids=
 for source in bindings/javascript/arap bindings/Array_deformation src/ARAP_deformation/core; do
   object=$out/${source##*/}.o
-  objects="$objects $object"
-  # shellcheck disable=SC2086
+  objects+=("$object")
   if [ ! -f "$object" ] || [ -n "$(find "$root/include" "$root/bindings" "$root/src" -newer "$object" -name '*.h' -o -newer "$object" -name '*.cpp' -not -path '*/test/*' -not -path '*/python/*')" ]; then
-    em++ $flags -c "$root/$source.cpp" -o "$object" &
+    em++ "${flags[@]}" -c "$root/$source.cpp" -o "$object" &
     pids="$pids $!"
   fi
 done
 for pid in $pids; do wait "$pid"; done
-# shellcheck disable=SC2086
-em++ $flags $objects -o "$out/arap.js" --no-entry -sMODULARIZE=1 -sEXPORT_NAME=createArap \
+em++ "${flags[@]}" "${objects[@]}" -o "$out/arap.js" --no-entry -sMODULARIZE=1 -sEXPORT_NAME=createArap \
   -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sFILESYSTEM=0 \
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString
 # a module, but without what emscripten would add to find the file of the machine code: index.js does

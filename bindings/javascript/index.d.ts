@@ -6,7 +6,7 @@
  * Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row.
  */
 export type Numbers = Float64Array | Float32Array | readonly number[];
-/** Indices of vertices, simplices or handles, from 0; one number stands for a list of one. */
+/** Indices of vertices, simplices or handles, from 0. Where a number is taken, too, it stands for a list of one. */
 export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
 
 /**
@@ -205,7 +205,7 @@ export interface Session {
   option<Name extends keyof Options>(name: Name): NonNullable<Options[Name]>;
 
   /** All vertices are in the region of interest at first. */
-  setRegion(vertices: Indices): void;
+  setRegion(vertices: Indices | number): void;
   region(): Int32Array;
 
   /** vertices that become handles, whose targets are where they are */
@@ -227,6 +227,7 @@ export interface Session {
    * targets, so that repeated calls add up; fromRest applies it to the rest shape
    */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
+  weight(handle: number): number;
   /** Infinity: a hard target, which is met exactly */
   setWeight(handles: Indices | number, weight: number): void;
   /** of the cells around vertices, 3 x 3 */
@@ -239,13 +240,22 @@ export interface Session {
   setStiffness(values?: Numbers): void;
   setGroups(groups?: Indices): void;
 
-  /** does what the next call of `deform()` needs, such as the factorization, before it is made */
-  preprocess(): void;
+  /**
+   * does what the next call of `deform()` needs, such as the factorization, before it is made;
+   * returns a sentence, which tells also what unconstrained components there are
+   */
+  preprocess(): string;
   deform(run?: Run): Report;
   advance(step?: Step): StepReport;
 
+  /** n x 3: the velocities that the next step begins with; zero outside the region */
+  velocities(): Float64Array;
+  /** of vertices of the region */
+  setVelocities(vertices: Indices | number, velocities: Numbers): void;
+
+  /** back to the rest shape: keeps weights, erases prescribed rotations and velocities */
   reset(): void;
-  /** of the present positions */
+  /** of the present positions: keeps targets and weights, erases prescribed rotations */
   makeRestShape(): void;
   state(): State;
   restore(state: State): void;
@@ -265,7 +275,7 @@ export interface Arap {
   deform(
     points: Numbers,
     simplices: Indices,
-    handles: Indices,
+    handles: Indices | number,
     targets: Numbers,
     options?: Shape & Options,
   ): { points: Float64Array; report: Report };

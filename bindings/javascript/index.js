@@ -261,6 +261,13 @@ export async function load({ wasmBinary } = {}) {
       const indices = this.#indices(values, what);
       return withCopies([indices], (pointer) => this.#call(name, pointer, indices.length, ...rest));
     }
+    // indices with three numbers for each
+    #callWithRows(name, what, values, of, numbers) {
+      const i = this.#indices(values, what),
+        x = numbersOf(numbers, of, Float64Array);
+      const rows = rowsOf(x, 3, of);
+      withCopies([i, x], (ip, xp) => this.#call(name, ip, i.length, xp, rows));
+    }
     #copy(name, out) {
       const view = heapNumbers(module[name](this.#this()), 3 * this.numberOfVertices);
       if (!out) return view.slice();
@@ -329,10 +336,7 @@ export async function load({ wasmBinary } = {}) {
     }
 
     setTargets(handles, targets) {
-      const h = this.#indices(handles, 'handles'),
-        t = numbersOf(targets, 'targets', Float64Array);
-      const rows = rowsOf(t, 3, 'targets');
-      withCopies([h, t], (hp, tp) => this.#call('set_targets', hp, h.length, tp, rows));
+      this.#callWithRows('set_targets', 'handles', handles, 'targets', targets);
     }
     target(handle) {
       return this.#call('target', indexOf(handle, 'the handle'));
@@ -344,6 +348,9 @@ export async function load({ wasmBinary } = {}) {
         m = numbersOf(matrix, 'the matrix', Float64Array);
       const rows = rowsOf(m, 4, 'the matrix');
       withCopies([h, m], (hp, mp) => this.#call('transform', hp, h.length, mp, rows, fromRest));
+    }
+    weight(handle) {
+      return this.#call('weight', indexOf(handle, 'the handle'))[0];
     }
     setWeight(handles, weight) {
       this.#callWithIndices('set_weight', 'handles', handles, numberOf(weight, 'the weight'));
@@ -372,6 +379,7 @@ export async function load({ wasmBinary } = {}) {
 
     preprocess() {
       this.#call('preprocess');
+      return text(module._arap_message());
     }
     deform({ iterations, tolerance, visitor, ...rest } = {}) {
       refuseUnknown(rest, 'deform()');
@@ -456,6 +464,12 @@ export async function load({ wasmBinary } = {}) {
 
     energy() {
       return this.#call('energy')[0];
+    }
+    velocities() {
+      return this.#call('velocities');
+    }
+    setVelocities(vertices, velocities) {
+      this.#callWithRows('set_velocities', 'vertices', vertices, 'velocities', velocities);
     }
     rotations() {
       return this.#call('rotations');

@@ -136,15 +136,15 @@ py::dict result(const Step_report& r)
 }
 
 // Work without the GIL. Python must not end while there is some, by a daemon thread: that could not
-// take the GIL again. So at its end runs are cancelled, and what is at work is waited for: for five
-// seconds at most, as it may itself wait for what ends.
+// take the GIL again. So at its end runs of other threads than the one that ends it are cancelled,
+// and what is at work is waited for: for five seconds at most, as it may itself wait for what ends.
 class Long_work
 {
 public:
   Long_work()
   {
     ++s_count;
-    if(s_is_ending)
+    if(is_ending())
     {
       --s_count;
       throw bindings::Deformation_error(Outcome(Status::cancelled, "Python is ending"));
@@ -154,11 +154,12 @@ public:
   Long_work(const Long_work&) = delete;
   Long_work& operator=(const Long_work&) = delete;
 
-  static bool is_ending() { return s_is_ending; }
+  static bool is_ending() { return s_is_ending && std::this_thread::get_id() != s_last_thread; }
 
   // to be called with the GIL
   static void end()
   {
+    s_last_thread = std::this_thread::get_id();
     s_is_ending = true;
     const py::gil_scoped_release release;
     using Clock = std::chrono::steady_clock;
@@ -170,6 +171,7 @@ public:
 private:
   static inline std::atomic<int> s_count{0};
   static inline std::atomic<bool> s_is_ending{false};
+  static inline std::thread::id s_last_thread; // which ends Python
 };
 
 // Calls a function of Python, and lets Python handle signals now and then: its exceptions end the
@@ -345,13 +347,17 @@ PYBIND11_MODULE(_core, module)
     .def("locate", bound(&D::locate)).def("insert_point", bound(&D::insert_point))
     .def("point_position", bound_point(&D::point_position))
     .def("target", bound_point(&D::target)).def("set_targets", bound(&D::set_targets))
-    .def("transform", bound(&D::transform)).def("set_weight", bound(&D::set_weight))
+    .def("transform", bound(&D::transform))
+    .def("weight", bound(&D::weight)).def("set_weight", bound(&D::set_weight))
     .def("set_rotation", bound(&D::set_rotation))
     .def("set_rotations_of_motion", bound(&D::set_rotations_of_motion))
     .def("erase_rotations", bound(&D::erase_rotations))
     .def("set_stiffness", bound(&D::set_stiffness)).def("set_groups", bound(&D::set_groups))
-    .def("preprocess", [](Session& s) { s.at_work([](D& d) { d.preprocess(); }, true); })
+    .def("preprocess", [](Session& s) {
+      return s.at_work([](D& d) { return d.preprocess(); }, true);
+    })
     .def("deform", &deform).def("advance", &advance)
+    .def("velocities", bound(&D::velocities)).def("set_velocities", bound(&D::set_velocities))
     .def("reset", bound(&D::reset)).def("make_rest_shape", bound(&D::make_rest_shape))
     .def("state", bound(&D::state)).def("restore", bound(&D::restore))
     .def("energy", bound(&D::energy)).def("rotations", bound(&D::rotations))

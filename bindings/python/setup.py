@@ -19,7 +19,9 @@ class CMakeBuild(build_ext):
         folder = build / "cmake"
         subprocess.run(
             ["cmake", "-S", here, "-B", folder,
-             f"-DPYTHON_EXECUTABLE={sys.executable}", f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"],
+             # as old and new versions of pybind11 call it
+             f"-DPYTHON_EXECUTABLE={sys.executable}", f"-DPython_EXECUTABLE={sys.executable}",
+             f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"],
             check=True)
         subprocess.run(["cmake", "--build", folder, "--parallel"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)

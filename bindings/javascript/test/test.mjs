@@ -324,6 +324,18 @@ step.momentum.forEach((p, k) => assert(Math.abs(p - [0, 0, -6][k]) < 1e-9, `mome
 assert(step.elasticEnergy < 1e-12 && Math.abs(step.kineticEnergy - 9) < 1e-9);
 assert(Math.abs(step.centerOfMass[2] + 0.6) < 1e-9, `center ${step.centerOfMass}`);
 assert.equal(step.energy.length, step.iterations + 1);
+const every = Array.from({ length: falling.numberOfVertices }, (_, v) => v);
+falling.reset();
+assert(falling.velocities().every((x) => x === 0));
+falling.setVelocities(every, every.flatMap(() => [1, 2, -3]));
+const stays = falling.points();
+falling.advance({ timeStep: 0.1 });
+falling.points().forEach((x, k) => {
+  assert(Math.abs(x - stays[k] - 0.1 * [1, 2, -3][k % 3]) < 1e-9);
+  assert(Math.abs(falling.velocities()[k] - [1, 2, -3][k % 3]) < 1e-8);
+});
+refuses(() => falling.setVelocities([0, 1], [1, 2, 3]), ArapError, /2 vertices, but 1/);
+assert.match(falling.preprocess(), /./);
 let visits = 0;
 falling.advance({ visitor: () => (++visits, 'stop') });
 assert.equal(visits, 1);

@@ -310,6 +310,22 @@ def test_values_of_cells_are_not_those_of_other_cells():
     assert d.deform()
 
 
+def test_weights_are_told():
+    d = bent()
+    handle = d.handles[0]
+    assert d.weight(handle) == np.inf
+    d.set_weight(handle, 3)
+    assert d.weight(handle) == 3
+
+
+def test_preparation_tells_what_is_free():
+    points, faces = SHAPES["bar"]
+    n = len(points)
+    d = arap.Deformation(np.vstack([points, points + 20]), np.vstack([faces, faces + n]))
+    d.insert_handles([0, 1, 2])
+    assert f"the unconstrained component of vertex {n}" in d.preprocess()
+
+
 def test_a_handle_twice():
     d = bent()
     handle, *others = d.handles
@@ -330,6 +346,26 @@ def test_a_free_fall():
     lifted = d.vertices.copy()
     d.advance(h, density=2, modulus=100, forces=np.zeros_like(lifted))
     assert (d.vertices - lifted)[:, 2] == pytest.approx(3 * h * g[2] * h, rel=1e-6)
+
+
+def test_velocities():
+    d = arap.Deformation(*SHAPES["solid"], tetrahedra=True)
+    every = np.arange(len(d.vertices))
+    assert not d.velocities().any()
+    thrown = np.tile([1.0, 2, -3], (len(every), 1))
+    d.set_velocities(every, thrown)
+    before = d.vertices.copy()
+    d.advance(0.01, modulus=100)
+    assert d.vertices - before == pytest.approx(0.01 * thrown, rel=1e-6)
+    assert d.velocities() == pytest.approx(thrown, rel=1e-6)
+    d.region = every[1:]
+    assert not d.velocities()[0].any()
+    kept = d.velocities()
+    with pytest.raises(ValueError, match="vertex 0 is not in the region of interest"):
+        d.set_velocities([1, 0], thrown[:2])
+    with pytest.raises(ValueError, match="there are 2 vertices, but 1 velocities"):
+        d.set_velocities([1, 2], thrown[:1])
+    assert (d.velocities() == kept).all()
 
 
 def test_visitors():
@@ -408,6 +444,19 @@ print("the end")
                              capture_output=True, text=True)
         assert (run.returncode, run.stdout) == (0, "the end\n"), run.stderr
         assert "terminate" not in run.stderr
+
+
+def test_a_run_when_python_ends():
+    script = """if True:
+        import atexit
+        def last():
+            d = arap.Deformation([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+            d.insert_handles([0, 1])
+            print(d.deform().status, end="")
+        atexit.register(last)
+        import arap_deformation as arap"""
+    run = subprocess.run([sys.executable, "-c", script], timeout=120, capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (0, "converged"), run.stderr
 
 
 def test_an_interruption_ends_a_run_and_the_global_lock_is_released():

@@ -128,7 +128,7 @@ def _integers(name: str, value: ArrayLike, *shape: Optional[int], least: int = 0
     if array.size and (array.min() < least or array.max() >= 2**31):
         wrong = array.min() if array.min() < least else array.max()
         raise IndexError(f"{name} has the number {wrong}, which is not from {least} to 2147483647")
-    return np.ascontiguousarray(array, dtype=np.int32)
+    return np.asarray(array, dtype=np.int32, order="C")
 
 
 def _indices(name: str, value: Any) -> NDArray[Any]:
@@ -257,6 +257,10 @@ class Deformation:
         self._session.transform(_indices("handles", handles), _floats("matrix", matrix, None, 4),
                                 bool(from_rest))
 
+    def weight(self, handle: int) -> float:
+        """The weight of a target; infinite: hard."""
+        return float(self._session.weight(int(_integers("handle", handle))))
+
     def set_weight(self, handles: ArrayLike, weight: float = math.inf) -> None:
         """Makes targets soft, with a weight in the unit of the edge weights; infinite: hard."""
         self._session.set_weight(_indices("handles", handles), _float("weight", weight))
@@ -283,9 +287,10 @@ class Deformation:
         them before cells become elements, or are these no longer."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 
-    def preprocess(self) -> None:
-        """Prepares what the next call of deform() needs, which it else does itself."""
-        self._session.preprocess()
+    def preprocess(self) -> str:
+        """Prepares what the next call of deform() needs, which it else does itself. Returns a
+        sentence, which tells also what unconstrained components there are."""
+        return str(self._session.preprocess())
 
     def deform(self, iterations: Optional[int] = None, tolerance: Optional[float] = None,
                visitor: Optional[Visitor] = None) -> Report:
@@ -308,12 +313,23 @@ class Deformation:
             *numbers, _floats("acceleration", acceleration, 3),
             _floats("forces", [] if forces is None else forces, None, 3), visitor))
 
+    def velocities(self) -> Floats:
+        """(n, 3): the velocities that the next step begins with; zero outside the region."""
+        return self._session.velocities().reshape(-1, 3)
+
+    def set_velocities(self, vertices: ArrayLike, velocities: ArrayLike) -> None:
+        """Sets the velocities (k, 3) of k vertices of the region."""
+        self._session.set_velocities(_indices("vertices", vertices),
+                                     _floats("velocities", velocities, None, 3))
+
     def reset(self) -> None:
-        """Moves all vertices and targets back to the rest shape."""
+        """Moves all vertices and targets back to the rest shape. Keeps the weights of the targets,
+        but erases prescribed rotations and velocities."""
         self._session.reset()
 
     def make_rest_shape(self) -> None:
-        """Makes the current shape the rest shape."""
+        """Makes the current shape the rest shape. Keeps the targets and their weights, but erases
+        prescribed rotations."""
         self._session.make_rest_shape()
 
     def state(self) -> State:
