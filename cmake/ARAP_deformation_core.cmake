@@ -13,6 +13,9 @@ if(NOT TARGET ARAP_deformation_core)
 
   add_library(ARAP_deformation_core STATIC EXCLUDE_FROM_ALL
               ${CMAKE_CURRENT_LIST_DIR}/../src/ARAP_deformation/core.cpp)
+  if(NOT DEFINED CMAKE_POSITION_INDEPENDENT_CODE) # a shared library may link with it, too
+    set_property(TARGET ARAP_deformation_core PROPERTY POSITION_INDEPENDENT_CODE ON)
+  endif()
   target_compile_features(ARAP_deformation_core PRIVATE cxx_std_17)
   target_compile_definitions(ARAP_deformation_core PUBLIC CGAL_ARAP_DEFORMATION_COMPILED)
   target_include_directories(ARAP_deformation_core PRIVATE ${ARAP_deformation_include})

@@ -23,6 +23,8 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -30,6 +32,12 @@
 namespace CGAL {
 namespace ARAP {
 namespace internal {
+
+// By this a program does not link with a core whose memory Eigen aligns otherwise, as if only one
+// of them is compiled with -mavx: one would free what the other has allocated in another way.
+template <int bytes = EIGEN_MAX_ALIGN_BYTES>
+struct Eigen_alignment
+{};
 
 // a sentence on the stiffness of the cells of a region
 Outcome check_stiffness(const Energy_model& energy_model, const Region& region);
@@ -54,7 +62,7 @@ struct Built_core
 
   // computes what depends on the region alone
   Outcome make_core(const Models& models, Region& region, Energy_model& energy_model,
-                    Minimization_order order, const Options& options);
+                    Minimization_order order, const Options& options, Eigen_alignment<> = {});
 
   // a sentence on what the core found
   Outcome explain(const Diagnosis& diagnosis) const;
