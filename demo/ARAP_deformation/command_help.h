@@ -69,7 +69,8 @@ inline boost::program_options::options_description described_options()
      "write OUT-0001, OUT-0002 and so on, the number before the ending: the way to the end in N "
      "frames, each from the one before")
     ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
-     "of the frames: .gif, .mp4 or .webm (needs ffmpeg), .gltf or .glb")
+     "of the frames, 24 for each move without --frames: .gltf or .glb, or as --image .gif, .mp4 or "
+     ".webm (ffmpeg writes the last two)")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")

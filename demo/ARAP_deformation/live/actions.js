@@ -1,14 +1,14 @@
 // What buttons and keys do with the shape that is open.
-import { FREE, HANDLE } from './colors.js';
+import { FIXED, FREE, HANDLE } from './colors.js';
 import { placeGizmo, showMeasure } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
-import { handlesMoved, hold, membersOf, messageOfHandles } from './handles.js';
+import { handlesMoved, hold, membersOf, messageOfHandles, recountHandles } from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
-import { painted } from './painting.js';
+import { painted, setTool } from './painting.js';
 import { $, changed, engine, page, view } from './state.js';
-import { changing, commit, forgetPast, optionsOfNow } from './undo.js';
+import { changing, commit, commitSoon, forgetPast, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
 
 export async function optionsChanged() {
@@ -61,8 +61,23 @@ export async function removeHandle() {
     if (page.shape.status[v] === page.chosen + HANDLE) page.shape.status[v] = FREE;
   handle.point = null;
   page.stroke = null;
-  page.tool = 'grab';
+  setTool('grab');
   await painted();
+}
+
+export function clearPaint() {
+  stopPlaying();
+  return changing(async () => {
+    page.shape.status.fill(FREE);
+    page.shape.handles = [];
+    page.chosen = -1;
+    page.paints = FIXED;
+    setTool('brush');
+    const { points } = await engine.call('reset');
+    page.spare = view.setPositions(points);
+    recountHandles(false);
+    await hold();
+  });
 }
 
 export async function reset() {
@@ -111,7 +126,6 @@ export function moveByKey(key, turns) {
   handle.matrix = matrixOf(handle.pivot, q, place);
   handlesMoved();
   placeGizmo();
-  clearTimeout(moveByKey.timer);
-  moveByKey.timer = setTimeout(commit, 400);
+  commitSoon();
   return true;
 }

@@ -58,6 +58,7 @@ export async function showMeasure() {
     complain(error);
   } finally {
     isMeasuring = false;
+    if ($('measure').value !== measure) showMeasure(); // another one was chosen meanwhile
   }
 }
 

@@ -29,7 +29,7 @@ addEventListener('keydown', (event) => {
     say('');
     closeHelp();
   } else if (moveByKey(key, event.shiftKey)) closeHelp();
-  else if (key === ' ' && event.target.closest?.('button')) return;
+  else if (key === ' ' && event.target.closest?.('button, input')) return;
   else
     (
       ({

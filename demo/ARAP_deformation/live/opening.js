@@ -1,24 +1,37 @@
 // Opening a shape, from a file or a model.
 import { FIXED, FREE, HANDLE } from './colors.js';
-import { draw } from './drawing.js';
+import { draw, placeGizmo } from './drawing.js';
 import { boundary, readMesh } from './files.js';
 import { stopPlaying } from './follow.js';
 import { handlesMoved, hold, isThere, recountHandles } from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
 import { models } from './models.js';
 import { options, sendOptions } from './options.js';
-import { setTool } from './painting.js';
+import { cancelStroke, setTool } from './painting.js';
 import { $, engine, history, measured, page, view } from './state.js';
-import { commit, forgetPast } from './undo.js';
+import { commit, commitNow, forgetPast, inTurn } from './undo.js';
 import { THREE } from './view.js';
 
-export async function open(mesh, name, note) {
+export const open = (mesh, name, note) =>
+  inTurn(() => busy('Opening…', () => openInTurn(mesh, name, note)));
+
+async function openInTurn({ points, simplices, corners, volume, status }, name, note) {
+  const n = points.length / 3,
+    weights = $('weights').value;
+  if (!n || !simplices.length) throw new Error(`${name} has no faces`);
+  if (page.shape) await commitNow();
   stopPlaying();
-  return busy('Opening…', async () => {
-    const { points, simplices, corners, volume } = mesh,
-      n = points.length / 3,
-      weights = $('weights').value;
-    if (!n || !simplices.length) throw new Error(`${name} has no faces`);
+  cancelStroke();
+  page.dragging = null;
+  const { shape, chosen } = page;
+  Object.assign(page, { shape: null, chosen: -1 }); // nothing takes input meanwhile
+  const parts = document.querySelectorAll('header, main'),
+    focused = document.activeElement;
+  parts.forEach((part) => {
+    part.inert = true;
+  });
+  placeGizmo();
+  try {
     await engine.call('open', { points, simplices, corners, volume, weights });
     const box = new THREE.Box3().setFromArray(points);
     page.shape = {
@@ -30,13 +43,12 @@ export async function open(mesh, name, note) {
       weights,
       faces: volume ? boundary(simplices, points) : simplices,
       handles: [],
-      status: mesh.status?.slice() ?? new Int32Array(n).fill(FREE),
+      status: status?.slice() ?? new Int32Array(n).fill(FREE),
       stiffness: null,
       diagonal: box.getSize(new THREE.Vector3()).length(),
     };
     forgetPast();
     page.keys = [];
-    page.chosen = -1;
     page.spare = null;
     page.failed = '';
     Object.assign(measured, { energy: NaN, milliseconds: NaN, perIteration: n / 10000 });
@@ -56,7 +68,14 @@ export async function open(mesh, name, note) {
     say(note ?? '');
     // the first step does all that is done once, before anything is dragged
     if (page.shape.handles.length && n < 150000) handlesMoved();
-  });
+  } finally {
+    if (!page.shape) Object.assign(page, { shape, chosen });
+    parts.forEach((part) => {
+      part.inert = false;
+    });
+    focused?.focus({ preventScroll: true });
+    placeGizmo();
+  }
 }
 
 export async function openFile(file) {

@@ -1,7 +1,7 @@
 // The tools: what they paint, and what they draw over the view.
 import { HANDLE, colorOf, css } from './colors.js';
 import { drawColors, placeGizmo } from './drawing.js';
-import { choose, hold, isDeformed, newHandle, recountHandles } from './handles.js';
+import { choose, hold, isDeformed, isThere, newHandle, recountHandles } from './handles.js';
 import { say } from './messages.js';
 import { matrixOf } from './motion.js';
 import { cellStiffness, stiffnessOfVertices } from './options.js';
@@ -105,8 +105,8 @@ export async function painted() {
       await engine.call('stiffness', { values: cellStiffness() });
     } else {
       recountHandles(fits);
-      if (page.paints >= HANDLE && page.shape.handles[page.paints - HANDLE])
-        page.chosen = page.paints - HANDLE;
+      const painted = page.shape.handles[page.paints - HANDLE];
+      if (painted && isThere(painted)) page.chosen = page.paints - HANDLE;
       await hold();
     }
     if (!page.shape.fixed && page.shape.handles.length === 1)
@@ -116,6 +116,7 @@ export async function painted() {
 
 // a handle in a face, or at a vertex if that is clicked
 export async function placePoint(x, y) {
+  view.mesh.geometry.computeBoundingSphere(); // that of the present positions
   const hit = view.ray(x, y).intersectObject(view.mesh)[0];
   if (!hit) return;
   // the place in the rest shape: the same barycentric coordinates in the face that was hit

@@ -1,6 +1,7 @@
 // The panel: its tools and buttons, and what they show.
 import {
   changeHandle,
+  clearPaint,
   optionsChanged,
   removeHandle,
   reset,
@@ -14,7 +15,7 @@ import { closeHelp, say } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
 import { openFile, openModel } from './opening.js';
-import { painted, setTool } from './painting.js';
+import { setTool } from './painting.js';
 import { addKey, film, play } from './playing.js';
 import { saves } from './saving.js';
 import { $, page, view, whenChanged } from './state.js';
@@ -166,14 +167,7 @@ export const actions = {
   how: () => {
     $('help').hidden = false;
   },
-  clear: () => {
-    page.shape.status.fill(FREE);
-    page.shape.handles = [];
-    page.chosen = -1;
-    page.paints = FIXED;
-    page.tool = 'brush';
-    reset().then(painted);
-  },
+  clear: clearPaint,
   more: () => {
     const closed = document.querySelector('main').classList.toggle('closed');
     $('more').setAttribute('aria-expanded', String(!closed));

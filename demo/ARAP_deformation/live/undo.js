@@ -7,20 +7,29 @@ import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { $, changed, engine, page, view } from './state.js';
 
 let past = [],
-  now = -1;
+  now = -1,
+  timer = 0; // of a commit to come
 
 // how many steps can be undone, and done again
 export const steps = () => ({ undo: now, redo: past.length - 1 - now });
 
 export const optionsOfNow = () => past[now].options;
 
+// Runs what changes the shape, or opens another one, one after the other.
+let last = Promise.resolve();
+export const inTurn = (f) => (last = last.then(f, f));
+
 // to be called when another session begins
 export function forgetPast() {
+  clearTimeout(timer);
+  timer = 0;
   past = [];
   now = -1;
 }
 
 export async function commit() {
+  clearTimeout(timer);
+  timer = 0;
   const { shape } = page;
   const kept = {
     status: shape.status.slice(),
@@ -52,21 +61,32 @@ export async function commit() {
   await kept.state;
 }
 
-// Runs what changes the shape, which then follows. What fails is undone.
-export async function changing(f) {
-  try {
-    await f();
-    page.failed = '';
-    page.isSettled = false;
-    page.hasNewTargets = page.shape.handles.length > 0;
-    draw();
-    await commit();
-    pump();
-  } catch (error) {
-    complain(error);
-    await goTo(now);
-  }
+// commits once no key has been pressed for a moment
+export function commitSoon() {
+  clearTimeout(timer);
+  timer = setTimeout(commit, 400);
 }
+
+export async function commitNow() {
+  if (timer) await commit();
+}
+
+// Runs what changes the shape, which then follows. What fails is undone.
+export const changing = (f) =>
+  inTurn(async () => {
+    try {
+      await f();
+      page.failed = '';
+      page.isSettled = false;
+      page.hasNewTargets = page.shape.handles.length > 0;
+      draw();
+      await commit();
+      pump();
+    } catch (error) {
+      complain(error);
+      await goTo(now);
+    }
+  });
 
 async function goTo(index) {
   if (index < 0 || index >= past.length || page.dragging || page.stroke) return;
@@ -107,5 +127,11 @@ async function goTo(index) {
   }
 }
 
-export const undo = () => goTo(now - 1),
-  redo = () => goTo(now + 1);
+const step = (by) =>
+  inTurn(async () => {
+    await commitNow();
+    await goTo(now + by);
+  });
+
+export const undo = () => step(-1),
+  redo = () => step(1);

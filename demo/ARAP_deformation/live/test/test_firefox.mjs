@@ -30,7 +30,7 @@ await inFirefox({ 'webgl.force-enabled': true }, async (page, version) => {
   page.on('pageerror', (error) => complaints.push(error.message));
   await page.evaluate(() => window.arap.ready);
   const settled = () =>
-    page.waitForFunction(() => window.arap.state().isSettled, { timeout: 60000 });
+    page.waitForFunction(() => window.arap.state()?.isSettled, { timeout: 60000 });
   await settled();
   const {
     screen: [x, y],

@@ -80,7 +80,7 @@ const state = (p = page) => p.evaluate(() => window.arap.state());
 const rest = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 const settled = async (p = page, timeout = 120000) => {
   await rest(50);
-  await p.waitForFunction(() => window.arap.state().isSettled, { timeout, polling: 100 });
+  await p.waitForFunction(() => window.arap.state()?.isSettled, { timeout, polling: 100 });
   return state(p);
 };
 const shot = (name, p = page) => p.screenshot({ path: join(shots, `${name}.png`) });
@@ -316,7 +316,7 @@ const steps = {
       path = join(files, 'my_bar.off');
     writeFileSync(path, off(bar));
     await openFile(path);
-    await page.waitForFunction(() => window.arap.state().name === 'my_bar');
+    await page.waitForFunction(() => window.arap.state()?.name === 'my_bar');
     let now = await settled();
     assert.equal(now.vertices, bar.points.length / 3);
     assert.equal(now.tool, 'brush');
@@ -560,6 +560,88 @@ const steps = {
     await page.keyboard.press('g');
   },
 
+  async 'undo while the shape is busy'() {
+    await openModel('bar');
+    await dragHandle(100, 60);
+    await page.mouse.up();
+    const first = (await settled()).undo;
+    const before = await positions();
+    await page.select('#cells', 'spokes');
+    await settled();
+    await page.select('#cells', 'elements');
+    await settled();
+    await page.evaluate(() => {
+      for (let k = 0; k < 2; ++k) document.getElementById('undo').click();
+    });
+    await rest(300);
+    await settled();
+    assert.equal((await state()).undo, first);
+    assert.equal(await page.$eval('#cells', (c) => c.value), 'spokes_and_rims');
+    assert(largestDifference(before, await positions()) < 2e-2, 'the first of three states');
+    // a move by keys is undone at once
+    await page.keyboard.press('ArrowUp');
+    await page.keyboard.down('Control');
+    await page.keyboard.press('z');
+    await page.keyboard.up('Control');
+    await rest(600);
+    await settled();
+    assert.deepEqual([(await state()).undo, (await state()).redo], [first, 1]);
+    assert.equal(await message(), '');
+  },
+
+  async 'handles that are gone'() {
+    await openModel('sheet');
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    await paintMiddle();
+    assert.equal((await settled()).handles.length, 2);
+    await page.evaluate(() => window.arap.choose(0));
+    await page.keyboard.press('Delete');
+    const left = await settled();
+    assert.deepEqual(
+      left.handles.map(({ vertices }) => vertices > 0),
+      [false, true],
+    );
+    assert(await page.$eval('#handle', (h) => h.hidden), 'no handle is chosen');
+    assert.equal(await page.evaluate(() => window.arap.view.canvas.style.cursor), 'grab');
+    // all paint is cleared in one step
+    await page.click('#clear');
+    const cleared = await settled();
+    assert.deepEqual(
+      [cleared.undo - left.undo, cleared.fixed, cleared.handles.length],
+      [1, 0, 0],
+    );
+    await page.click('#undo');
+    const again = await settled();
+    assert.deepEqual([again.fixed, again.handles.length], [left.fixed, 2]);
+    // Space switches what has the focus
+    await page.evaluate(() => window.arap.choose(1));
+    await page.focus('#soft');
+    await page.keyboard.press('Space');
+    await settled();
+    assert(await page.$eval('#soft', (s) => s.checked));
+    assert.equal(await message(), '');
+    await page.evaluate(() => document.activeElement.blur());
+  },
+
+  async 'a stroke while a shape is opened'() {
+    await openModel('bar');
+    await page.keyboard.press('b');
+    const [x, y] = await middle();
+    const opened = page.evaluate(() => window.arap.openModel('sheet'));
+    await drag([x - 30, y + 30], [x + 30, y - 30]);
+    await page.mouse.up();
+    await opened;
+    const { fixed } = await settled();
+    assert.equal(await message(), '');
+    await page.keyboard.press('b');
+    await page.keyboard.press('1');
+    await paintMiddle();
+    assert((await settled()).fixed > fixed, 'what is painted later is held');
+    assert.equal(await message(), '');
+    await page.keyboard.press('g');
+  },
+
   async 'no module knows one that imports it'() {
     const imported = (name) =>
       [
@@ -637,6 +719,18 @@ const steps = {
     await page.keyboard.press('Delete');
     now = await settled();
     assert.equal(now.handles.length, 1);
+    // beyond where the shape was before
+    await dragHandle(0, -250);
+    await page.mouse.up();
+    now = await settled();
+    await page.keyboard.press('p');
+    await page.mouse.click(...now.handles[0].screen);
+    now = await settled();
+    assert.equal(now.handles.length, 2);
+    await page.keyboard.press('Delete');
+    await settled();
+    await page.keyboard.press('r');
+    await settled();
     // a handle of one vertex, which turns the cells around it
     await page.$eval('#brush', (b) => {
       b.value = 1;
@@ -691,7 +785,7 @@ const steps = {
     assert.equal((await settled()).inverted, 0);
     const { length } = await saved('.mesh', 'bar_of_tetrahedra.mesh');
     await openFile(join(files, 'bar_of_tetrahedra.mesh'));
-    await page.waitForFunction(() => window.arap.state().undo === 0 && window.arap.state().volume);
+    await page.waitForFunction(() => window.arap.state()?.undo === 0 && window.arap.state()?.volume);
     assert(
       length > 1000 && (await settled()).simplices === models.volume[1]().simplices.length / 4,
       'it reads what it writes',
@@ -801,7 +895,7 @@ const steps = {
     for (const [name, [text, vertices]] of Object.entries(written)) {
       writeFileSync(join(files, name), text);
       await openFile(join(files, name));
-      await page.waitForFunction((wanted) => window.arap.state().name === wanted, {}, name[0]);
+      await page.waitForFunction((wanted) => window.arap.state()?.name === wanted, {}, name[0]);
       assert.equal((await settled()).vertices, vertices, name);
     }
   },
@@ -853,7 +947,7 @@ const steps = {
       off({ points, simplices: [...two.simplices, ...two.simplices.map((v) => v + n)] }),
     );
     await openFile(join(files, 'two.off'));
-    await page.waitForFunction(() => window.arap.state().name === 'two');
+    await page.waitForFunction(() => window.arap.state()?.name === 'two');
     await settled();
     const at = await page.evaluate(() => {
       const box = window.arap.view.canvas.getBoundingClientRect();
@@ -1013,7 +1107,7 @@ const steps = {
     writeFileSync(path, off(sphere(200)));
     let time = Date.now();
     await openFile(path);
-    await page.waitForFunction(() => window.arap.state().name === 'large', { timeout: 120000 });
+    await page.waitForFunction(() => window.arap.state()?.name === 'large', { timeout: 120000 });
     await settled();
     const opened = Date.now() - time;
     const statuses = [...sphere(200).status];
