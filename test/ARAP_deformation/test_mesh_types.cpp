@@ -155,7 +155,14 @@ void test_filtered_graph()
     Graph copy_graph(copy, 1, copy.add_property_map<Mesh::Face_index, int>("f:patch").first);
     const Face_graph_domain<Graph> domain(copy_graph);
     if(cells == all_cell_schemes[0])
+    {
       check_conforms(domain);
+      for(auto v : copy.vertices()) // others would have the index of the first vertex
+        CHECK(domain.is_vertex(v) == is_in[v]);
+      for(auto f : copy.faces())
+        CHECK(domain.is_simplex(f) == (patch[f] == 1));
+      CHECK(!domain.is_vertex(Mesh::null_vertex()) && !domain.is_simplex(Mesh::null_face()));
+    }
     Result expected = reference<2>(shape.points, selected, s, cells);
     Result found = deform(domain, vertices, part, cells);
     std::vector<Eigen::Vector3d> points;
@@ -184,8 +191,24 @@ Result deform_with_own_map(const Shape& shape, const Scenario& s, Cell_scheme ce
   return result;
 }
 
+// the same of a const mesh
+void test_own_map_of_const_mesh()
+{
+  test_case() = "a const mesh with a point map of the user's";
+  const Mesh mesh = make_mesh<Mesh>(shapes()[8]);
+  std::map<Mesh::Vertex_index, Point> points;
+  for(auto v : mesh.vertices())
+    points[v] = mesh.point(v);
+  const Mesh::Vertex_index v(3);
+  const std::map<Mesh::Vertex_index, Point> targets = {{v, Point(9, 9, 9)}};
+  CHECK(CGAL::arap_deform(mesh, targets, CGAL::parameters::vertex_point_map(
+                                           boost::make_assoc_property_map(points))));
+  CHECK(points[v] == targets.at(v) && mesh.point(v) != targets.at(v));
+}
+
 int main()
 {
+  test_own_map_of_const_mesh();
   test_mesh_type<CGAL::Surface_mesh<CGAL::Simple_cartesian<float>::Point_3>>(
     "Simple_cartesian<float>", 2e-5);
   test_mesh_type<Derived_mesh>("a derived class");

@@ -263,6 +263,56 @@ struct With_one_buffer : Domain
   }
 };
 
+// points with weights keep them
+void test_weighted_points()
+{
+  test_case() = "points with weights";
+  using Weighted = Kernel::Weighted_point_3;
+  const Shape shape = shapes()[8];
+  std::vector<Weighted> points;
+  for(const auto& p : shape.points)
+    points.emplace_back(point(p), 0.5 + double(points.size()));
+  const std::vector<Weighted> rest = points;
+  using Domain = Polygon_soup_domain<std::vector<Weighted>, decltype(shape.triangles)>;
+  CGAL::ARAP_deformation<Domain> deformation(Domain(points, shape.triangles));
+  for(std::size_t v = 0; v < points.size(); ++v)
+    deformation.insert_roi_vertex(v);
+  deformation.insert_control_vertex(0);
+  deformation.insert_control_vertex(points.size() - 1);
+  CHECK(deformation.translate(0, Kernel::Vector_3(0.1, 0.2, 0.3)));
+  CHECK(deformation.deform());
+  for(std::size_t v = 0; v < points.size(); ++v)
+    CHECK(points[v].weight() == rest[v].weight());
+  CHECK(points[0].point() == rest[0].point() + Kernel::Vector_3(0.1, 0.2, 0.3));
+}
+
+// A square with a hole, to which a bridge leads from its corner 0: that is in its face twice.
+struct Bridged_face
+{
+  using simplex_descriptor = std::size_t;
+  static constexpr int dimension = 2;
+  std::vector<std::size_t> corners = {0, 1, 2, 3, 0, 4, 5, 6, 4};
+
+  std::vector<std::size_t> vertices() const { return {0, 1, 2, 3, 4, 5, 6}; }
+  std::size_t index(std::size_t v) const { return v; }
+  const std::vector<std::size_t>& simplex_vertices(std::size_t) const { return corners; }
+
+  template <typename Function>
+  void for_each_incident_simplex(std::size_t v, const Function& f) const
+  {
+    for(std::size_t w : corners)
+      if(w == v)
+        f(std::size_t(0), corners);
+  }
+};
+
+void test_bridged_face()
+{
+  test_case() = "a face with a bridge to a hole";
+  const CGAL::ARAP::internal::Simplex_list<Bridged_face> list{Bridged_face()};
+  CHECK(list.simplices() == std::vector<std::vector<std::size_t>>{Bridged_face().corners});
+}
+
 void test_buffered_corners()
 {
   test_case() = "corners in a buffer";
@@ -279,6 +329,8 @@ void test_all()
   test_output_range();
   test_wrong_numbers();
   test_buffered_corners();
+  test_weighted_points();
+  test_bridged_face();
   using Triangles = std::vector<std::array<int, 3>>;
   using Signed_polygons = std::vector<std::vector<int>>;
   using Tetrahedra = std::vector<std::array<int, 4>>;
@@ -1171,6 +1223,18 @@ void test_self_intersections()
             CGAL::ARAP::make_polygon_soup_domain(flat, polygons)) == 0);
     std::rotate(polygons[0].begin(), polygons[0].begin() + 1, polygons[0].end());
   }
+
+  // not convex, wherever they start: a dart, and an L
+  const Points plane = {{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, 3, 0},
+                        {5, 0, 0}, {7, 0, 0}, {7, 1, 0}, {6, 1, 0}, {6, 2, 0}, {5, 2, 0}};
+  for(Polygons one : {Polygons{{0, 1, 2, 3}}, Polygons{{4, 5, 6, 7, 8, 9}}})
+    for(std::size_t k = 0; k < one[0].size(); ++k)
+    {
+      Points copy = plane;
+      CHECK(CGAL::ARAP::number_of_self_intersections(
+              CGAL::ARAP::make_polygon_soup_domain(copy, one)) == 0);
+      std::rotate(one[0].begin(), one[0].begin() + 1, one[0].end());
+    }
 
   // what is not finite intersects nothing, and hides nothing
   Points holey = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0},

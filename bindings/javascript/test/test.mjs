@@ -335,6 +335,7 @@ falling.points().forEach((x, k) => {
   assert(Math.abs(falling.velocities()[k] - [1, 2, -3][k % 3]) < 1e-8);
 });
 refuses(() => falling.setVelocities([0, 1], [1, 2, 3]), ArapError, /2 vertices, but 1/);
+falling.insertHandles(0);
 assert.match(falling.preprocess(), /./);
 let visits = 0;
 falling.advance({ visitor: () => (++visits, 'stop') });

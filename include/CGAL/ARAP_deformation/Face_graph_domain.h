@@ -16,6 +16,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/parameters.h>
 
@@ -45,6 +46,10 @@ using Call_is_removed = decltype(
   std::declval<const Graph&>().is_removed(
     std::declval<typename boost::graph_traits<Graph>::vertex_descriptor>()));
 
+template <typename Graph>
+using Call_is_in_cc = decltype(std::declval<const Graph&>().is_in_cc(
+  std::declval<typename boost::graph_traits<Graph>::vertex_descriptor>()));
+
 // outside the class, which has a member `vertices`
 template <typename Graph>
 auto vertices_of_graph(const Graph& graph)
@@ -72,6 +77,10 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// neighbors, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
 /// polygons with more than 2048 corners with `Status::too_many_corners`.
 /// The mesh must outlive the domain, and its connectivity must not change in the meantime.
+///
+/// Without an index map, a linear pass over the mesh checks whether its internal one has the
+/// indices 0, 1, ... Where it has not, as ids of a `Polyhedron_3` with gaps, they are numbered
+/// anew. An index map that is passed avoids both; it may have gaps.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; may be `const` if the points
 ///         are written to an output map
@@ -163,10 +172,11 @@ public:
   /// returns the point of `v` in the input map.
   Point point(vertex_descriptor v) const { return get(m_point_map, v); }
 
-  /// sets the point of `v` in the output map.
+  /// sets the point of `v` in the output map. A weighted point keeps its weight.
   void set_point(vertex_descriptor v, const Point& point) const
   {
-    put(m_output_point_map, v, point);
+    put(m_output_point_map, v,
+        internal::with_weight_of_old(point, [&] { return this->point(v); }));
   }
 
   /// returns whether points are changed in place.
@@ -176,24 +186,12 @@ public:
   auto vertices() const { return internal::vertices_of_graph(*m_mesh); }
 
   /// returns whether `v` is a vertex of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
-  /// can tell; for other meshes `true`.
-  bool is_vertex([[maybe_unused]] vertex_descriptor v) const
-  {
-    if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
-      return m_mesh->has_valid_index(v) && !m_mesh->is_removed(v);
-    else
-      return true;
-  }
+  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`.
+  bool is_vertex(vertex_descriptor v) const { return is_element(v); }
 
   /// returns whether `s` is a face of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
-  /// can tell; for other meshes `true`.
-  bool is_simplex([[maybe_unused]] simplex_descriptor s) const
-  {
-    if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
-      return m_mesh->has_valid_index(s) && !m_mesh->is_removed(s);
-    else
-      return true;
-  }
+  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`.
+  bool is_simplex(simplex_descriptor s) const { return is_element(s); }
 
   /// returns whether no face is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
@@ -220,6 +218,17 @@ public:
   }
 
 private:
+  template <typename Element>
+  bool is_element([[maybe_unused]] Element e) const
+  {
+    if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
+      return m_mesh->has_valid_index(e) && !m_mesh->is_removed(e);
+    else if constexpr(internal::is_valid<internal::Call_is_in_cc, Graph>)
+      return e != Element() && m_mesh->is_in_cc(e);
+    else
+      return true;
+  }
+
   Iterator_range<Halfedge_around_target_iterator<Graph>> halfedges_to(vertex_descriptor v) const
   {
     const halfedge_descriptor h = halfedge(v, *m_mesh);

@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/internal/domain/Incidence_table.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 
 #include <CGAL/assertions.h>
 
@@ -107,10 +108,11 @@ public:
   /// returns the point of `v` in the input range.
   const Point& point(vertex_descriptor v) const { return (*m_points)[index(v)]; }
 
-  /// sets the point of `v` in the output range.
+  /// sets the point of `v` in the output range. A weighted point keeps its weight.
   void set_point(vertex_descriptor v, const Point& point) const
   {
-    (*m_output_points)[index(v)] = point;
+    (*m_output_points)[index(v)] =
+      internal::with_weight_of_old(point, [&]() -> const Point& { return this->point(v); });
   }
 
   /// returns whether points are changed in place.

@@ -18,6 +18,8 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
+#include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -38,27 +40,41 @@ namespace ARAP {
 namespace internal {
 
 // The triangles with an area of a polygon that is cut from one of its corners: the one where there
-// are most, as what lies beside one without area has a side in common with several others.
+// are most, as what lies beside one without area has a side in common with several others. If that
+// folds it everywhere, as one that is not convex, its ears are cut.
 template <typename Point>
 std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>& polygon,
                                                   const std::vector<Point>& points)
 {
   const std::size_t n = polygon.size();
-  std::vector<std::vector<std::size_t>> most;
+  Array<Coordinates> corners;
+  for(std::size_t v : polygon)
+    corners.push_back({points[v].x(), points[v].y(), points[v].z()});
+  const Coordinates normal = vector_area(n, [&](std::size_t k) { return corners[k]; });
+  std::vector<std::vector<std::size_t>> most, triangles;
+  bool is_folded = false;
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    if(CGAL::collinear(points[polygon[a]], points[polygon[b]], points[polygon[c]]))
+      return;
+    is_folded |= dot(normal, cross(difference(corners[b], corners[a]),
+                                   difference(corners[c], corners[a]))) < 0;
+    triangles.push_back({polygon[a], polygon[b], polygon[c]});
+  };
   for(std::size_t first = 0; first < n && most.size() + 2 < n; ++first)
   {
-    std::vector<std::vector<std::size_t>> triangles;
+    triangles.clear();
+    is_folded = false;
     for(std::size_t k = 1; k + 1 < n; ++k)
-    {
-      const std::size_t a = polygon[first], b = polygon[(first + k) % n],
-                        c = polygon[(first + k + 1) % n];
-      if(!CGAL::collinear(points[a], points[b], points[c]))
-        triangles.push_back({a, b, c});
-    }
-    if(triangles.size() > most.size())
-      most = std::move(triangles);
+      add(first, (first + k) % n, (first + k + 1) % n);
+    if(!is_folded && triangles.size() > most.size())
+      most = triangles;
   }
-  return most;
+  if(!most.empty())
+    return most;
+  triangles.clear();
+  for(const auto& [a, b, c] : triangles_of_polygon(corners))
+    add(a, b, c);
+  return triangles;
 }
 
 } // namespace internal
@@ -68,7 +84,8 @@ std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>
 /// intersect other than in a common corner or side, by the exact predicates of
 /// `CGAL::Polygon_mesh_processing::self_intersections()`.
 ///
-/// Polygons are cut from one of their corners, into triangles with an area if that is possible.
+/// Polygons are cut from one of their corners, into triangles with an area if that is possible;
+/// those that are not convex into such that do not overlap.
 /// Triangles without area do not count, nor do faces with a corner that is not finite. Those beside
 /// a triangle without area may, and so may triangles where the surface is not an orientable
 /// manifold, as at an edge of three faces. Takes \f$O(n \log^3 n + k)\f$ time for \f$n\f$

@@ -49,6 +49,16 @@ Point with_weight_of(const Point& point, const Bare_point_of<Point>& place)
     return place;
 }
 
+// a point, with the weight of the one in its place before if points have weights
+template <typename Point, typename Old>
+decltype(auto) with_weight_of_old(const Point& point, [[maybe_unused]] const Old& old)
+{
+  if constexpr(is_valid<Construct_weighted, Point>)
+    return with_weight_of(Point(old()), bare_point(point));
+  else
+    return (point); // no copy
+}
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

@@ -36,6 +36,7 @@ auto domain_from_parameters(Shape& shape, const NamedParameters& np)
   if constexpr(std::is_same_v<Domain, Face_graph_domain<Mesh>>)
   {
     constexpr bool is_writable = has_parameter<NamedParameters, internal_np::output_point_map_t> ||
+                                 has_parameter<NamedParameters, internal_np::vertex_point_t> ||
                                  !std::is_const_v<Shape>;
     static_assert(is_writable, "a const mesh cannot be deformed; give its new points a place by "
                                "the named parameter output_point_map");
