@@ -932,6 +932,27 @@ void test_other_regions(const Model& model)
     CHECK(report.stages.region);
     CHECK_AT_MOST(report.energy[0], 1.01 * energy);
   }
+
+  // smoothed from now on, in the region that there is and in a new one
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    test_case() = model.name + ", smooth rotations from now on";
+    double energies[2];
+    for(const bool is_new : {false, true})
+    {
+      Run<Dimension> run(model, s, cells, {}, Minimizer::quasi_newton);
+      auto& d = run.deformation;
+      CHECK(d.deform(200, 1e-6));
+      Options options = d.options();
+      options.smoothing_length = 0.1 * diameter_of(model.points);
+      CHECK(d.set_options(options));
+      for(std::size_t v = 0; v < model.points.size() && is_new; ++v)
+        if(s.selection[v] == 2 && d.erase_roi_vertex(v))
+          d.insert_control_vertex(v, run.points[v]);
+      energies[is_new] = d.deform(0, 0).energy[0];
+    }
+    CHECK_AT_MOST(std::abs(energies[0] / energies[1] - 1), 1e-6);
+  }
 }
 
 // Faces that lie on each other have no distance over which rotations could be smooth, in whatever

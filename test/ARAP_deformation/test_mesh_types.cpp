@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
+#include <CGAL/arap_deform.h>
 
 #include <CGAL/boost/graph/Face_filtered_graph.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -8,10 +8,12 @@ import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { painted, setTool } from './painting.js';
 import { $, changed, engine, page, view } from './state.js';
-import { changing, commit, commitSoon, forgetPast, optionsOfNow } from './undo.js';
+import { changing, commit, commitSoon, forgetPast, inTurn, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
 
-export async function optionsChanged() {
+export const optionsChanged = () => inTurn(sendChangedOptions);
+
+async function sendChangedOptions() {
   const before = optionsOfNow();
   if ($('cells').value === 'elements') $('bending').value = 0;
   const wanted = options();
@@ -34,12 +36,15 @@ export async function optionsChanged() {
 }
 
 export async function weightsChanged() {
-  const weights = $('weights').value,
-    handles = messageOfHandles(),
-    stiffness = cellStiffness();
   await changing(async () => {
+    const weights = $('weights').value;
     await busy('Weights…', () =>
-      engine.call('weights', { weights, handles, options: options(), stiffness }),
+      engine.call('weights', {
+        weights,
+        handles: messageOfHandles(),
+        options: options(),
+        stiffness: cellStiffness(),
+      }),
     );
     page.shape.weights = weights;
     forgetPast();

@@ -7,12 +7,13 @@ import { cancelStroke, setTool } from './painting.js';
 import { actions, tools } from './panel.js';
 import { addKey, play } from './playing.js';
 import { changed, page } from './state.js';
-import { redo, undo } from './undo.js';
+import { commitNow, redo, undo } from './undo.js';
 
 addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (!page.shape || event.altKey || event.target.closest?.('input[type=text], select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
+  if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();
   const found = Object.keys(tools).find((id) => tools[id][2] === key);
   if (event.ctrlKey || event.metaKey) {
     if (key === 'z') (event.shiftKey ? redo : undo)();

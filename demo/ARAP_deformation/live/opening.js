@@ -19,7 +19,8 @@ async function openInTurn({ points, simplices, corners, volume, status }, name, 
   const n = points.length / 3,
     weights = $('weights').value;
   if (!n || !simplices.length) throw new Error(`${name} has no faces`);
-  if (page.shape) await commitNow();
+  if (view.gizmo.dragging) view.gizmo.pointerUp(null);
+  await commitNow();
   stopPlaying();
   cancelStroke();
   page.dragging = null;

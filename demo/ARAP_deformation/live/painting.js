@@ -98,15 +98,16 @@ export function paintArea() {
 }
 
 export async function painted() {
-  const fits = isDeformed();
+  const fits = isDeformed(),
+    { tool, paints } = page; // they may change until it is their turn
   await changing(async () => {
-    if (page.tool === 'stiffness') {
+    if (tool === 'stiffness') {
       $('measure').value = 'stiffness';
       await engine.call('stiffness', { values: cellStiffness() });
     } else {
       recountHandles(fits);
-      const painted = page.shape.handles[page.paints - HANDLE];
-      if (painted && isThere(painted)) page.chosen = page.paints - HANDLE;
+      const handle = page.shape.handles[paints - HANDLE];
+      if (handle && isThere(handle)) page.chosen = paints - HANDLE;
       await hold();
     }
     if (!page.shape.fixed && page.shape.handles.length === 1)

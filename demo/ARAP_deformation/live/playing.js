@@ -55,6 +55,7 @@ export function film() {
     window.MediaRecorder?.isTypeSupported(t),
   );
   if (!type) return say('This browser cannot record films.', true);
+  const { name } = page.shape; // another one may be opened meanwhile
   play(() => {
     const stream = view.canvas.captureStream(30),
       recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6e6 }),
@@ -63,7 +64,7 @@ export function film() {
     recorder.onstop = () => {
       stream.getTracks().forEach((track) => track.stop());
       save(
-        `${page.shape.name}.${type.includes('mp4') ? 'mp4' : 'webm'}`,
+        `${name}.${type.includes('mp4') ? 'mp4' : 'webm'}`,
         new Blob(parts, { type }),
       );
     };

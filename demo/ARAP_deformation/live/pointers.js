@@ -15,7 +15,7 @@ import {
 } from './painting.js';
 import { flood, nearestSeen } from './regions.js';
 import { $, page, view } from './state.js';
-import { commit } from './undo.js';
+import { commit, commitNow } from './undo.js';
 import { THREE } from './view.js';
 
 const pointers = new Set();
@@ -43,7 +43,7 @@ function pressed(event) {
       view.gizmo.pointerHover({ x: (2 * x) / w - 1, y: 1 - (2 * y) / h, button: -1 });
     if (page.chosen >= 0 && view.gizmo.axis) return view.letTurn(false);
     const k = handleAt(x, y, event.pointerType === 'touch' ? 30 : 16);
-    if (k < 0) return;
+    if (!page.shape.handles[k]) return; // or it is still to come
     view.letTurn(false);
     choose(k);
     grab(event, x, y, k);
@@ -142,6 +142,8 @@ function released(event) {
   drawStroke();
   if (hasPainted) painted();
 }
+
+addEventListener('pointerdown', commitNow, true);
 
 $('view').addEventListener('pointerdown', pressed, true);
 

@@ -52,11 +52,12 @@ export function commandLine() {
 }
 
 async function saveMesh(ending, which, suffix) {
+  const { shape } = page; // another one may be opened meanwhile
   try {
     const answer = await engine.call('points');
     save(
-      `${page.shape.name}${suffix}.${ending}`,
-      writeMesh(ending, { ...page.shape, points: answer[which] }),
+      `${shape.name}${suffix}.${ending}`,
+      writeMesh(ending, { ...shape, points: answer[which] }),
     );
   } catch (error) {
     complain(error);
@@ -89,10 +90,11 @@ export const saves = {
     );
   },
   Picture: () => {
-    const shown = view.gizmo.getHelper().visible;
+    const { name } = page.shape,
+      shown = view.gizmo.getHelper().visible;
     view.gizmo.getHelper().visible = false;
     view.render();
-    view.canvas.toBlob((blob) => save(`${page.shape.name}.png`, blob));
+    view.canvas.toBlob((blob) => save(`${name}.png`, blob));
     view.gizmo.getHelper().visible = shown;
     view.isDirty = true;
   },

@@ -31,6 +31,7 @@ export async function commit() {
   clearTimeout(timer);
   timer = 0;
   const { shape } = page;
+  if (!shape) return;
   const kept = {
     status: shape.status.slice(),
     stiffness: shape.stiffness && shape.stiffness.slice(),
@@ -67,6 +68,7 @@ export function commitSoon() {
   timer = setTimeout(commit, 400);
 }
 
+// before anything else is changed, so that it is a step of its own
 export async function commitNow() {
   if (timer) await commit();
 }

@@ -107,8 +107,11 @@ public:
   const Array<Matrix_3x3>& rotations() const { return m_rotations; }
   void set_rotations(Array<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
 
-  // Where a run goes on from the rotations before, but there are none, as of a new region: makes
-  // them those of the positions that it starts from.
+  // whether a run goes on from the rotations before
+  bool are_rotations_state() const;
+
+  // Where it does, but there are none, as of a new region: makes them those of the positions that
+  // it starts from.
   void complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
                 unsigned int number_of_threads);
 

@@ -349,11 +349,17 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::are_rotations_state() const
+{
+  return m_state->energy.are_rotations_state();
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
                                 unsigned int number_of_threads)
 {
-  if(rotations.empty() && m_state->energy.are_rotations_state() &&
-     m_order == Minimization_order::local_first && x != m_region.rest)
+  if(rotations.empty() && are_rotations_state() && m_order == Minimization_order::local_first &&
+     x != m_region.rest)
     run_with_threads(threads(number_of_threads), [&] {
       for(int k = 0; k <= 10; ++k) // then smooth them
         m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
@@ -437,7 +443,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_quasi_newton =
     options.minimizer == Minimizer::quasi_newton ||
     (options.minimizer == Minimizer::automatic && options.tolerance > 0);
-  if(m_state->energy.are_rotations_state() && m_order == Minimization_order::local_first &&
+  if(are_rotations_state() && m_order == Minimization_order::local_first &&
      (is_quasi_newton || options.tolerance > 0))
   {
     Scoped_seconds seconds(report.seconds.preprocess);

@@ -159,9 +159,14 @@ public:
       m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
       if(!m_outcome)
         return m_outcome;
+      const bool were_rotations_state = core().are_rotations_state();
       core().update_weights(std::move(model), options.threads);
       if(core().diagnosis().status == Status::success)
+      {
         m_ready.values = m_present.values;
+        if(core().are_rotations_state() && !were_rotations_state)
+          core().set_rotations({}); // those of cells that did not move were not kept
+      }
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
     {
