@@ -418,6 +418,24 @@ void test_all()
     Eigen_sparse_solver<Eigen::SimplicialLDLT<Sparse_matrix, Eigen::Upper>>()));
   CHECK_CONFORMS(check_sparse_solver(
     Eigen_sparse_solver<Eigen::ConjugateGradient<Sparse_matrix, Eigen::Lower | Eigen::Upper>>()));
+  // a preconditioner that reads both triangles, and is exact: one iteration
+  using With_general_preconditioner =
+    Eigen::ConjugateGradient<Sparse_matrix, Eigen::Lower, Eigen::IncompleteLUT<double>>;
+  Eigen_sparse_solver<With_general_preconditioner> exact([](With_general_preconditioner& solver) {
+    solver.preconditioner().setDroptol(1e-15);
+    solver.preconditioner().setFillfactor(1000);
+    solver.setMaxIterations(3);
+  });
+  Sparse_matrix path(40, 40);
+  for(int k = 0; k < 40; ++k)
+  {
+    path.insert(k, k) = 2.01;
+    if(k < 39)
+      path.insert(k + 1, k) = -1;
+  }
+  path.makeCompressed();
+  std::vector<CGAL::ARAP::Coordinates> x(40, {1, 2, 3});
+  CHECK(exact.analyze(path) && exact.factorize(path) && exact.solve(x.size(), x.data()));
   CHECK_CONFORMS(check_sparse_solver(
     Eigen_sparse_solver<Eigen::SparseQR<Sparse_matrix, Eigen::COLAMDOrdering<int>>>()));
   CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<CGAL_cholesky>()));

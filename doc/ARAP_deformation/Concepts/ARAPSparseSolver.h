@@ -73,7 +73,8 @@ public:
   /// rows as `b` has columns, and the system is
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
   /// = \begin{pmatrix} f \\ g \end{pmatrix}. \f]
-  /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts.
+  /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts. The
+  /// solver must not refer to them after the call.
   ///
   /// The rows of the border whose diagonal entry in `d` is zero or negative are multipliers: with zero
   /// their row is a constraint \f$b^T x = g\f$, with \f$-1/w\f$ a penalty \f$w (b^T x - g)^2\f$

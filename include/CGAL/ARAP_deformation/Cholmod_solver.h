@@ -33,6 +33,8 @@
 #endif
 
 #include <cstddef>
+#include <new>
+#include <stdexcept>
 
 namespace CGAL {
 namespace ARAP {
@@ -59,7 +61,7 @@ public:
   explicit Cholmod_solver(Fill_reducing_ordering ordering) : m_ordering(ordering) {}
 
   /// computes the ordering and the pattern of the factor, which depend on the pattern of `a` only.
-  /// Returns `false` if memory runs out.
+  /// \throws std::length_error if the factor has more than 2,147,483,647 entries
   bool analyze(const Sparse_matrix& a)
   {
     m_state.emplace(m_ordering);
@@ -68,7 +70,7 @@ public:
   }
 
   /// computes the factor; `a` has the pattern of the last `analyze()`. Returns `false` if `a` is
-  /// not positive definite, or if memory runs out.
+  /// not positive definite.
   bool factorize(const Sparse_matrix& a)
   {
     cholmod_sparse matrix = view(a);
@@ -124,6 +126,7 @@ private:
     bool analyze(cholmod_sparse& matrix)
     {
       factor = cholmod_analyze(&matrix, &common);
+      throw_if_too_large();
       if(factor == nullptr)
         return false;
       const auto supernode = static_cast<const int*>(factor->super);
@@ -147,12 +150,23 @@ private:
     bool factorize(cholmod_sparse& matrix)
     {
       substitution.remove_border();
-      if(!cholmod_factorize(&matrix, factor, &common) || common.status != CHOLMOD_OK)
+      const bool is_factorized = cholmod_factorize(&matrix, factor, &common);
+      throw_if_too_large();
+      if(!is_factorized || common.status != CHOLMOD_OK)
         return false;
       pack();
       // frees the values that CHOLMOD has; its pattern stays
       return cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor, &common)
           && internal::has_positive_diagonal(structure, values.data()); // CHOLMOD accepts NaN
+    }
+
+    // what says nothing of the matrix
+    void throw_if_too_large() const
+    {
+      if(common.status == CHOLMOD_OUT_OF_MEMORY)
+        throw std::bad_alloc();
+      if(common.status == CHOLMOD_TOO_LARGE)
+        throw std::length_error("Cholmod_solver: the factor has more entries than int can count");
     }
 
     void pack()

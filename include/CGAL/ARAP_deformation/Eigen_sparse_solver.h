@@ -55,13 +55,23 @@ template <typename EigenSolver>
 constexpr bool
   has_pivots<EigenSolver, std::void_t<decltype(std::declval<EigenSolver>().vectorD())>> = true;
 
+// whether an ordering or a preconditioner is content with one triangle of a symmetric matrix
+template <typename Part, typename = void>
+constexpr bool is_for_triangle = false;
+template <typename Part> // orderings, and Eigen::IncompleteCholesky
+constexpr bool is_for_triangle<Part, std::void_t<typename Part::PermutationType>> = true;
+template <typename Scalar>
+constexpr bool is_for_triangle<Eigen::DiagonalPreconditioner<Scalar>> = true;
+template <>
+inline constexpr bool is_for_triangle<Eigen::IdentityPreconditioner> = true;
+
 // Eigen's solvers for symmetric matrices have the triangle that they read as second argument.
 template <typename EigenSolver>
 constexpr bool reads_lower_triangle_only = false;
 template <template <typename, int, typename...> class EigenSolver, typename Matrix,
-          typename... Arguments>
-constexpr bool
-  reads_lower_triangle_only<EigenSolver<Matrix, Eigen::Lower, Arguments...>> = true;
+          typename... Parts>
+constexpr bool reads_lower_triangle_only<EigenSolver<Matrix, Eigen::Lower, Parts...>> =
+  (is_for_triangle<Parts> && ...);
 
 // These have no info() before they have a factor.
 template <typename EigenSolver>
@@ -77,8 +87,9 @@ constexpr bool reports_analysis<Eigen::SparseQR<Matrix, Ordering>> = false;
 /// \brief any solver of Eigen that can solve for symmetric matrices, direct or iterative.
 ///
 /// A solver that reads the lower triangle only, as `Eigen::SimplicialLLT<Sparse_matrix,
-/// Eigen::Lower>`, gets the matrix as it is. All others, as `Eigen::SparseLU`, get a copy with both
-/// triangles. Solvers for general matrices may factorize what is not positive definite.
+/// Eigen::Lower>`, gets the matrix as it is. All others, as `Eigen::SparseLU`, or those with a
+/// preconditioner for general matrices, get a copy with both triangles. Solvers for general
+/// matrices may factorize what is not positive definite.
 ///
 /// A matrix is refused if an entry is not finite or one on the diagonal is not positive, if Eigen
 /// reports a failure, and if there are pivots and one of them is not positive. An iterative solver

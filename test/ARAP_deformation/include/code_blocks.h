@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/Triangulation_domain.h>
+#include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -51,11 +52,14 @@ C3t3::Vertex_handle vertex_handle;
 CGAL::ARAP_deformation<Mesh> deformation(mesh);
 vertex_descriptor v;
 std::vector<vertex_descriptor> roi, region, handle;
-Point target, other_target;
+Point target, other_target, picked;
+Kernel::Plane_3 plane;
+std::vector<Kernel::Aff_transformation_3> poses;
+double tolerance = 0.1;
 std::map<vertex_descriptor, Point> targets;
 bool is_fixed(vertex_descriptor) { return false; }
 bool is_cancelled() { return false; }
 std::map<vertex_descriptor, bool> is_bone;
-Mesh::Property_map<vertex_descriptor, Point> preview_map, deformed_points, rest_points;
+Mesh::Property_map<vertex_descriptor, Point> preview_map, rest_points;
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_CODE_BLOCKS_H

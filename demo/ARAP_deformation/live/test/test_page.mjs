@@ -568,7 +568,7 @@ const steps = {
     const before = await positions();
     await page.select('#cells', 'spokes');
     await settled();
-    await page.select('#cells', 'elements');
+    await page.select('#cells', 'k_ring:2');
     await settled();
     await page.evaluate(() => {
       for (let k = 0; k < 2; ++k) document.getElementById('undo').click();

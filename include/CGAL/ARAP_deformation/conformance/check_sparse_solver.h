@@ -28,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -312,26 +313,46 @@ private:
   void check_borders()
   {
     const Sparse_matrix a = grid(9, 8, 0.3);
-    const int n = static_cast<int>(a.rows()), size = 7, number_of_multipliers = 3;
+    const int n = static_cast<int>(a.rows());
     const Sparse_matrix none(n, 0);
     Any_solver solver(m_prototype);
     if(!prepare(solver, a, "a grid that will get a border"))
       return;
-    const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
+    const auto is_border_set = [&](Sparse_matrix b, Eigen::MatrixXd d) {
       const bool is_set = solver->set_border(b, d);
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      b *= nan; // a solver must not refer to them after the call
+      d *= nan;
+      return is_set;
+    };
+    const auto set_border = [&](const Sparse_matrix& b, const Eigen::MatrixXd& d) {
+      const bool is_set = is_border_set(b, d);
       m_violations.check(is_set, "set_border() returns false for ", b.cols(), " columns");
       return is_set;
     };
-    for(int repetition = 0; repetition < 2; ++repetition)
+    // multipliers that depend on each other: two that are the same, and one without entries
+    for(const int entries_of_second : {1, 0})
     {
+      Sparse_matrix b(n, 2);
+      b.insert(5, 0) = 1;
+      if(entries_of_second > 0)
+        b.insert(5, 1) = 1;
+      b.makeCompressed();
+      m_violations.check(!is_border_set(b, Eigen::MatrixXd::Zero(2, 2)),
+                         "set_border() returns true for multipliers that depend on each other");
+    }
+    for(int repetition = 0; repetition < 4; ++repetition)
+    {
+      const int size = repetition < 2 ? 7 : 40, number_of_multipliers = repetition < 2 ? 3 : 20;
+      const double diagonal = 3 * size;
       std::vector<Eigen::Triplet<double, int>> entries;
       Eigen::MatrixXd d = Eigen::MatrixXd::Zero(size, size);
       for(int k = 0; k < number_of_multipliers; ++k)
-        entries.emplace_back(11 * k + repetition, k, 1);
-      d(0, 0) = -0.5 * repetition; // in the second repetition a penalty instead of a constraint
+        entries.emplace_back((11 * k + repetition) % n, k, 1);
+      d(0, 0) = -0.5 * (repetition % 2); // every second time a penalty instead of a constraint
       for(int k = number_of_multipliers; k < size; ++k)
       {
-        d(k, k) = 20;
+        d(k, k) = diagonal;
         for(int j = 0; j < 3; ++j)
           entries.emplace_back((17 * k + 5 * j + repetition) % n, k, -random(0.5, 1));
       }
@@ -347,10 +368,10 @@ private:
       solver = std::move(moved);
 
       d(size - 1, size - 1) = 1e-3; // not a multiplier, and too small for a minimum
-      m_violations.check(!solver->set_border(b, d), "set_border() returns true for a matrix that "
+      m_violations.check(!is_border_set(b, d), "set_border() returns true for a matrix that "
                          "is not positive definite");
       check_solution(solver, a, random_rows(a), "a matrix after a border was refused");
-      d(size - 1, size - 1) = 20;
+      d(size - 1, size - 1) = diagonal;
       if(set_border(b, d) && set_border(none, Eigen::MatrixXd()))
         check_solution(solver, a, random_rows(a), "a matrix without the border that it had");
       if(set_border(b, d) && factorize(solver, a, "a grid that had a border"))
