@@ -215,19 +215,20 @@ private:
   // that others determine.
   static Eigen::Vector3d lowest_combination(const Eigen::Matrix3d& a, const Eigen::Matrix3d& l)
   {
-    using Form = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
     Eigen::Vector3d scale;
     for(int k = 0; k < 3; ++k)
       scale[k] = l(k, k) > 0 ? 1 / std::sqrt(l(k, k)) : 0;
     const Eigen::Matrix3d scaled_l = scale.asDiagonal() * l * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> metric(scaled_l);
-    const auto rank = (metric.eigenvalues().array() > 1e-8).count(); // the last ones
-    if(rank == 0)
-      return Eigen::Vector3d::Zero();
-    const Form basis = scale.asDiagonal() * metric.eigenvectors().rightCols(rank) *
-      metric.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
-    const Form form = basis.transpose() * a * basis;
-    return basis * Eigen::SelfAdjointEigenSolver<Form>(form).eigenvectors().col(0);
+    Eigen::Matrix3d basis = scale.asDiagonal() * metric.eigenvectors();
+    for(int k = 0; k < 3; ++k)
+      basis.col(k) *= metric.eigenvalues()[k] > 1e-8 ? 1 / std::sqrt(metric.eigenvalues()[k]) : 0;
+    Eigen::Matrix3d form = basis.transpose() * a * basis;
+    const double above_all = 1 + form.norm();
+    for(int k = 0; k < 3; ++k)
+      if(basis.col(k).isZero(0)) // not a matrix of fewer rows: that costs seconds to compile
+        form(k, k) = above_all;
+    return basis * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form).eigenvectors().col(0);
   }
 
   bool solve_laplacian()

@@ -21,7 +21,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +46,8 @@ struct Free_components
 // For some components the sums of the coefficients that a row has in them.
 using Row_sums = std::map<int, double>;
 
-// Ties the components that are determined by these rows, all that couple them.
+// Ties the components that are determined by these rows, all that couple them: by Gauss-Jordan
+// elimination with complete pivoting, of which Eigen's form costs each program seconds to compile.
 inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& is_tied)
 {
   std::map<int, int> columns;
@@ -59,14 +59,31 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
   for(std::size_t r = 0; r < rows.size(); ++r)
     for(const auto& [component, sum] : *rows[r])
       matrix(static_cast<int>(r), columns[component]) = sum;
-  matrix.rowwise().normalize();
-  matrix.colwise().normalize();
-  Eigen::FullPivLU<Eigen::MatrixXd> factors(matrix);
-  factors.setThreshold(smallest_sine);
-  // what can move without a change of any row; a column of zeros if nothing can
-  const Eigen::MatrixXd kernel = factors.kernel();
+  for(Eigen::Index r = 0; r < matrix.rows(); ++r)
+    matrix.row(r).normalize();
+  for(Eigen::Index c = 0; c < matrix.cols(); ++c)
+    matrix.col(c).normalize();
+  Array<Eigen::Index> row_of(columns.size(), -1); // of each pivot
+  for(Eigen::Index rank = 0; rank < matrix.rows(); ++rank)
+  {
+    Eigen::Index r = 0, c = 0;
+    const double largest = matrix.bottomRows(matrix.rows() - rank).cwiseAbs().maxCoeff(&r, &c);
+    if(!(largest > smallest_sine))
+      break;
+    matrix.row(rank).swap(matrix.row(rank + r));
+    matrix.row(rank) /= double(matrix(rank, c));
+    for(Eigen::Index other = 0; other < matrix.rows(); ++other)
+      if(other != rank)
+        matrix.row(other) -= double(matrix(other, c)) * matrix.row(rank);
+    row_of[static_cast<std::size_t>(c)] = rank;
+  }
+  // a pivot moves as its row says if others move, which are no pivots
   for(const auto& [component, k] : columns)
-    is_tied[component] = kernel.row(k).norm() <= smallest_sine * kernel.norm();
+    if(const Eigen::Index r = row_of[static_cast<std::size_t>(k)]; r >= 0)
+    {
+      matrix(r, k) = 0;
+      is_tied[component] = matrix.row(r).norm() <= smallest_sine;
+    }
 }
 
 // Ties components that no edge ties, but rows: no translation of them leaves the rows their values.
