@@ -874,6 +874,24 @@ void test_fixed_corners()
     CHECK(d.deform());
     CHECK_AT_MOST(s.miss(), 1e-12);
   }
+
+  test_case() = "fixed corners, far from the origin";
+  double scales[2];
+  for(const double offset : {0., 1e5})
+  {
+    Held_shape<2> far = shape;
+    for(std::size_t w = 0; w < far.points.size(); ++w)
+    {
+      far.points[w].array() += offset;
+      far.scenario.targets[w].array() += offset;
+    }
+    Subject<2> s(far);
+    const std::size_t place = far.places(3)[1];
+    s.insert(place, {0.2, 0.3, 0.5}, 2, {0, 0, 0.1});
+    CHECK(s.deformation.erase_roi_vertex(far.simplices[place][2]));
+    scales[offset > 0] = s.deformation.deform().energy_scale;
+  }
+  CHECK_AT_MOST(std::abs(scales[1] / scales[0] - 1), 1e-3);
 }
 
 } // namespace histories

@@ -973,6 +973,16 @@ void test_double_faces(const Model& model)
       twice.simplices.push_back(face);
     }
     iterates::compare<2>(twice, s, Cell_scheme::elements(), Dense_reference::ELEMENTS, terms);
+
+    // all of it is there twice, and nothing of it on the border bends
+    Terms bending;
+    bending.bending_length = terms.smoothing_length;
+    Run<2> single(model, s, Cell_scheme::spokes(), bending);
+    Run<2> both(twice, s, Cell_scheme::spokes(), bending);
+    const Report expected = single.deformation.deform(10, 0);
+    const Report found = both.deformation.deform(10, 0);
+    for(std::size_t k = 0; k < expected.energy.size(); ++k)
+      CHECK_AT_MOST(std::abs(found.energy.at(k) / (2 * expected.energy[k]) - 1), 1e-9);
   }
 }
 

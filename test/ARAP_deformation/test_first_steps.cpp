@@ -747,6 +747,35 @@ void test_points_of_others()
   s.mesh.point(Vertex(13)) = corner;
 }
 
+// The rest point of a vertex that was inserted broken is where it is when it is mended, whatever is
+// called next.
+void test_mended_points()
+{
+  test_case() = "mended points";
+  const Vertex v(3);
+  const Point broken(0, std::nan(""), 0);
+  Session s, t;
+  const Point sound = s.mesh.point(v);
+  const auto before = s.d.state();
+  s.mesh.point(v) = broken;
+  s.d.insert_roi_vertex(v);
+  CHECK(s.d.deform().status == Status::non_finite_point);
+  s.mesh.point(v) = sound;
+  const auto mended = s.d.state();
+  CHECK(s.d.deform());
+  CHECK(s.d.restore(mended));
+  CHECK(s.d.deform());
+  CHECK(s.d.restore(before));
+  CHECK(s.mesh.point(v) == sound);
+
+  t.mesh.point(v) = broken;
+  t.d.insert_roi_vertex(v);
+  t.mesh.point(v) = sound;
+  t.d.reset();
+  CHECK(t.mesh.point(v) == sound);
+  CHECK(t.d.deform());
+}
+
 } // namespace undo
 
 // Weights of a user: they count from the next run on, and what is singular is refused.
@@ -1319,6 +1348,7 @@ int main()
   undo::test_state();
   undo::test_branches();
   undo::test_points_of_others();
+  undo::test_mended_points();
   user_weights::test_changes();
   user_weights::test_singular();
   user_weights::test_negative_energies();

@@ -1164,6 +1164,32 @@ void test_polygons()
   CHECK(std::isnan(quality(CGAL::ARAP::make_polygon_soup_domain(now, open), rest).volume_change));
 }
 
+// What encloses nothing at rest has no change of its volume, wherever it lies; an area that is not
+// known has no change that is.
+void test_flat()
+{
+  test_case() = "quality of a pillow";
+  const Eigen::AngleAxisd turn(1, Eigen::Vector3d(1, 2, 3).normalized());
+  Points flat, inflated;
+  for(int k = 0; k < 6; ++k)
+    flat.emplace_back(turn * Eigen::Vector3d(std::cos(k), std::sin(k), 1.3));
+  flat.emplace_back((flat[0] + flat[2] + flat[4]) / 3);
+  flat.emplace_back((flat[1] + flat[3] + flat[5]) / 3);
+  std::vector<std::array<std::size_t, 3>> faces;
+  for(std::size_t k = 0; k < 6; ++k)
+  {
+    faces.push_back({k, (k + 1) % 6, 6});
+    faces.push_back({(k + 1) % 6, k, 7});
+  }
+  inflated = flat;
+  inflated[6] += turn * Eigen::Vector3d(0, 0, 1);
+  const auto domain = CGAL::ARAP::make_polygon_soup_domain(inflated, faces);
+  CHECK(std::isnan(quality(domain, flat).volume_change));
+  CHECK_AT_MOST(std::abs(quality(domain, inflated).volume_change), 1e-14);
+  flat[3].x() = std::nan("");
+  CHECK(std::isnan(quality(domain, flat).area_change));
+}
+
 // A mesh has the measures of its domain, also a const one, which is only read.
 void test_meshes()
 {
@@ -1261,6 +1287,7 @@ void test_all()
   const Block cubes = unit_cubes(2, 2, 2);
   test_shape<3>(cubes.points, cubes.tetrahedra);
   test_polygons();
+  test_flat();
   test_meshes();
   test_self_intersections();
 }

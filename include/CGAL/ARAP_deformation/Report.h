@@ -141,7 +141,9 @@ struct Report : Outcome
   unsigned int looking_iterations = 0;
 
   std::size_t free_vertices = 0; ///< the number of vertices that were solved for
-  std::size_t simplices = 0;     ///< the number of simplices in and around the region of interest
+  /// the number of simplices in and around the region of interest; where hard control vertices are
+  /// more than half of it, those at a distance from all that can move may not count
+  std::size_t simplices = 0;
 
   /// the number of these tetrahedra that are inverted: the sign of their volume differs from that
   /// in the rest shape. 0 on a surface.

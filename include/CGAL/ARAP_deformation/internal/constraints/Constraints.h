@@ -107,6 +107,10 @@ public:
     return sum;
   }
 
+  // Where targets want vertices of these rows: a target itself may be no place at all, as the share
+  // of vertices that cannot move, and are no part of a row, is taken from it.
+  Array<Coordinates> places(const Array<Coordinates>& targets, const Array<Coordinates>& x) const;
+
   // whether each row has at most one vertex, so that B^T M B is diagonal
   bool is_diagonal() const { return m_is_diagonal; }
 

@@ -89,6 +89,22 @@ double Weighted_rows::pull(const Array<Coordinates>& targets,
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+Array<Coordinates> Weighted_rows::places(const Array<Coordinates>& targets,
+                                         const Array<Coordinates>& x) const
+{
+  Array<Coordinates> result;
+  for(int r = 0; r < size(); ++r)
+    if(position(r) >= 0)
+      result.push_back(targets[r]);
+    else if(const Row vertices = row(r); vertices.begin() != vertices.end())
+    {
+      result.push_back(x[*vertices.begin()]);
+      add(result.back(), 1, difference(targets[r], value(r, x.data())));
+    }
+  return result;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 Array<int> Weighted_rows::order() const
 {
   Array<int> rows(m_weights.size());

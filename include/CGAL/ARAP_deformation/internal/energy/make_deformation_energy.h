@@ -63,20 +63,29 @@ void for_each_facet(const Region& region, int s, const Function& f)
   }
 }
 
-// for each center whether it is on the border: a facet there has one simplex only
+// For each center whether it is on the border: a facet there has one simplex only, or one that is
+// there several times.
 inline Array<char> find_border(const Region& region)
 {
-  std::vector<std::array<int, 3>> facets;
+  using Facet = std::pair<std::array<int, 3>, int>; // with a simplex
+  std::vector<Facet> facets;
   facets.reserve(region.corners.size());
   for(int s = 0; s < region.number_of_simplices(); ++s)
-    for_each_facet(region, s, [&](const std::array<int, 3>& facet) { facets.push_back(facet); });
+    for_each_facet(region, s,
+                   [&](const std::array<int, 3>& facet) { facets.emplace_back(facet, s); });
   std::sort(facets.begin(), facets.end());
+  const auto have_same_corners = [&](const Facet& f, const Facet& g) {
+    const int *const a = region.corners_of(f.second), *const b = region.corners_of(g.second);
+    return std::is_permutation(a, a + region.number_of_corners(f.second), b,
+                               b + region.number_of_corners(g.second));
+  };
   Array<char> is_on_border(region.number_of_centers, false);
   for(auto begin = facets.begin(); begin != facets.end();)
   {
-    const auto end = std::upper_bound(begin, facets.end(), *begin);
-    if(end - begin == 1)
-      for(int v : *begin)
+    const auto end = std::find_if(
+      begin, facets.end(), [&](const Facet& other) { return other.first != begin->first; });
+    if(std::all_of(begin + 1, end, [&](const Facet& f) { return have_same_corners(*begin, f); }))
+      for(int v : begin->first)
         if(0 <= v && v < region.number_of_centers)
           is_on_border[v] = true;
     begin = end;

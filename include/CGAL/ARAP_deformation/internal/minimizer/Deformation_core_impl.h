@@ -391,8 +391,8 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
   Bounding_box box;
   include_near(m_region.rest, box);
   include_near(before, box);
-  box.include(targets.soft);
-  box.include(targets.hard);
+  box.include(m_constraints.rows.places(targets.soft, before));
+  box.include(m_constraints.hard_rows.places(targets.hard, before));
   const double size = box.squared_length();
   include_near(x, box);
   if(!guess.is_found() || !(box.squared_length() <= 4 * size) || find_non_finite(x) >= 0)

@@ -368,7 +368,7 @@ private:
   {
     Scoped_seconds local(report.seconds.local_steps);
     Bounding_box box = m_energy.bounding_box(x);
-    box.include(m_targets.soft);
+    box.include(m_rows.places(m_targets.soft, x));
     report.energy_scale = m_energy.scale(box);
     report.rounding_level = m_energy.rounding_level(box, m_inertia);
     diameter = std::sqrt(box.squared_length());

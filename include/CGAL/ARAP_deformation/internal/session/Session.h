@@ -273,13 +273,9 @@ private:
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex));
     for(const auto& [k, point] : changed)
     {
-      Entry& entry = m_vertices.entries()[k];
       m_vertices.present_points()[k] = point;
-      if(!is_finite(Domain::coordinates(entry.rest))) // it has been mended
-      {
-        entry.rest = point;
+      if(this->mend(m_vertices.entries()[k], point))
         region_changed();
-      }
     }
     return m_prepared.has_region() ? m_prepared.take_points(m_vertices, changed)
                                    : outcome(Status::success);

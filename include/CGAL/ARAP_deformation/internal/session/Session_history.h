@@ -50,6 +50,10 @@ public:
   {
     if(refuse_in_a_run())
       return;
+    if(takes_points())
+      for(const auto& [k, point] : m_vertices.changed_points())
+        if(mend(m_vertices.entries()[k], point))
+          region_changed();
     Array<Coordinates> positions;
     if(m_prepared.has_region())
     {
@@ -122,7 +126,10 @@ public:
     {
       const auto changed = m_vertices.changed_points();
       for(const auto& [k, point] : changed)
+      {
         state.vertices.present_points[k] = point;
+        mend(state.vertices.entries[k], point);
+      }
       if(m_prepared.has_region())
         m_prepared.take_points(changed, state.prepared.positions);
     }
@@ -173,6 +180,17 @@ protected:
   using Base::replace_target;
   using Base::set_points;
   using Base::takes_points;
+
+  // Where a vertex was inserted whose point was not finite, and others have mended it: there its
+  // rest point is. Returns whether it has changed.
+  static bool mend(Entry& entry, const Point& point)
+  {
+    const bool is_mended = !is_finite(Domain::coordinates(entry.rest)) &&
+                           is_finite(Domain::coordinates(point));
+    if(is_mended)
+      entry.rest = point;
+    return is_mended;
+  }
 
   // f(k, entry) for each entry: points are copied before any is changed, as copies may throw
   template <typename Function>

@@ -55,8 +55,10 @@ public:
   Point target(Handle handle) const
   {
     const auto* target = m_vertices.find_target(handle);
-    return target == nullptr ? present(handle)
-           : target->set     ? target->set(present(handle)) : target->point;
+    if(target == nullptr)
+      return present(handle);
+    const auto set = target->set; // as a function of the user, it may insert other targets
+    return set ? set(present(handle)) : target->point;
   }
 
   // `f()` is the new target. It alone may ask where the present one is, which calls a set: a set

@@ -437,10 +437,11 @@ public:
       m_first_points.push_back(m_entries[k].rest);
   }
 
-  // the point of a vertex when its entry was made
+  // the point of a vertex when its entry was made, or, if that was not finite, its rest point
   const Point& first_point(std::size_t k) const
   {
-    return k < m_first_points.size() ? m_first_points[k] : m_entries[k].rest;
+    return k < m_first_points.size() && is_finite(Domain::coordinates(m_first_points[k]))
+             ? m_first_points[k] : m_entries[k].rest;
   }
 
 private:

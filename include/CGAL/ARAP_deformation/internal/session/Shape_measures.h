@@ -75,7 +75,7 @@ public:
       area += length(vector_area(face, m_points));
       rest_area += length(vector_area(face, m_rest));
     }
-    return rest_area > 0 ? area / rest_area - 1 : 0;
+    return rest_area == 0 ? 0 : area / rest_area - 1;
   }
 
   double volume_change() const
@@ -252,15 +252,16 @@ private:
   // from the mean of their corners.
   static double enclosed_volume(const std::vector<Simplex>& faces, const Points& p)
   {
-    double volume = 0;
+    double volume = 0, largest = 0; // what it would be if all faces were seen from the front
     for(const Simplex& face : faces)
     {
       Coordinates mean = {0, 0, 0};
       for(std::size_t v : face)
         add(mean, 1 / static_cast<double>(face.size()), difference(p[v], p[faces[0][0]]));
       volume += dot(mean, vector_area(face, p)) / 3;
+      largest += length(mean) * length(vector_area(face, p)) / 3;
     }
-    return volume;
+    return std::abs(volume) <= 1e-12 * largest ? 0 : volume; // of what is flat: rounding errors
   }
 
   // Whether each side of a face is that of another one, in the other direction.

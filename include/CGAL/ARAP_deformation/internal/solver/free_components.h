@@ -54,8 +54,9 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
   for(const Row_sums* row : rows)
     for(const auto& entry : *row)
       columns.emplace(entry.first, static_cast<int>(columns.size()));
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(static_cast<int>(rows.size()),
-                                                 static_cast<int>(columns.size()));
+  using Row_major = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Row_major matrix = Row_major::Zero(static_cast<int>(rows.size()),
+                                     static_cast<int>(columns.size()));
   for(std::size_t r = 0; r < rows.size(); ++r)
     for(const auto& [component, sum] : *rows[r])
       matrix(static_cast<int>(r), columns[component]) = sum;
@@ -73,8 +74,8 @@ inline void tie_coupled(const std::vector<const Row_sums*>& rows, Array<char>& i
     matrix.row(rank).swap(matrix.row(rank + r));
     matrix.row(rank) /= double(matrix(rank, c));
     for(Eigen::Index other = 0; other < matrix.rows(); ++other)
-      if(other != rank)
-        matrix.row(other) -= double(matrix(other, c)) * matrix.row(rank);
+      if(const double factor = matrix(other, c); other != rank && factor != 0)
+        matrix.row(other) -= factor * matrix.row(rank);
     row_of[static_cast<std::size_t>(c)] = rank;
   }
   // a pivot moves as its row says if others move, which are no pivots
