@@ -3,7 +3,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/generators.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -14,9 +13,10 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-// Pulls one vertex, the middle of a unit square of n x n quads whose border stays, and prints the
-// heights along a line from it. Without bending the vertex stands alone: the finer the mesh, the
-// thinner the spike. With it the shape is the same on all meshes.
+// Pulls one vertex, the middle of a unit square of n x n squares of two triangles each, whose
+// border stays, and prints the heights along a line from it. Without bending the vertex stands
+// alone: the finer the mesh, the thinner the spike. With it the shape is nearly the same on all
+// meshes.
 bool pull(int n, double bending_length)
 {
   Mesh mesh;
@@ -48,8 +48,8 @@ bool pull(int n, double bending_length)
     std::cerr << report.message << std::endl;
     return false;
   }
-  std::cout << n << " quads, bending length " << bending_length << ": " << report.iterations
-            << " iterations, energy " << report.final_energy() << ", heights";
+  std::cout << n << " x " << n << " squares, bending length " << bending_length << ": "
+            << report.iterations << " iterations, energy " << report.final_energy() << ", heights";
   for(int distance : {0, 1, 2, 4, 6}) // in twentieths
     std::cout << ' ' << mesh.point(line[distance * n / 20]).z();
   std::cout << std::endl;

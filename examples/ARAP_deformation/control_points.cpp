@@ -53,7 +53,7 @@ int main()
               << ", the handle is at " << deformation.control_point_position(handle.point)
               << std::endl;
   }
-  // a soft one may be left behind
+  // a soft one need not reach its target
   CGAL::ARAP::Outcome outcome = deformation.set_target_weight(handle.point, 0.1);
   if(outcome)
     outcome = deformation.deform();

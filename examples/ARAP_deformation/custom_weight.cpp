@@ -56,8 +56,11 @@ bool bend(const char* name, const Traits& traits, Cell_scheme cells)
   CGAL::ARAP_deformation<Mesh, Traits> deformation(mesh, traits);
   CGAL::ARAP::Options options;
   options.cells = cells; // at run time
-  if(!deformation.set_options(options))
+  if(const CGAL::ARAP::Outcome set = deformation.set_options(options); !set)
+  {
+    std::cerr << name << ": " << set.message << std::endl;
     return false;
+  }
   for(Mesh::Vertex_index v : mesh.vertices())
   {
     if(rest.point(v).x() > 0.15) deformation.insert_roi_vertex(v);
@@ -66,9 +69,14 @@ bool bend(const char* name, const Traits& traits, Cell_scheme cells)
     deformation.translate(v, Kernel::Vector_3(-1, 0, 1.5));
   }
   const CGAL::ARAP::Report report = deformation.deform();
+  if(!report)
+  {
+    std::cerr << name << ": " << report.message << std::endl;
+    return false;
+  }
   std::cout << name << ": " << report.iterations << " iterations, edge length error "
             << CGAL::ARAP::quality(mesh, rest.points()).edge_length_error << std::endl;
-  return bool(report);
+  return true;
 }
 
 int main()

@@ -15,8 +15,8 @@
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Tetrahedron = std::array<int, 4>;
 
-// writes the points as a .mesh file
-void write(const std::string& name, const std::vector<Point>& points,
+// writes the points as a .mesh file; returns whether that succeeded
+bool write(const std::string& name, const std::vector<Point>& points,
            const std::vector<Tetrahedron>& tetrahedra)
 {
   std::ofstream file(name);
@@ -26,9 +26,10 @@ void write(const std::string& name, const std::vector<Point>& points,
   file << "Tetrahedra\n" << tetrahedra.size() << '\n';
   for(const Tetrahedron& t : tetrahedra)
     file << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << ' ' << t[3] + 1 << " 0\n";
+  return bool(file.flush());
 }
 
-// usage: falling_body [PREFIX]    with a prefix, every tenth step is written to PREFIX0.mesh, ...
+// usage: falling_body [PREFIX]    with a prefix, every tenth step is written to PREFIX1.mesh, ...
 int main(int argc, char** argv)
 {
   // a bar of 24 x 4 x 4 cubes of 5 cm, each cut into six tetrahedra around its diagonal
@@ -93,8 +94,11 @@ int main(int argc, char** argv)
               << std::setw(9) << report.elastic_energy << std::setw(22)
               << -dynamics.acceleration[2] * report.mass * report.center_of_mass[2]
               << std::setw(19) << report.momentum[2] << std::setw(12) << lowest->z() << std::endl;
-    if(argc > 1)
-      write(argv[1] + std::to_string(step / 10) + ".mesh", points, tetrahedra);
+    if(argc > 1 && !write(argv[1] + std::to_string(step / 10) + ".mesh", points, tetrahedra))
+    {
+      std::cerr << "a file with the prefix " << argv[1] << " cannot be written" << std::endl;
+      return EXIT_FAILURE;
+    }
   }
   return EXIT_SUCCESS;
 }

@@ -74,8 +74,8 @@ using Call_turn = Requires_convertible<
 /// preprocessing first finds it around the region of interest. Only vertices in the *region of
 /// interest* move: its *control vertices* move to their targets, or are pulled toward them, see
 /// `set_target_weight()`; its other vertices are *free* and are solved for. *Fixed* are vertices
-/// outside the region, hard control vertices, and vertices in the region that have no incident
-/// simplex.
+/// outside the region, hard control vertices, and other vertices in the region that have no
+/// incident simplex, unless a soft target pulls them.
 ///
 /// Time and memory depend on the number n of vertices that were ever in the region of interest,
 /// and not on that of the mesh, if the mesh has, or is given, an index map: an iteration takes
@@ -240,7 +240,8 @@ public:
   }
 
   /// makes `v` a control vertex, and inserts it in the region of interest if needed. Its target is
-  /// its current position, with infinite weight. Returns `true` if it was not a control vertex.
+  /// its current position, with infinite weight. Returns `true` if it was not a control vertex;
+  /// otherwise nothing changes.
   bool insert_control_vertex(vertex_descriptor v)
   {
     return m_session.insert_control(v);
@@ -584,9 +585,9 @@ public:
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
   /// last factorization if few vertices have changed. Does nothing if all is up to date.
-  /// `deform()` calls it where needed. Not to be called between time steps, whose matrix is
-  /// another one: `advance()` prepares it. `ARAP::Status` lists the failures. The message of a
-  /// success names the unconstrained components, if there are any.
+  /// `deform()` calls it where needed. Do not call it between time steps: they use another matrix,
+  /// which `advance()` prepares. `ARAP::Status` lists the failures. The message of a success names
+  /// the unconstrained components, if there are any.
   [[nodiscard]] ARAP::Outcome preprocess() { return m_session.preprocess(); }
 
   /// moves the control vertices to their targets, or toward soft ones, and the free vertices with
@@ -659,9 +660,9 @@ public:
     return m_session.advance(dynamics, {}, ARAP::Default_visitor());
   }
 
-  /// returns the velocity of `v`: what the last `advance()` has moved it, over the time step, or
-  /// what was set since. Zero at first, after `deform()` and `reset()`, and when `v` has left the
-  /// region of interest.
+  /// returns the velocity of `v`: its displacement in the last `advance()` divided by the time
+  /// step, or the velocity that was set since. Zero at first, after `deform()` and `reset()`, and
+  /// when `v` has left the region of interest.
   ARAP::Coordinates velocity(vertex_descriptor v) const { return m_session.velocity(v); }
 
   /// sets the velocity with which the next step begins, whose type has `operator[]` for as many
@@ -686,9 +687,10 @@ public:
   /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
   /// memory. What functions of target sets refer to must live as long as a state that has them.
   /// Options, stiffness and groups are no part of it: a program that lets its users change these
-  /// keeps them itself, and sets them before it restores the state, which has the rotations of the
-  /// cells of then. Nor is the factor: where that, or the region, was computed again since, runs
-  /// from a restored state have the same iterates only up to rounding.
+  /// must save them itself, and must set them again before it restores the state, because the
+  /// rotations in a state belong to the cells that were in use when it was taken. The factor is no
+  /// part of it, either: if it, or the region, was computed again since, runs from a restored state
+  /// have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs

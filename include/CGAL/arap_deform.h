@@ -100,7 +100,8 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
 /// \brief deforms a shape as rigidly as possible, in one call, with options.
 ///
 /// The other parameters are those of the overload without `options`. The number of iterations of
-/// `np`, if it has one, takes precedence; `deformation_options` does not compile.
+/// `np`, if it has one, takes precedence. Passing `deformation_options`, too, is an error of
+/// compilation.
 template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAMETERS>
 [[nodiscard]] ARAP::Report arap_deform(Shape&& shape, const TargetRange& targets,
                                        const ARAP::Options& options,
@@ -112,8 +113,8 @@ template <typename Shape, typename TargetRange, typename CGAL_NP_TEMPLATE_PARAME
 }
 
 /// \ingroup PkgARAPDeformationRef
-/// \brief deforms a shape as rigidly as possible, in one call, with a map that tells which vertices
-/// are constrained and one of their targets.
+/// \brief deforms a shape as rigidly as possible, in one call, with two maps: which vertices are
+/// constrained, and where each of them goes.
 ///
 /// \param shape the shape; as passed, it is the rest shape
 /// \param constrained tells which vertices are constrained to their targets

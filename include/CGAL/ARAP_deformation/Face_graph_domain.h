@@ -260,7 +260,8 @@ Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface, which may be `const`, whose deformed points are written
-/// to `output_point_map`.
+/// to `output_point_map`. Only vertices in the region of interest are written: copy the other
+/// points first.
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_point_map}
@@ -301,7 +302,8 @@ auto make_face_graph_domain(PolygonMesh& mesh, OutputPointMap output_point_map,
 ///     \cgalParamDefault{the initialized index map of the mesh}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{output_point_map}
-///     \cgalParamDescription{where deformed points are written; the mesh may then be `const`}
+///     \cgalParamDescription{where deformed points are written, of vertices in the region of
+///                           interest only: copy the other points first; the mesh may be `const`}
 ///     \cgalParamType{a model of `WritablePropertyMap`}
 ///     \cgalParamDefault{the vertex point map}
 ///   \cgalParamNEnd

@@ -26,8 +26,9 @@ namespace ARAP {
 /// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  automatic, ///< `previous`; but where a handle has been torn away from its neighbors by more than
-             ///< a tenth of the bounding box, `rotations` if its energy is lower. Quasi-Newton
+  automatic, ///< `previous`; but where a handle is farther from where its neighbors are, or a soft
+             ///< target from its vertex, than a tenth of the diagonal of the bounding box,
+             ///< `rotations` if its energy is lower. Quasi-Newton
              ///< runs on surfaces with 20,000 free vertices or more then deform a coarser surface
              ///< (\ref ARAPDeformation_CoarseStart).
   previous, ///< the current positions: for interaction, where each frame starts from the last

@@ -97,8 +97,8 @@ auto deformation_traits(const DeformationTraits& traits, const NP&... np)
   return internal_np::prepend<internal_np::deformation_traits_t>(traits, np...);
 }
 
-/// the region of interest, a range of vertices; default all vertices. Constrained vertices are in
-/// it anyway.
+/// the region of interest, a range of vertices; default all vertices in `arap_deform()`, and none
+/// in the constructors. Constrained vertices are in it anyway.
 template <typename VertexRange, typename... NP>
 auto region_of_interest(const VertexRange& vertices, const NP&... np)
 {
@@ -137,7 +137,8 @@ auto control_points(const ControlPointRange& points, const NP&... np)
 }
 
 /// where the new points of a `FaceGraph` are written, a model of `WritablePropertyMap`; default the
-/// vertex point map. The mesh may then be `const`.
+/// vertex point map. Only vertices in the region of interest are written: copy the other points
+/// first. The mesh may be `const`.
 template <typename OutputPointMap, typename... NP>
 auto output_point_map(const OutputPointMap& points, const NP&... np)
 {
@@ -145,8 +146,8 @@ auto output_point_map(const OutputPointMap& points, const NP&... np)
 }
 
 /// the rotations that control vertices prescribe, see `ARAP_deformation::set_target_rotation()`: a
-/// range of pairs of a vertex and a rotation, such as a `std::map`; default none. In
-/// `arap_deform()` only.
+/// range of pairs of a vertex and a rotation, such as a `std::map`; default none. The vertices have
+/// targets, too. In `arap_deform()` only.
 template <typename RotationRange, typename... NP>
 auto target_rotations(const RotationRange& rotations, const NP&... np)
 {

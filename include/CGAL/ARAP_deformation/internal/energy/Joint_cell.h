@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
-
-#include <cstddef>
+#include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
+#include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
 
 namespace CGAL {
 namespace ARAP {
@@ -28,27 +28,50 @@ namespace internal {
 //   sum of k || d' - R d ||^2 = (sum of k) || d' - M d ||^2 + d^T S d.
 struct Joint_cell
 {
-  double stiffness = 0;
-  Matrix_3x3 mean = {}, spread = {};
+  double stiffness;
+  Matrix_rows mean, spread;
 
-  Joint_cell(const Index_lists& cells, int set, const double* stiffnesses,
-             const Matrix_3x3* rotations)
+  CGAL_ARAP_ALWAYS_INLINE Joint_cell(const Index_lists& cells, int set, const double* stiffnesses,
+                                     const Matrix_3x3* rotations)
+    : stiffness(0), mean(Matrix_rows::zero()), spread(Matrix_rows::zero())
   {
-    for(int k = cells.begin[set]; k < cells.begin[set + 1]; ++k)
+    const int begin = cells.begin[set], end = cells.begin[set + 1];
+    for(int k = begin; k < end; ++k)
       stiffness += stiffnesses[cells.items[k]];
-    for(int k = cells.begin[set]; k < cells.begin[set + 1] && stiffness > 0; ++k)
-      for(std::size_t entry = 0; entry < 9; ++entry)
-        mean[entry] += stiffnesses[cells.items[k]] * rotations[cells.items[k]][entry] / stiffness;
-    for(int k = cells.begin[set]; k < cells.begin[set + 1]; ++k)
-      for(std::size_t a = 0; a < 3; ++a)
-        for(std::size_t b = 0; b < 3; ++b)
-          for(std::size_t row = 0; row < 3; ++row)
-          {
-            const Matrix_3x3& r = rotations[cells.items[k]];
-            spread[3 * a + b] += stiffnesses[cells.items[k]] *
-                                 (r[3 * row + a] - mean[3 * row + a]) *
-                                 (r[3 * row + b] - mean[3 * row + b]);
-          }
+    for(int k = begin; k < end && stiffness > 0; ++k)
+      mean.add_product(Double4::all(stiffnesses[cells.items[k]] / stiffness),
+                       Matrix_rows::of(rotations[cells.items[k]]));
+    for(int k = begin; k < end; ++k)
+    {
+      const Double4 factor = Double4::all(stiffnesses[cells.items[k]]);
+      const Matrix_rows rotation = Matrix_rows::of(rotations[cells.items[k]]);
+      const Double4 x = rotation.x - mean.x, y = rotation.y - mean.y, z = rotation.z - mean.z;
+      spread.add_outer_product(factor * x, x);
+      spread.add_outer_product(factor * y, y);
+      spread.add_outer_product(factor * z, z);
+    }
+  }
+};
+
+// The means of the cells of the sets in [begin, end), and the sum of d^T S d over the edges there,
+// whose w d d^T add up to their rest covariances.
+struct Joint_cells_kernel
+{
+  CGAL_ARAP_ALWAYS_INLINE static void run(const Index_lists& cells, int begin, int end,
+                                          const double* stiffnesses, const Matrix_3x3* rotations,
+                                          const Matrix_3x3* rest_covariances, Matrix_3x3* means,
+                                          double* energy)
+  {
+    Double4 sum = Double4::zero();
+    for(int i = begin; i < end; ++i)
+    {
+      const Joint_cell cell(cells, i, stiffnesses, rotations);
+      cell.mean.store(means[i]);
+      const Matrix_rows rest = Matrix_rows::of(rest_covariances[i]);
+      sum = multiply_add(cell.spread.x, rest.x,
+            multiply_add(cell.spread.y, rest.y, multiply_add(cell.spread.z, rest.z, sum)));
+    }
+    *energy = sum[0] + sum[1] + sum[2];
   }
 };
 

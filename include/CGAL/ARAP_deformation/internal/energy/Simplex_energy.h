@@ -93,8 +93,8 @@ struct Simplex_residuals_kernel
       {
         const int n = simplices.first_corner[s + 1] - simplices.first_corner[s];
         const Joint_cell cell(cells, s, stiffness, rotations);
-        const Matrix_columns mean = Matrix_columns::of(cell.mean);
-        const Matrix_columns spread = Matrix_columns::of(cell.spread);
+        const Matrix_columns mean = columns_of(cell.mean);
+        const Matrix_columns spread = columns_of(cell.spread);
         for(int a = 0; a < n; ++a)
           for(int b = a + 1; b < n; ++b, ++weight)
           {

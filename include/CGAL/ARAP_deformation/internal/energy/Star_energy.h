@@ -248,15 +248,10 @@ public:
     if(!has_stars_as_cells())
     {
       spread_energy = m_chosen.sum([&](int begin, int end) {
-        double sum = 0;
-        for(int i = begin; i < end; ++i)
-        {
-          const Joint_cell cell(m_cells_of_stars, i, m_stiffness.data(), rotations);
-          m_means[i] = cell.mean;
-          for(std::size_t entry = 0; entry < 9; ++entry)
-            sum += cell.spread[entry] * m_rest_covariances[i][entry];
-        }
-        return sum;
+        double energy;
+        run_kernel<Joint_cells_kernel>(m_cells_of_stars, begin, end, m_stiffness.data(), rotations,
+                                       m_rest_covariances.data(), m_means.data(), &energy);
+        return energy;
       });
       rotations = m_means.data();
       stars.weights = m_weights_of_cells.data();

@@ -47,7 +47,8 @@ CGAL_ARAP_ALWAYS_INLINE Double4 subtract_product(const Double4& a, const Matrix_
          negative_multiply_add(Double4::all(b[0]), m.x, a)));
 }
 
-// The rows of a 3 x 3 matrix, to which outer products are added.
+// The rows of a 3 x 3 matrix, to which products are added. The fourth lane of a row may hold
+// anything.
 struct Matrix_rows
 {
   Double4 x, y, z;
@@ -55,6 +56,20 @@ struct Matrix_rows
   CGAL_ARAP_ALWAYS_INLINE static Matrix_rows zero()
   {
     return {Double4::zero(), Double4::zero(), Double4::zero()};
+  }
+
+  CGAL_ARAP_ALWAYS_INLINE static Matrix_rows of(const Matrix_3x3& m)
+  {
+    const Double4 last = Double4::load(m.data() + 5); // with the number before it
+    return {Double4::load(m.data()), Double4::load(m.data() + 3), shuffle<1, 2, 3, 3>(last, last)};
+  }
+
+  // adds a m
+  CGAL_ARAP_ALWAYS_INLINE void add_product(const Double4& a, const Matrix_rows& m)
+  {
+    x = multiply_add(a, m.x, x);
+    y = multiply_add(a, m.y, y);
+    z = multiply_add(a, m.z, z);
   }
 
   // adds a b^T
@@ -74,6 +89,13 @@ struct Matrix_rows
     m[8] = z[2];
   }
 };
+
+CGAL_ARAP_ALWAYS_INLINE Matrix_columns columns_of(const Matrix_rows& m)
+{
+  Double4 x = m.x, y = m.y, z = m.z, any = m.z;
+  transpose(x, y, z, any);
+  return {x, y, z};
+}
 
 // the sums of the first three lanes of a, b and c; the fourth lane may hold anything
 CGAL_ARAP_ALWAYS_INLINE Double4 sums_of_lanes(const Double4& a, const Double4& b, const Double4& c)
