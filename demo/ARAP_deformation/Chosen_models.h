@@ -32,7 +32,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <type_traits>
 #include <variant>
 
 namespace CGAL::ARAP::demo {
@@ -100,9 +99,13 @@ public:
     return std::visit([&](auto& solver) { return solver.solve(n, x); }, m_solver);
   }
 
-  // those of others have no border that is not empty
+  // those of Eigen and PETSc have no border that is not empty
   bool set_border(const Sparse_matrix& b, const Dense_matrix& d)
   {
+#ifdef CGAL_LINKED_WITH_CHOLMOD
+    if(auto* solver = std::get_if<Cholmod_solver>(&m_solver))
+      return solver->set_border(b, d);
+#endif
     auto* solver = std::get_if<Multifrontal_cholesky_solver>(&m_solver);
     return solver ? solver->set_border(b, d) : b.cols() == 0;
   }

@@ -93,6 +93,7 @@ public:
   }
 
   /// returns the size of the factor, its indices included. Each solution reads it twice.
+  /// \pre A matrix was analyzed.
   std::size_t factor_bytes() const { return m_state->structure.number_of_bytes(); }
 
 private:

@@ -46,7 +46,8 @@ namespace ARAP {
 /// option `--bind-to none` the threads of rank 0 have more than one.
 ///
 /// Starts MPI and PETSc, unless the program has, and ends what it started with the last copy of the
-/// environment and the last solver made with it. PETSc reads the options in the environment
+/// environment and the last solver made with it. MPI cannot be started again after that: keep the
+/// environment as long as the program may need one. PETSc reads the options in the environment
 /// variable `PETSC_OPTIONS`, for solvers those with the prefix `arap_`, as in
 /// `-arap_pc_hypre_boomeramg_strong_threshold 0.5`. It prints no errors and takes no signals.
 class Petsc_environment
@@ -56,8 +57,9 @@ public:
   Petsc_environment() : m_ranks(std::make_shared<internal::Petsc_ranks>()) {}
 
   /// returns `false` at once in the process of rank 0. In others does what the solvers there need,
-  /// and returns `true` when the environment and the solvers of rank 0 are gone.
-  bool serve() const
+  /// and returns `true` when the environment and the solvers of rank 0 are gone. If memory runs out
+  /// outside of PETSc's functions while nobody asks, the program ends: rank 0 would wait forever.
+  bool serve() const noexcept
   {
     using Ranks = internal::Petsc_ranks;
     if(m_ranks->rank() == 0)
@@ -109,7 +111,8 @@ enum class Petsc_method
 /// No two calls of the solvers of a program may overlap: PETSc is not for several threads.
 ///
 /// A matrix is refused if an entry is not finite or one on the diagonal is not positive, and where
-/// MUMPS finds a pivot that is not positive or conjugate gradients do not reach their tolerance.
+/// MUMPS finds a pivot that is not positive. A solution fails where conjugate gradients do not
+/// reach their tolerance.
 ///
 /// A copy has the same method and nothing analyzed; a move keeps the factor.
 ///
@@ -121,7 +124,7 @@ public:
   ///
   /// \param environment the processes
   /// \param method how it solves
-  /// \param tolerance of conjugate gradients: the error of a solution relative to the solution,
+  /// \param tolerance of conjugate gradients, less than 1: the error of a solution relative to it,
   ///        both in the norm of the matrix, as the preconditioner estimates it. A step of
   ///        local/global then misses the share `tolerance`\f$^2\f$ of what the exact step gains
   ///        with these rotations. The default, which misses a ten-thousandth, is what the
@@ -131,10 +134,11 @@ public:
     : m_ranks(environment.m_ranks), m_tolerance(method == Petsc_method::cholesky ? 0 : tolerance)
   {
     CGAL_precondition(m_ranks->rank() == 0);
-    CGAL_precondition(method == Petsc_method::cholesky || tolerance > 0);
+    CGAL_precondition(method == Petsc_method::cholesky || (0 < tolerance && tolerance < 1));
   }
 
-  /// forgets the last matrix. The pattern of `a` is analyzed with the first factorization.
+  /// forgets the last matrix. The pattern of `a` is analyzed with the first factorization. Returns
+  /// `false` if PETSc could not be started.
   bool analyze(const Sparse_matrix&)
   {
     m_state.reset();
@@ -144,7 +148,8 @@ public:
   }
 
   /// computes the factor, or the levels of the multigrid; `a` has the pattern of the last
-  /// `analyze()`. Returns `false` if `a` is refused, or if memory runs out.
+  /// `analyze()`. Returns `false` if `a` is refused, or if memory runs out. (Where PETSc itself
+  /// finds no memory in some of the processes only, the others may wait for these.)
   bool factorize(const Sparse_matrix& a)
   {
     m_state->send(Task::factorize);

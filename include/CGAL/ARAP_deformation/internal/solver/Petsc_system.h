@@ -65,14 +65,17 @@ public:
   {
     constexpr PetscInt largest_workspace = 1000; // in percent of what MUMPS has estimated
     bool is_done = false;
-    if(m_tolerance > 0)
-      clear(); // of conjugate gradients nothing serves again
+    // of conjugate gradients nothing serves again; after an error of MUMPS PETSc would keep the
+    // last factor without a word
+    if(m_tolerance > 0 || mumps_error() < 0)
+      clear();
     while(true)
     {
       is_done = distribute(a) && (m_tolerance > 0 ? set_up_iteration() : set_up_factor());
-      if(m_tolerance == 0)
+      if(!(m_tolerance > 0))
         clear_matrix();
-      if(is_done || !is_workspace_too_small() || m_workspace >= largest_workspace)
+      const bool is_workspace_too_small = mumps_error() == -8 || mumps_error() == -9;
+      if(is_done || !is_workspace_too_small || m_workspace >= largest_workspace)
         break;
       m_workspace = (std::min)(2 * m_workspace, largest_workspace);
       MatDestroy(&m_factor);
@@ -187,11 +190,12 @@ private:
       : is_single
         ? MatCreateSeqSBAIJWithArrays(m_ranks.world(), 1, m, n, begins, columns, values, &m_matrix)
         : MatCreateMPISBAIJWithArrays(m_ranks.world(), 1, m, m, n, n, begins, columns, values,
-                                      &m_matrix)));
+                                      &m_matrix)) &&
+      is_petsc_success(MatSetOption(m_matrix, MAT_SPD, PETSC_TRUE)) &&
+      is_petsc_success(MatSetOptionsPrefixFactor(m_matrix, "arap_")));
     if(!is_single)
       clear_rows();
-    return is_made && is_petsc_success(MatSetOption(m_matrix, MAT_SPD, PETSC_TRUE)) &&
-           is_petsc_success(MatSetOptionsPrefixFactor(m_matrix, "arap_"));
+    return is_made;
   }
 
   bool set_up_factor()
@@ -222,13 +226,13 @@ private:
     return is_petsc_success(MatFactorGetError(m_factor, &error)) && error == MAT_FACTOR_NOERROR;
   }
 
-  // on all ranks, or on none
-  bool is_workspace_too_small() const
+  // of its last call, the same on all ranks; 0 if there is none
+  PetscInt mumps_error() const
   {
     PetscInt error = 0;
     if(m_factor != nullptr)
       MatMumpsGetInfog(m_factor, 1, &error);
-    return error == -8 || error == -9;
+    return error;
   }
 
   bool substitute()
