@@ -12,8 +12,7 @@
 // Makes tables and plots from the results file that the benchmarks write, and adds the peak memory
 // of processes to it.
 
-#include "include/measure.h"
-#include "include/section.h"
+#include "include/run_benchmark.h"
 
 #include <algorithm>
 #include <cctype>
@@ -111,17 +110,19 @@ Json make_summary(const Json& results)
   return summary;
 }
 
-// Adds a peak printed by the program peak_memory.
+// Adds a peak printed by the program peak_memory, of which the mesh alone is the first.
 void add_peak(const std::string& file, const std::string& name, double vertices, double megabytes)
 {
-  Json results = read_results(file);
-  if(!results.contains("peak_memory"))
-    results["peak_memory"] = make_section(
-      "Peak memory", "Megabytes of a process that deforms a mesh, the mesh included.",
-      {{"vertices", "vertices"}, {"mesh_mb", "the mesh alone"}, {"ours_mb", "ours"},
-       {"ours_single_mb", "ours, single precision"}, {"ours_eigen_mb", "ours, Eigen"},
-       {"cgal_mb", "CGAL"}, {"libigl_mb", "libigl"}, {"ratio", "CGAL / ours"}});
-  Json& rows = results["peak_memory"]["rows"];
+  Settings settings;
+  settings.json_file = file;
+  Json section = make_section(
+    "Peak memory", "Megabytes of a process that deforms a mesh, the mesh included.",
+    {{"vertices", "vertices"}, {"mesh_mb", "the mesh alone"}, {"ours_mb", "ours"},
+     {"ours_single_mb", "ours, single precision"}, {"ours_eigen_mb", "ours, Eigen"},
+     {"cgal_mb", "CGAL"}, {"libigl_mb", "libigl"}, {"ratio", "CGAL / ours"}});
+  Json& rows = section["rows"];
+  if(const Json results = read_results(settings); results.contains("peak_memory"))
+    rows = results["peak_memory"]["rows"];
   auto row = std::find_if(rows.begin(), rows.end(),
                           [&](const Json& r) { return r["vertices"] == vertices; });
   if(row == rows.end())
@@ -129,13 +130,12 @@ void add_peak(const std::string& file, const std::string& name, double vertices,
     rows.push_back({{"vertices", vertices}});
     row = rows.end() - 1;
   }
+  if(name == "mesh")
+    *row = {{"vertices", vertices}};
   (*row)[name + "_mb"] = megabytes;
   if(row->contains("ours_mb") && row->contains("cgal_mb"))
     (*row)["ratio"] = (*row)["cgal_mb"].get<double>() / (*row)["ours_mb"].get<double>();
-  std::ofstream out(file);
-  out << results.dump(1) << "\n";
-  if(!out.flush())
-    throw Failure("cannot write " + file);
+  write_section(settings, "peak_memory", section);
 }
 
 // A plot for gnuplot, with its data in the same file.

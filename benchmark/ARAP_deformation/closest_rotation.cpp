@@ -150,5 +150,6 @@ int main(int argc, char** argv)
 {
   return run_benchmark(argc, argv, "closest_rotation",
                        "usage: closest_rotation [options]\n\n"
-                       "Measures the time of the closest rotation of a matrix.", run);
+                       "Measures the time of the closest rotation of a matrix.", run,
+                       {"mesh"});
 }

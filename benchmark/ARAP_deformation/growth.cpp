@@ -43,10 +43,12 @@ Json run(const Settings& settings)
     for(std::size_t k = 0; k < first.size(); ++k)
     {
       const Thread_limit limit(thread_counts()[k]);
-      Our_deformation<Default_traits> ours(scenario);
       Measurements measurements;
-      for(unsigned int repetition = 0; repetition < settings.few_repetitions(); ++repetition)
+      for(unsigned int repetition = 0; repetition < settings.few_repetitions; ++repetition)
+      {
+        Our_deformation<Default_traits> ours(scenario);
         measure_ours(ours, number_of_iterations(scenario.number_of_vertices()), measurements);
+      }
       const double scaled = milliseconds(measurements.iteration) / (n * std::log(n));
       if(first[k] == 0)
         first[k] = scaled;

@@ -128,7 +128,7 @@ Json run(const Settings& settings)
     const double difference = verify_exchange(scenario, sets);
     std::vector<Seconds> ours(thread_counts().size());
     Seconds cgal;
-    for(unsigned int repetition = 0; repetition < settings.few_repetitions(); ++repetition)
+    for(unsigned int repetition = 0; repetition < settings.few_repetitions; ++repetition)
     {
       for(std::size_t k = 0; k < ours.size(); ++k)
       {

@@ -16,6 +16,8 @@
 //               petsc or petsc_cg
 //   TOLERANCE   of conjugate gradients
 
+#include "include/memory.h"
+
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
@@ -33,9 +35,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <iostream>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,18 +43,10 @@
 namespace {
 
 using namespace CGAL::ARAP;
+using benchmark::megabytes;
+using benchmark::reset_peak;
 using Eigen_solver = Eigen_sparse_solver<
   Eigen::ConjugateGradient<Sparse_matrix, Eigen::Lower, Eigen::IncompleteCholesky<double>>>;
-
-// a number of megabytes in Linux's file on this process
-double megabytes(const std::string& name)
-{
-  std::ifstream file("/proc/self/status");
-  for(std::string word; file >> word;)
-    if(double kilobytes; word == name + ':' && file >> kilobytes)
-      return kilobytes / 1000;
-  return std::numeric_limits<double>::quiet_NaN();
-}
 
 // Prints a line for each phase: its seconds, those of all its processors, the peak of memory, and
 // what is left of it at its end.
@@ -68,7 +60,7 @@ public:
     m_timer.reset();
     m_timer.start();
     m_clock = std::clock();
-    std::ofstream("/proc/self/clear_refs") << 5; // sets the peak back
+    reset_peak();
   }
 
   void end(const std::string& name)
@@ -179,8 +171,8 @@ int run(const std::string& name, const Solver& solver, int side, unsigned iterat
   phases.end("iterations");
   std::printf("%s: %zu vertices, %s\n", name.c_str(), n, report.message.c_str());
   std::printf("preprocess %.2f s; an iteration: local step %.3f s, global step %.3f s\n",
-              report.seconds.preprocess, report.seconds.local_steps / (iterations + 1),
-              report.seconds.global_steps / iterations);
+              report.seconds.preprocess, report.seconds.local_steps / (report.iterations + 1),
+              report.seconds.global_steps / report.iterations);
   std::printf("energies");
   for(double energy : report.energy)
     std::printf(" %.12g", energy);

@@ -12,6 +12,7 @@
 // The peak memory of a process that deforms one mesh with one class: run it once for each of them.
 
 #include "include/deformations.h"
+#include "include/memory.h"
 #include "include/run_benchmark.h"
 #ifdef ARAP_DEFORMATION_BENCHMARK_LIBIGL
 #include "include/libigl_deformation.h"
@@ -20,7 +21,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <type_traits>
@@ -32,25 +32,6 @@
 namespace {
 
 using namespace benchmark;
-
-// Linux only; 0 elsewhere
-double peak_megabytes()
-{
-  std::ifstream status("/proc/self/status");
-  for(std::string line; std::getline(status, line);)
-    if(line.rfind("VmHWM:", 0) == 0)
-      return std::stod(line.substr(6)) * 1024 / 1e6; // from units of 1024 bytes
-  return 0;
-}
-
-// Resets the peak that reading the mesh has left.
-void reset_peak()
-{
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
-}
 
 // deforms the mesh of the scenario itself, without a copy
 template <typename Deformation, typename Preprocess>
@@ -127,9 +108,12 @@ int main(int argc, char** argv)
       subdivided(read_mesh(argc > 3 ? argv[3] : CGAL::data_file_path("meshes/armadillo.off")),
                  std::stoul(argv[2])));
     const std::size_t n = scenario.number_of_vertices();
+#ifdef __GLIBC__
+    malloc_trim(0); // what reading the mesh has left
+#endif
     reset_peak();
     deform_with(argv[1], scenario);
-    std::cout << n << " " << peak_megabytes() << "\n";
+    std::cout << n << " " << megabytes("VmHWM") << "\n";
   }
   catch(const std::exception& error)
   {

@@ -244,5 +244,5 @@ int main(int argc, char** argv)
   return run_benchmark(argc, argv, "starts",
                        "usage: starts [options]\n\n"
                        "Measures how low runs end from the rest shape, and how soon. Takes some\n"
-                       "minutes, or with --quick, on two small shapes, some seconds.", run);
+                       "minutes, or with --quick, on two small shapes, some seconds.", run, {});
 }

@@ -28,6 +28,7 @@
 #include <iostream>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -177,14 +178,36 @@ double verify_libigl(const Bar& bar, Libigl_deformation& libigl)
 }
 #endif
 
+// Fails unless the iterates with each solver are those with the default one.
+void verify_solvers(const Bar& bar)
+{
+  std::vector<Point> expected;
+  const double diagonal = std::sqrt(CGAL::squared_distance(bar.points.front(), bar.points.back()));
+  for_each_solver<CGAL::Default>([&](const auto& traits, const char* name) {
+    using Solver = std::decay_t<decltype(traits.sparse_solver_object())>;
+    Our_bar deformation(bar, traits);
+    deformation.run(5);
+    if(expected.empty())
+      expected = deformation.points(); // the default is the first
+    double largest = 0;
+    for(std::size_t v = 0; v < expected.size(); ++v)
+      largest = larger(largest, CGAL::squared_distance(expected[v], deformation.points()[v]));
+    verify_at_most(std::sqrt(largest) / diagonal,
+                   std::is_same_v<Solver, Single_precision_solver> ? 1e-5 : 1e-8,
+                   std::string("the largest difference of the iterates with the solver ") + name +
+                   ", relative to the bounding box,");
+  });
+}
+
 void compare(const Bar& bar, const Settings& settings, Json& rows)
 {
+  verify_solvers(bar);
   const unsigned int iterations = number_of_iterations(5 * bar.points.size());
   std::vector<std::pair<std::string, std::vector<Measurements>>> ours; // by solver and threads
   const std::vector<unsigned int> counts = thread_counts();
   Measurements libigl;
   double difference = 0;
-  for(unsigned int repetition = 0; repetition < settings.few_repetitions(); ++repetition)
+  for(unsigned int repetition = 0; repetition < settings.few_repetitions; ++repetition)
   {
     std::size_t solver = 0;
     for_each_solver<CGAL::Default>([&](const auto& traits, const char* name) {
@@ -256,5 +279,5 @@ int main(int argc, char** argv)
 {
   return run_benchmark(argc, argv, "tetrahedra",
                        "usage: tetrahedra [options]\n\n"
-                       "Measures the time of an iteration for tetrahedra.", run);
+                       "Measures the time of an iteration for tetrahedra.", run, {"repetitions"});
 }

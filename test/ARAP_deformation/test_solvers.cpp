@@ -434,8 +434,8 @@ void test_all()
       path.insert(k + 1, k) = -1;
   }
   path.makeCompressed();
-  std::vector<CGAL::ARAP::Coordinates> x(40, {1, 2, 3});
-  CHECK(exact.analyze(path) && exact.factorize(path) && exact.solve(x.size(), x.data()));
+  std::vector<CGAL::ARAP::Coordinates> forty(40, {1, 2, 3});
+  CHECK(exact.analyze(path) && exact.factorize(path) && exact.solve(forty.size(), forty.data()));
   CHECK_CONFORMS(check_sparse_solver(
     Eigen_sparse_solver<Eigen::SparseQR<Sparse_matrix, Eigen::COLAMDOrdering<int>>>()));
   CHECK_CONFORMS(check_sparse_solver(Sparse_linear_algebra_adaptor<CGAL_cholesky>()));

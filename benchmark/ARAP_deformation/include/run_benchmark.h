@@ -29,6 +29,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -50,10 +51,9 @@ struct Settings
 {
   bool quick = false;
   unsigned int repetitions = 7;
+  unsigned int few_repetitions = 3; // of what takes long
   std::string mesh_file; // empty for the benchmark's own choice
   std::string json_file;
-
-  unsigned int few_repetitions() const { return (std::min)(repetitions, 3u); }
 };
 
 inline std::string processor()
@@ -99,9 +99,10 @@ inline std::string library_versions()
   return versions;
 }
 
-inline Json machine()
+inline Json machine(const Settings& settings)
 {
-  return {{"processor", processor()},
+  return {{"quick", settings.quick},
+          {"processor", processor()},
           {"cores", std::thread::hardware_concurrency()},
           {"threads", number_of_threads()},
           {"compiler", BOOST_COMPILER},
@@ -109,32 +110,48 @@ inline Json machine()
           {"libraries", library_versions()}};
 }
 
-// Replaces one section of the results file, which need not exist.
-inline void write_section(const std::string& file, const std::string& name, const Json& section)
+// What the results file has, if it is there: of one machine, and of one kind of run.
+inline Json read_results(const Settings& settings)
 {
   Json results;
-  if(std::ifstream in(file); in)
+  if(std::ifstream in(settings.json_file); in)
     results = Json::parse(in);
-  results["machine"] = machine();
+  if(results.contains("machine") && results["machine"] != machine(settings))
+    throw Failure(settings.json_file + " has results of another machine, other libraries or other "
+                  "settings: name another file, or remove it");
+  return results;
+}
+
+// Replaces one section of the results file.
+inline void write_section(const Settings& settings, const std::string& name, const Json& section)
+{
+  Json results = read_results(settings);
+  results["machine"] = machine(settings);
   results[name] = section;
-  std::ofstream out(file);
+  std::ofstream out(settings.json_file);
   out << results.dump(1) << "\n";
   if(!out.flush())
-    throw Failure("cannot write " + file);
+    throw Failure("cannot write " + settings.json_file);
 }
 
 // Returns false if only help was asked for.
 inline bool parse_command_line(int argc, char** argv, const std::string& usage,
-                               Settings& settings)
+                               const std::set<std::string>& further_options, Settings& settings)
 {
   namespace po = boost::program_options;
   int repetitions = 0;
   po::options_description options("Options");
   options.add_options()
-    ("quick", po::bool_switch(&settings.quick), "smaller meshes, fewer repetitions")
-    ("repetitions", po::value(&repetitions)->value_name("N"),
-     "number of timed runs of each kind, whose medians are printed; 7, with --quick 3")
-    ("mesh", po::value(&settings.mesh_file)->value_name("FILE"), "another triangulated surface")
+    ("quick", po::bool_switch(&settings.quick), "smaller meshes, fewer repetitions");
+  if(further_options.count("repetitions"))
+    options.add_options()
+      ("repetitions", po::value(&repetitions)->value_name("N"),
+       "number of timed runs of each kind, whose medians are printed; 7, where they take long or "
+       "with --quick 3");
+  if(further_options.count("mesh"))
+    options.add_options()
+      ("mesh", po::value(&settings.mesh_file)->value_name("FILE"), "another triangulated surface");
+  options.add_options()
     ("json", po::value(&settings.json_file)->value_name("FILE"),
      "add the results to FILE, next to those of other benchmarks")
     ("help,h", "print this and exit");
@@ -152,20 +169,24 @@ inline bool parse_command_line(int argc, char** argv, const std::string& usage,
   }
   if(values.count("repetitions") && repetitions < 1)
     throw po::error("--repetitions must be at least 1");
-  settings.repetitions = repetitions > 0 ? static_cast<unsigned int>(repetitions)
-                                         : settings.quick ? 3 : 7;
+  if(repetitions > 0)
+    settings.repetitions = settings.few_repetitions = static_cast<unsigned int>(repetitions);
+  else if(settings.quick)
+    settings.repetitions = settings.few_repetitions;
   return true;
 }
 
-// The main() of a benchmark: run(settings) returns its section, or throws.
+// The main() of a benchmark: run(settings) returns its section, or throws. It takes the further
+// options named.
 template <typename Function>
 int run_benchmark(int argc, char** argv, const std::string& name, const std::string& usage,
-                  const Function& run)
+                  const Function& run,
+                  const std::set<std::string>& further_options = {"mesh", "repetitions"})
 {
   Settings settings;
   try
   {
-    if(!parse_command_line(argc, argv, usage, settings))
+    if(!parse_command_line(argc, argv, usage, further_options, settings))
       return EXIT_SUCCESS;
   }
   catch(const boost::program_options::error& error)
@@ -179,10 +200,11 @@ int run_benchmark(int argc, char** argv, const std::string& name, const std::str
 #ifndef NDEBUG
     std::cout << "NOTICE: assertions are enabled: these are not the times of a release build\n";
 #endif
+    read_results(settings); // or it will not be written
     const Json section = run(settings);
     print_text(std::cout, section);
     if(!settings.json_file.empty())
-      write_section(settings.json_file, name, section);
+      write_section(settings, name, section);
   }
   catch(const std::exception& error)
   {

@@ -57,7 +57,7 @@ inline std::string format_number(double value)
     std::snprintf(text, sizeof(text), "%.*f", decimals, value);
   }
   std::string digits = text;
-  if(size >= 1e3)
+  if(size >= 999.5) // which is 1000 by now
     for(std::size_t k = digits.size(); k > 3; k -= 3)
       digits.insert(k - 3, ",");
   return digits;

@@ -29,21 +29,24 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {
 namespace internal {
 
 // The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
-// multipliers is negative definite, and with them eliminated the rest is positive definite. Pivots
-// are compared with the diagonal of D: what W subtracts may be all that D has.
+// multipliers is negative semidefinite, and with them eliminated the rest is positive definite. A
+// multiplier that hardly has any entry in B, but in D, is refused: it would have to come after the
+// unknowns that it is for. Pivots are compared with the diagonal of D: what W subtracts may be all
+// that D has.
 inline bool factorize_remainder(const Dense_matrix& d, const Border_parts& w,
                                 double smallest_pivot, Quasidefinite_factor& factor)
 {
   const Array<int>& order = w.order();
   const Array<double> square = w.negative_square();
   const std::size_t n = order.size();
-  Array<double> remainder(n * n), smallest_pivots(n);
+  Array<double> remainder(n * n), scales(n);
   Array<char> is_multiplier(n);
   for(std::size_t l = 0; l < n; ++l)
     for(std::size_t k = l; k < n; ++k)
@@ -56,10 +59,10 @@ inline bool factorize_remainder(const Dense_matrix& d, const Border_parts& w,
   {
     const double diagonal = d(static_cast<int>(k), static_cast<int>(k));
     is_multiplier[k] = diagonal <= 0;
-    smallest_pivots[k] =
-      smallest_pivot * (is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal);
+    scales[k] = is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal;
   }
-  return factor.factorize(static_cast<int>(n), remainder, is_multiplier, smallest_pivots);
+  return factor.factorize(static_cast<int>(n), remainder, is_multiplier, std::move(scales),
+                          smallest_pivot);
 }
 
 // Substitution with the factor of A, or with that of A with a border, [A B; B^T D]. With W = L^-1 P

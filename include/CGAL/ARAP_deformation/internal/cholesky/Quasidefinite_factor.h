@@ -38,9 +38,10 @@ class Quasidefinite_factor
 {
 public:
   // Factorizes an n x n matrix, of which the lower triangle is read; is_negative[i] is true for the
-  // rows of S. Returns `false` if a pivot is not above its smallest value, which is not negative.
+  // rows of S. Returns `false` if a pivot is not above that share of the scale of its row. For rows
+  // of R the diagonal of R + C^T S^-1 C is a scale, too: next to a small S nothing is left of R.
   bool factorize(int n, const Array<double>& matrix, const Array<char>& is_negative,
-                 const Array<double>& smallest_pivots)
+                 Array<double> scales, double smallest_share)
   {
     Array<int> order;
     for(char sign : {1, 0})
@@ -67,17 +68,19 @@ public:
     for(int j = 0; j < positive; ++j)
       for(int i = j; i < positive; ++i)
         second[j * below + i] = -entry(order[negative + i], order[negative + j]);
-    if(negative > 0)
-    {
-      factor_panel(first, negative, n);
-      subtract_square(second, below, positive, 0, positive, first + negative, negative, height);
-    }
+    factor_panel(first, negative, n);
+    subtract_square(second, below, positive, 0, positive, first + negative, negative, height);
     std::transform(second, second + below * below, second, [](double value) { return -value; });
+    for(int j = 0; j < positive; ++j)
+    {
+      double& scale = scales[order[negative + j]];
+      scale = (std::max)(scale, second[j * (below + 1)]);
+    }
     factor_panel(second, positive, positive);
 
     const auto is_safe = [&](int i, double reciprocal) {
       const double pivot = 1 / (reciprocal * reciprocal);
-      return is_finite(pivot) && pivot > smallest_pivots[order[i]];
+      return is_finite(pivot) && pivot > smallest_share * scales[order[i]];
     };
     for(int j = 0; j < n; ++j)
       if(!is_safe(j, j < negative ? first[j * (height + 1)]
@@ -94,17 +97,14 @@ public:
     return true;
   }
 
-  // replaces the rows of x, as many as the matrix has, by the solution
+  // replaces the rows of x, as many as the matrix has, at least one, by the solution
   void solve(Coordinates* x)
   {
     m_substitution.forward(m_structure, m_values.data(), x);
-    if(m_negative > 0)
-    {
-      const int s = m_structure.numbers()[0];
-      double* const row = m_substitution.local_vector(m_structure.blocks()[m_structure.block_of(s)])
-                        + 4 * m_structure.supernodes()[s].first;
-      std::transform(row, row + 4 * m_negative, row, [](double value) { return -value; });
-    }
+    const int s = m_structure.numbers()[0];
+    double* const row = m_substitution.local_vector(m_structure.blocks()[m_structure.block_of(s)])
+                      + 4 * m_structure.supernodes()[s].first;
+    std::transform(row, row + 4 * m_negative, row, [](double value) { return -value; });
     m_substitution.backward(m_structure, m_values.data(), x);
   }
 

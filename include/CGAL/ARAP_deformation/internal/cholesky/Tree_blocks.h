@@ -26,7 +26,8 @@ namespace internal {
 
 // Cuts the elimination tree into blocks, which are connected parts of it: subtrees of about equal
 // work at the bottom, and above them what lies between two branchings. Blocks are numbered breadth
-// first from block 0, the root, so that the children of a block are consecutive.
+// first from block 0, the root, so that the children of a block are consecutive. The root has all
+// that is small, of several trees too, and may be empty.
 class Tree_blocks
 {
 public:

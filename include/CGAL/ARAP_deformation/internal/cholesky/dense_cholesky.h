@@ -206,7 +206,7 @@ inline void subtract_product(double* u, std::ptrdiff_t u_stride, int rows, int c
 }
 
 // Two blocks of so many entries of A fit into the second-level cache.
-constexpr int rows_at_once = 192, depth_at_once = 128;
+inline constexpr int rows_at_once = 192, depth_at_once = 128;
 
 // U := U - A A^T in the columns from `first` to before `last` of the lower triangle of U. A has n
 // rows and `width` columns; `first` is a multiple of four. Entries of U above the diagonal may
@@ -249,8 +249,8 @@ inline void subtract_square(double* u, std::ptrdiff_t u_stride, int n, int first
 }
 
 // Factors the first `width` columns of a matrix with `height` rows, whose upper part is symmetric
-// and given by its lower triangle. The diagonal is replaced by its reciprocals, which are NaN where
-// the matrix is not positive definite.
+// and given by its lower triangle. The diagonal is replaced by its reciprocals. Where the matrix is
+// not positive definite, the first that is no pivot is not a positive finite number.
 inline void factor_panel(double* panel, int width, int height)
 {
   constexpr int columns_at_once = 64; // these are read again for each four of them
@@ -261,8 +261,9 @@ inline void factor_panel(double* panel, int width, int height)
     const int columns = (std::min)(columns_at_once, width - k);
     run_kernel<Factor_columns<4>, Factor_columns<plain_columns>>(block, stride, columns,
                                                                  height - k);
-    subtract_square(block + columns * (stride + 1), stride, height - k - columns, 0,
-                    width - k - columns, block + columns, columns, stride);
+    if(k + columns < width)
+      subtract_square(block + columns * (stride + 1), stride, height - k - columns, 0,
+                      width - k - columns, block + columns, columns, stride);
   }
 }
 

@@ -283,7 +283,8 @@ bool Constrained_system::eliminate_hard_rows()
       for(std::size_t r = 0; r < m; ++r)
         s[(first + k) * m + r] = -minus_s[r][k];
   }
-  return m_eliminated.factorize(m_hard_rows.size(), s, Array<char>(m, false), Array<double>(m, 0));
+  return m_eliminated.factorize(m_hard_rows.size(), s, Array<char>(m, false), Array<double>(m, 0),
+                                0);
 }
 
 CGAL_ARAP_INLINE_FUNCTION
