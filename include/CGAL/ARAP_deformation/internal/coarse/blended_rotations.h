@@ -14,12 +14,12 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,16 +38,19 @@ inline Array<Matrix_3x3> blended_rotations(const Coarse_space& space,
     return {};
   Array<Matrix_3x3> result(space.number_of_vertices());
   for_each_block(result.size(), [&](std::size_t begin, std::size_t end) {
+    Array<Matrix_3x3> sums(end - begin, Matrix_3x3());
     for(std::size_t v = begin; v < end; ++v)
     {
       const int* const nodes = space.nodes(static_cast<int>(v));
       const float* const weights = space.weights(static_cast<int>(v));
-      Matrix_3x3 sum = {};
       for(int k = 0; k < Coarse_space::most_nodes && weights[k] > 0; ++k)
         if(is_known[nodes[k]])
-          add(sum, weights[k], rotations[nodes[k]]);
-      result[v] = Svd_rotation::closest(sum);
+        {
+          add(sums[v - begin], weights[k], rotations[nodes[k]]);
+          result[v] = rotations[nodes[k]]; // close enough to begin with
+        }
     }
+    Newton_closest_rotation()(end - begin, sums.data(), result.data() + begin);
   });
   return result;
 }
