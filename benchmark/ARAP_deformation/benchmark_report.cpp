@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
@@ -113,6 +114,8 @@ Json make_summary(const Json& results)
 // Adds a peak printed by the program peak_memory, of which the mesh alone is the first.
 void add_peak(const std::string& file, const std::string& name, double vertices, double megabytes)
 {
+  if(!std::isfinite(megabytes)) // not Linux
+    return;
   Settings settings;
   settings.json_file = file;
   Json section = make_section(
@@ -348,6 +351,8 @@ void report(const std::vector<std::string>& arguments)
     return;
   }
   const Json results = read_results(file);
+  if(form == "summary" && results["machine"].value("quick", false))
+    throw Failure(file + " has quick results, which are not for publication");
   if(form == "gnuplot")
   {
     plot_iteration_time(std::cout, results, arguments[2]);

@@ -102,6 +102,8 @@ inline std::string library_versions()
 inline Json machine(const Settings& settings)
 {
   return {{"quick", settings.quick},
+          {"repetitions", settings.repetitions},
+          {"mesh", settings.mesh_file},
           {"processor", processor()},
           {"cores", std::thread::hardware_concurrency()},
           {"threads", number_of_threads()},
@@ -110,7 +112,7 @@ inline Json machine(const Settings& settings)
           {"libraries", library_versions()}};
 }
 
-// What the results file has, if it is there: of one machine, and of one kind of run.
+// What the results file has, if it is there: of one machine, with the same settings.
 inline Json read_results(const Settings& settings)
 {
   Json results;
@@ -200,7 +202,7 @@ int run_benchmark(int argc, char** argv, const std::string& name, const std::str
 #ifndef NDEBUG
     std::cout << "NOTICE: assertions are enabled: these are not the times of a release build\n";
 #endif
-    read_results(settings); // or it will not be written
+    read_results(settings); // fails now rather than after the run
     const Json section = run(settings);
     print_text(std::cout, section);
     if(!settings.json_file.empty())

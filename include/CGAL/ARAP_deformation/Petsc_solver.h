@@ -58,7 +58,7 @@ public:
 
   /// returns `false` at once in the process of rank 0. In others does what the solvers there need,
   /// and returns `true` when the environment and the solvers of rank 0 are gone. If memory runs out
-  /// outside of PETSc's functions while nobody asks, the program ends: rank 0 would wait forever.
+  /// here where no other process could be told, the program ends: they would wait forever.
   bool serve() const noexcept
   {
     using Ranks = internal::Petsc_ranks;

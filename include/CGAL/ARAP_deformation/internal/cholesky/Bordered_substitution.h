@@ -29,7 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -37,9 +36,9 @@ namespace internal {
 
 // The factorization of D - W^T W. If the bordered matrix comes from a minimum, the block of the
 // multipliers is negative semidefinite, and with them eliminated the rest is positive definite. A
-// multiplier that hardly has any entry in B, but in D, is refused: it would have to come after the
-// unknowns that it is for. Pivots are compared with the diagonal of D: what W subtracts may be all
-// that D has.
+// multiplier with next to nothing in B, but entries in D, is refused: it would have to come after
+// the unknowns that it is for. Pivots are compared with the diagonal of D: what W subtracts may be
+// all that D has.
 inline bool factorize_remainder(const Dense_matrix& d, const Border_parts& w,
                                 double smallest_pivot, Quasidefinite_factor& factor)
 {
@@ -61,8 +60,7 @@ inline bool factorize_remainder(const Dense_matrix& d, const Border_parts& w,
     is_multiplier[k] = diagonal <= 0;
     scales[k] = is_multiplier[k] ? std::abs(remainder[k * (n + 1)]) : diagonal;
   }
-  return factor.factorize(static_cast<int>(n), remainder, is_multiplier, std::move(scales),
-                          smallest_pivot);
+  return factor.factorize(static_cast<int>(n), remainder, is_multiplier, scales, smallest_pivot);
 }
 
 // Substitution with the factor of A, or with that of A with a border, [A B; B^T D]. With W = L^-1 P

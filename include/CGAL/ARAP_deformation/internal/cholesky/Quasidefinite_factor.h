@@ -38,10 +38,11 @@ class Quasidefinite_factor
 {
 public:
   // Factorizes an n x n matrix, of which the lower triangle is read; is_negative[i] is true for the
-  // rows of S. Returns `false` if a pivot is not above that share of the scale of its row. For rows
-  // of R the diagonal of R + C^T S^-1 C is a scale, too: next to a small S nothing is left of R.
+  // rows of S. Returns `false` if a pivot is not above that share of the scale of its row, or if
+  // the scale is less than that share of the diagonal of R + C^T S^-1 C, where S is so small that R
+  // is lost in the rounding errors.
   bool factorize(int n, const Array<double>& matrix, const Array<char>& is_negative,
-                 Array<double> scales, double smallest_share)
+                 const Array<double>& scales, double smallest_share)
   {
     Array<int> order;
     for(char sign : {1, 0})
@@ -72,10 +73,8 @@ public:
     subtract_square(second, below, positive, 0, positive, first + negative, negative, height);
     std::transform(second, second + below * below, second, [](double value) { return -value; });
     for(int j = 0; j < positive; ++j)
-    {
-      double& scale = scales[order[negative + j]];
-      scale = (std::max)(scale, second[j * (below + 1)]);
-    }
+      if(smallest_share * second[j * (below + 1)] > scales[order[negative + j]])
+        return false;
     factor_panel(second, positive, positive);
 
     const auto is_safe = [&](int i, double reciprocal) {
