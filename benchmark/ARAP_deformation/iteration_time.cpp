@@ -44,11 +44,8 @@ void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
   expect_success(ours.deformation().set_options(options));
   ours.run(1);
   libigl.run(1);
-  double largest = 0;
-  for(vertex_descriptor v : vertices(ours.mesh()))
-    largest = larger(largest, (to_vector(ours.mesh().point(v)) -
-                                   libigl.points().row(v.idx()).transpose()).norm());
-  verify_at_most(largest / scenario.diagonal, 1e-3,
+  verify_at_most(largest_distance(points_of(ours.mesh()), libigl.points()) / scenario.diagonal,
+                 1e-3,
                  "the largest difference between our first iterate and libigl's, relative to the "
                  "bounding box,");
 }

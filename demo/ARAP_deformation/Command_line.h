@@ -310,7 +310,7 @@ inline void check_task(const Command_line& line)
   if(line.selection.empty() && line.handles.empty() && !line.dynamics)
     throw Usage_error("nothing moves: give a --handle, or a --selection");
   if(!line.selection.empty() && !line.handles.empty())
-    throw Usage_error("--selection already tells the handles; leave out --handle");
+    throw Usage_error("--selection already defines the handles; leave out --handle");
   bool has_steps = false, has_planes = false;
   const auto look_at = [&](const Handle_options& handle) {
     has_steps = has_steps || !handle.steps.empty();

@@ -259,7 +259,7 @@ private:
     }
     json = Json::parse(text, [&file](int depth, Json::parse_event_t, const Json&) {
       if(depth > 1000) // what copies and writes it calls itself for each
-        throw std::runtime_error(file + ": has more than 1000 lists and objects in each other");
+        throw std::runtime_error(file + ": nests lists and objects more than 1000 deep");
       return true;
     });
     for(const Json& buffer : json.value("buffers", Json::array()))

@@ -164,9 +164,9 @@ private:
   void read_node(std::size_t index, const Eigen::Affine3d& parent, int depth)
   {
     if(!m_nodes.insert(index).second)
-      throw std::runtime_error("the node " + std::to_string(index) + " is there twice");
+      throw std::runtime_error("the node " + std::to_string(index) + " occurs twice");
     if(depth > 1000)
-      throw std::runtime_error("has more than 1000 nodes in each other");
+      throw std::runtime_error("nests nodes more than 1000 deep");
     const Gltf::Json& node = m_gltf.json.at("nodes").at(index);
     const Eigen::Affine3d to_scene = parent * transform(node);
     if(node.contains("mesh"))
@@ -232,7 +232,7 @@ private:
       throw std::runtime_error("has indices that are no unsigned integers");
     const std::size_t size = corners ? corners->size : positions.size;
     if(size % 3 != 0)
-      throw std::runtime_error("has a list of triangles that ends with a part of one");
+      throw std::runtime_error("has a list of triangles whose last one is incomplete");
     for(std::size_t i = 0; i < size; i += 3)
     {
       std::array<std::size_t, 3> t;

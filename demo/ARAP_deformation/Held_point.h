@@ -48,7 +48,7 @@ std::vector<Held_point<Domain>> held_points(const Command_line& line, const Doma
         locator.emplace(domain);
       const auto location = locator->locate(pick.point(points));
       if(!location)
-        throw std::runtime_error(pick.name() + ": there is no place for it in the mesh");
+        throw std::runtime_error(pick.name() + ": no place for it was found in the mesh");
       held.push_back({status, pick.name(), *location});
     }
   return held;

@@ -232,7 +232,7 @@ private:
     long long value = -1;
     if(!boost::conversion::try_lexical_convert(word, value) || value < 0 ||
        value > (std::numeric_limits<int>::max)())
-      refuse("the Piece has no NumberOfPoints or NumberOfCells that can be read, but " +
+      refuse("the Piece has no readable NumberOfPoints or NumberOfCells: " +
              in_quotes(word));
     return value;
   }
@@ -273,7 +273,7 @@ private:
       if(m_appended == 0 || array.get("offset")[0] == '-' ||
          !boost::conversion::try_lexical_convert(array.get("offset"), offset) ||
          offset > text().size() - m_appended)
-        refuse_at(array.place, array.name() + " is appended, but not where its offset tells");
+        refuse_at(array.place, array.name() + " is appended, but its offset is wrong");
       result.offset = offset;
       result.is_raw = m_is_appended_raw;
       begin = m_appended + offset;

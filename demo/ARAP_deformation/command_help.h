@@ -114,7 +114,7 @@ inline boost::program_options::options_description described_options()
        ->default_value(boost::lexical_cast<std::string>(defaults.tolerance)),
      "stop when the estimated relative gap to the minimum is at most T; 0: run all N")
     ("verify_minimum", value<std::string>()->default_value("true")->value_name("true|false"),
-     "look at the second derivative before the end, and go on if that is not at a minimum")
+     "before stopping, look at the second derivative, and go on unless this is a minimum")
     ("coarse_metric", value<std::string>()->default_value("true")->value_name("true|false"),
      "complete the metric of quasi-Newton runs where 30,000 vertices or more are free: fewer "
      "iterations, more memory")
@@ -158,8 +158,8 @@ inline void print_help(std::ostream& out)
          "                                     nearest point in a face, or in a tetrahedron\n"
          "  list:0,7,12  list:@FILE            numbers of vertices, from 0\n"
          "A coordinate N% goes from 0% to 100% of the bounding box; a length N% is of its\n"
-         "diagonal. Cells are those of vertices, or with --cells elements of simplices all\n"
-         "of whose corners are picked.\n\n"
+         "diagonal. Where WHAT picks cells, these are the cells of its vertices, or with\n"
+         "--cells elements the simplices all of whose corners it picks.\n\n"
       << described_options()
       << "\nBetween key frames the center of a handle moves along a straight line, its\n"
          "rotation turns at constant speed, and its stretch is interpolated linearly. This\n"

@@ -64,8 +64,8 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
-      throw std::runtime_error(file + ": face " + std::to_string(f) + " has a vertex twice, or is "
-                               "no oriented manifold surface together with the previous faces");
+      throw std::runtime_error(file + ": face " + std::to_string(f) + " has a vertex twice, or "
+                               "does not form an oriented manifold with the previous faces");
   }
 }
 

@@ -319,7 +319,7 @@ public:
   /// \brief inserts a control point in the simplex `s`, and the corners of `s` with non-zero
   /// coordinates in the region of interest, as free vertices if they are not in it.
   ///
-  /// Its target is its current position, with infinite weight. Refuses a simplex that is not there
+  /// Its target is its current position, with infinite weight. Refuses a nonexistent simplex
   /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one
   /// within 1e-9, or 1e-14 times the largest if that is more, or are too few or too many
   /// (`ARAP::Status::invalid_coordinates`). Divide coordinates that were computed in `float` by
@@ -411,7 +411,7 @@ public:
   ARAP::Outcome translate(const Handles& handles, const Vector& t)
   {
     return change_targets(handles, [&](auto handle) {
-      return ARAP::internal::translated(m_session.target(handle), t);
+      return ARAP::internal::translated<is_planar>(m_session.target(handle), t);
     });
   }
 
@@ -533,9 +533,11 @@ public:
   /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
   /// simplices; a map with the other keys has no effect, and no call fails because of it. Where
   /// both have the same type, as in ranges, it is taken for what the cells are. The keys of a
-  /// generic lambda, or of another function object without one `operator()`, are vertices:
-  /// `ARAP::of_simplices()` of it takes simplices. Where cells are simplices, a run refuses one
-  /// without it, with `ARAP::Status::undeclared_map`. The functions themselves return
+  /// generic lambda, or of another function object without a unique `operator()`, are vertices:
+  /// `ARAP::of_simplices()` of it takes simplices. The indices of a vector are those of vertices,
+  /// too, unless simplices are numbers, as in ranges and linear cell complexes. Where cells are
+  /// simplices, a run refuses such a function object and such a vector, with
+  /// `ARAP::Status::undeclared_map`. The functions themselves return
   /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a run calls them.
   /// @{
 
@@ -631,8 +633,8 @@ public:
   /// \param forces a map of vertices, as for stiffness: the external forces, which have
   ///        `operator[]` for as many coordinates as the points have; where it has no value there is
   ///        none
-  /// \param visitor a model of `ARAPDeformationVisitor`, which is called at each iterate; what it
-  ///        cancels has not happened
+  /// \param visitor a model of `ARAPDeformationVisitor`, which is called at each iterate; a step
+  ///        that it cancels changes nothing
   template <typename ForceMap, typename Visitor>
   [[nodiscard]] ARAP::Step_report advance(const ARAP::Dynamics& dynamics, const ForceMap& forces,
                                           Visitor&& visitor)
@@ -640,7 +642,7 @@ public:
     const auto force_at = [&](vertex_descriptor v) {
       ARAP::Coordinates force = {0, 0, 0};
       ARAP::internal::with_value(forces, v, domain().index(v), [&](const auto& f) {
-        force = ARAP::internal::coordinates_of<Point>(f);
+        force = ARAP::internal::coordinates_of<is_planar>(f);
       });
       return force;
     };
@@ -671,7 +673,7 @@ public:
   template <typename Vector>
   bool set_velocity(vertex_descriptor v, const Vector& velocity)
   {
-    return m_session.set_velocity(v, ARAP::internal::coordinates_of<Point>(velocity));
+    return m_session.set_velocity(v, ARAP::internal::coordinates_of<is_planar>(velocity));
   }
 
   /// moves all vertices that were ever in the region of interest, whoever has moved them, and all
@@ -735,6 +737,8 @@ public:
   /// @}
 
 private:
+  static constexpr bool is_planar = ARAP::internal::is_planar<Domain_>();
+
   // a handle as the type that the session knows, which is a control vertex or a control point
   template <typename Handle>
   auto control(const Handle& handle) const
@@ -745,7 +749,7 @@ private:
                   "ARAP_deformation: what has a target is a vertex or a control point");
     const Known known = static_cast<Known>(handle);
     CGAL_precondition_msg(m_session.vertices().is_control(known),
-                          "what is no control vertex or control point has no target: insert it");
+                          "neither a control vertex nor a control point: insert it first");
     return known;
   }
 

@@ -80,7 +80,7 @@ public:
     : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
   {}
 
-  /// returns the solver, a copy of which factorizes each matrix.
+  /// returns the solver, which is copied for each pattern of a matrix.
   Sparse_solver sparse_solver_object() const { return m_solver; }
 
   /// returns the edge weights.

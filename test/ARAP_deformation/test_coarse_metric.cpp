@@ -25,7 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
+#include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 
 #include <Eigen/Dense>
 
@@ -245,6 +245,25 @@ void test_fan()
   }
 }
 
+// An isolated vertex takes no part, wherever it is.
+void test_far_isolated_vertex(const Shape& sheet)
+{
+  test_case() = "an isolated vertex far away";
+  std::vector<Eigen::Vector3d> points = sheet.points;
+  points.emplace_back(1e39, -1e39, 1e200);
+  Problem problem(problem::region_of(points, sheet.triangles), Energy_model(), 0);
+  problem.constraints.is_fixed.back() = true;
+  problem.minimization();
+  const Coarse_space space(problem.system.laplacian().matrix, problem.region.rest);
+  Coarse_transfer transfer(space);
+  transfer.place(problem.constraints.is_fixed, problem.x);
+  Random random;
+  Array<Coordinates> force = random_vectors(points.size(), random);
+  force.back() = {0, 0, 0};
+  for(const Coordinates& f : transfer.restricted(force))
+    CHECK(CGAL::ARAP::internal::is_finite(f));
+}
+
 Array<char> fixed_vertices(const Region& region)
 {
   Array<char> result;
@@ -381,6 +400,7 @@ int main()
   });
   const Block bar = block(short_or_long(8, 13), 6, 6);
   coarse::test_transfer(problem::region_of(sheet.points, sheet.triangles));
+  coarse::test_far_isolated_vertex(sheet);
   coarse::test_matrix("sheet", sheet.points, sheet.triangles);
   coarse::test_matrix("bar", bar.points, bar.tetrahedra);
   coarse::test_fan();

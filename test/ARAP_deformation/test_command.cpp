@@ -1068,7 +1068,7 @@ void test_gltf()
     check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
   };
   refuse("/nodes/1/skin", 0, "the node 1 has a skin");
-  refuse("/nodes/0/children/0", 0, "the node 0 is there twice");
+  refuse("/nodes/0/children/0", 0, "the node 0 occurs twice");
   refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
   refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
@@ -1098,7 +1098,7 @@ void test_gltf()
     {{"bufferView", 1}, {"componentType", 5125}, {"count", 4}, {"type", "SCALAR"}});
   indexed["meshes"][0]["primitives"][0]["indices"] = 4;
   for(const auto& [component, phrase] : std::map<int, std::string>{
-        {5125, "has a list of triangles that ends with a part of one"},
+        {5125, "has a list of triangles whose last one is incomplete"},
         {5122, "has indices that are no unsigned integers"},
         {5126, "has indices that are no unsigned integers"}})
   {

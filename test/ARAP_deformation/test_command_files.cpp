@@ -829,7 +829,7 @@ void test_vtu()
          ", line 3: compressor='vtkLZ4DataCompressor' cannot be read");
   refuse("vtu", replaced(text, "</Piece>", "</Piece><Piece>"), ": only one Piece can be read");
   refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"-6\""),
-         ": the Piece has no NumberOfPoints or NumberOfCells that can be read, but '-6'");
+         ": the Piece has no readable NumberOfPoints or NumberOfCells: '-6'");
   refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"7\""),
          ": expected a finite number, a coordinate in point 6, but found nothing");
   refuse("vtu", replaced(text, "NumberOfPoints=\"6\"", "NumberOfPoints=\"5\""),
@@ -859,7 +859,7 @@ void test_vtu()
   // a file whose numbers have not the byte order that it tells
   refuse("vtu", replaced(raw, "LittleEndian", "BigEndian"), "the array Points is shorter than it");
   refuse("vtu", replaced(raw, "offset=\"52\"", "offset=\"-5\""),
-         "the array Points is appended, but not where its offset tells");
+         "the array Points is appended, but its offset is wrong");
 }
 
 void test_all()

@@ -688,6 +688,85 @@ void test_changes(const Model& model)
   }
 }
 
+// Where rotations are state, a run starts from those of its positions alone, if there are none or
+// the last ones are of a run where they were not.
+void test_smooth_starts(const Model& model)
+{
+  test_case() = "smooth rotations, from others' positions";
+  const Scenario s = whole_scenario(model);
+  const double diameter = diameter_of(model.points);
+  const auto cells = Cell_scheme::spokes_and_rims();
+  Terms smooth;
+  smooth.smoothing_length = 0.3 * diameter;
+  const auto twist = [&](std::vector<Point>& points) {
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(s.selection[v] == 1)
+        points[v] = point(turn(2 * model.points[v][0] / diameter, {1, 0, 0}) * model.points[v]);
+  };
+  {
+    Run<2> run(model, s, cells, smooth);
+    twist(run.points);
+    const auto state = run.deformation.state();
+    const Report first = run.deformation.deform(3, 1e-3);
+    const std::vector<Point> points = run.points;
+    CHECK(run.deformation.restore(state));
+    const Report second = run.deformation.deform(3, 1e-3);
+    CHECK(first && second && first.energy == second.energy);
+    CHECK(points == run.points);
+  }
+  {
+    test_case() = "smooth rotations, after others that were given";
+    Terms turned = smooth;
+    for(std::size_t v = 0; v < model.points.size(); ++v)
+      if(s.selection[v] == 2)
+        turned.frames[v] = turn(1.5, {0, 1, 1});
+    Run<2> run(model, s, cells, turned), fresh(model, s, cells, smooth);
+    CHECK(run.deformation.deform());
+    run.deformation.reset();
+    fresh.deformation.reset();
+    twist(run.points);
+    twist(fresh.points);
+    const Report report = run.deformation.deform(3, 0), expected = fresh.deformation.deform(3, 0);
+    CHECK(report && expected);
+    CHECK_AT_MOST(std::abs(report.energy[0] - expected.energy[0]), 1e-9 * expected.energy[0]);
+    CHECK_AT_MOST(largest_distance(run.points, fresh.points), 1e-8);
+  }
+  test_case() = "smooth rotations, after a state without";
+  std::vector<std::vector<Point>> results;
+  for(const bool is_prepared : {false, true})
+    for(const bool is_other_region : {false, true})
+    {
+      Scenario part = s;
+      const auto last = std::size_t(
+        std::find(s.selection.rbegin(), s.selection.rend(), 1).base() - s.selection.begin() - 1);
+      part.selection[last] = 0;
+      Run<2> run(model, part, cells, {});
+      auto& d = run.deformation;
+      CHECK(d.deform(5, 0));
+      const auto state = d.state();
+      if(results.empty())
+      {
+        Run<2> fresh(model, part, cells, smooth);
+        fresh.points = run.points;
+        CHECK(fresh.deformation.deform(5, 0));
+        results.push_back(fresh.points);
+      }
+      if(is_other_region)
+        d.insert_roi_vertex(last);
+      apply(d, cells, is_other_region ? Terms() : smooth);
+      CHECK(d.deform(5, 0));
+      apply(d, cells, {});
+      CHECK(d.restore(state));
+      if(is_prepared)
+        CHECK(d.preprocess());
+      apply(d, cells, smooth);
+      CHECK(d.deform(5, 0));
+      results.push_back(run.points);
+    }
+  for(const std::vector<Point>& points : results)
+    CHECK_AT_MOST(largest_distance(points, results[0]), 1e-9 * diameter);
+}
+
 // Rigid motions with smooth rotations, and starts that are taken only where they lower the energy.
 void test_rigid_motions(const Model& model)
 {
@@ -1178,6 +1257,11 @@ void test_generic_maps()
   }));
   CHECK(run(faces, stiff).empty());
   CHECK(run(faces, grouped).empty());
+  // a vector tells no keys, and faces of a mesh have no numbers that it could be by
+  const std::vector<double> numbers(keys.number_of_faces(), 2);
+  CHECK(run(faces, [&](Deformation& d) { d.set_stiffness(numbers); }).empty());
+  CHECK(run(faces, [&](Deformation& d) { d.set_groups(numbers); }).empty());
+  CHECK(!run(vertices, [&](Deformation& d) { d.set_stiffness(numbers); }).empty());
   CHECK(run(vertices, stiff_faces) == plain(vertices));
   CHECK(run(vertices, grouped_faces) == plain(vertices));
   CHECK(run(vertices, stiff) != plain(vertices) && run(faces, stiff_faces) != plain(faces));
@@ -1200,6 +1284,7 @@ void test_all()
   test_frames_of_motions(models.front());
   test_groups(models.front());
   test_changes(models.front());
+  test_smooth_starts(models.front());
   test_rigid_motions(models.front());
   test_frames_everywhere(models.front());
   test_soft_frames(models.front());

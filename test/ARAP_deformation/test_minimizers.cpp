@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -328,6 +329,34 @@ private:
   bool m_is_silent;
 };
 
+// The scales of a run are those of its iterates, not of positions that its start has replaced.
+void test_far_positions()
+{
+  test_case() = "points that start far away";
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  const auto report_of = [&](double distance) {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    Deformation d(mesh);
+    prepare(d, s, all_vertices(mesh));
+    std::mt19937 random(1);
+    for(Mesh::Vertex_index v : mesh.vertices())
+      if(!d.is_control_vertex(v))
+        for(int k = 0; k < 3; ++k)
+        {
+          const Point& p = mesh.point(v);
+          std::array<double, 3> moved = {p.x(), p.y(), p.z()};
+          moved[std::size_t(k)] += distance * (double(random() % 1000) / 500 - 1);
+          mesh.point(v) = Point(moved[0], moved[1], moved[2]);
+        }
+    return d.deform(3, 0);
+  };
+  const Report near = report_of(0), far = report_of(1e9 * shape.diameter());
+  CHECK(near && far);
+  CHECK_AT_MOST(far.rounding_level, 10 * near.rounding_level);
+  CHECK_AT_MOST(far.energy_scale, 10 * near.energy_scale);
+}
+
 void test_failing_solver()
 {
   test_case() = "a solver that fails";
@@ -485,6 +514,7 @@ void test_all()
   test_large_rotations();
   test_tetrahedra();
   test_inexact_solver();
+  test_far_positions();
   test_failing_solver();
   test_visitor();
   test_cut_off();

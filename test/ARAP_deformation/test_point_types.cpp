@@ -90,7 +90,7 @@ void test_plane(double tolerance)
   std::vector<Point_2> planar;
   std::vector<Point> spatial = points_of(shape.points);
   for(const auto& p : shape.points)
-    planar.push_back(CGAL::ARAP::internal::construct_point<Point_2>(p.x(), p.y(), 0.0));
+    planar.push_back(CGAL::ARAP::internal::construct_point<true, Point_2>(p.x(), p.y(), 0.0));
   for(Cell_scheme cells : all_cell_schemes)
   {
     auto p = planar;
@@ -124,7 +124,7 @@ void test_plane(double tolerance)
     }
   }
   const Point_2 moved =
-    CGAL::ARAP::internal::translated(planar[0], std::array<double, 2>{1, 2});
+    CGAL::ARAP::internal::translated<true>(planar[0], std::array<double, 2>{1, 2});
   CHECK(moved[0] == planar[0][0] + 1 && moved[1] == planar[0][1] + 2);
 }
 

@@ -286,6 +286,49 @@ void test_weighted_points()
   CHECK(points[0].point() == rest[0].point() + Kernel::Vector_3(0.1, 0.2, 0.3));
 }
 
+// A point of the plane as the concept asks for it: only the domain tells how many coordinates it
+// has.
+struct Plain_point
+{
+  double x = 0, y = 0;
+};
+
+// a vector with two coordinates
+struct Plain_vector
+{
+  double operator[](std::size_t k) const { return CHECK(k < 2) ? k + 1.0 : 1e9; }
+};
+
+struct Plain_domain : Polygon_soup_domain<std::vector<std::array<double, 2>>,
+                                          std::vector<std::array<std::size_t, 3>>>
+{
+  using Base = Polygon_soup_domain<std::vector<std::array<double, 2>>,
+                                   std::vector<std::array<std::size_t, 3>>>;
+  using Point = Plain_point;
+  using Base::Base;
+  Point point(std::size_t v) const { return {Base::point(v)[0], Base::point(v)[1]}; }
+  void set_point(std::size_t v, const Point& p) const { Base::set_point(v, {p.x, p.y}); }
+  static CGAL::ARAP::Coordinates coordinates(const Point& p) { return {p.x, p.y, 0}; }
+  static Point make_point(const CGAL::ARAP::Coordinates& c) { return {c[0], c[1]}; }
+};
+
+void test_plain_points()
+{
+  test_case() = "points and vectors with two coordinates that do not tell so";
+  std::vector<std::array<double, 2>> points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, 2}, {1, 3, 2}};
+  CGAL::ARAP_deformation<Plain_domain> deformation(Plain_domain(points, triangles));
+  for(std::size_t v = 0; v < points.size(); ++v)
+    deformation.insert_roi_vertex(v);
+  deformation.insert_control_vertex(0);
+  CHECK(deformation.set_velocity(3, Plain_vector()));
+  CHECK((deformation.velocity(3) == CGAL::ARAP::Coordinates{1, 2, 0}));
+  CGAL::ARAP::Dynamics dynamics;
+  dynamics.time_step = 0.01;
+  CHECK(deformation.advance(dynamics, [](std::size_t) { return Plain_vector(); }));
+  CHECK(deformation.velocity(3)[0] > 0 && deformation.velocity(3)[2] == 0);
+}
+
 // A square with a hole, to which a bridge leads from its corner 0: that is in its face twice.
 struct Bridged_face
 {
@@ -330,6 +373,7 @@ void test_all()
   test_wrong_numbers();
   test_buffered_corners();
   test_weighted_points();
+  test_plain_points();
   test_bridged_face();
   using Triangles = std::vector<std::array<int, 3>>;
   using Signed_polygons = std::vector<std::vector<int>>;

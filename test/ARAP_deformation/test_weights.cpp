@@ -39,6 +39,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -369,10 +370,38 @@ void test_inheritance()
   CHECK(!Edge_weight_model_of<Other>({}).are_of_shapes());
 }
 
+// one function for triangles and tetrahedra, whose body compiles for points only
+struct Generic_weight
+{
+  template <typename Corners>
+  auto simplex_weights(const Corners& corners) const
+  {
+    static_assert(std::is_same_v<typename Corners::value_type, CGAL::ARAP::Coordinates>);
+    return Cotangent_weight().simplex_weights(corners);
+  }
+  double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double sum) const
+  {
+    return sum;
+  }
+};
+
+void test_generic_weight()
+{
+  test_case() = "one function for all simplices";
+  const CGAL::ARAP::internal::Edge_weight_model_of<Generic_weight> generic({});
+  const CGAL::ARAP::internal::Edge_weight_model_of<Cotangent_weight> expected({});
+  const std::array<CGAL::ARAP::Coordinates, 3> triangle = {{{0, 0, 0}, {5, 1, 2}, {2, 1, 0}}};
+  const std::array<CGAL::ARAP::Coordinates, 4> tetrahedron = {
+    {{0, 0, 0}, {1, 0, 2}, {2, 1, 0}, {0, 0, 1}}};
+  CHECK(generic.triangle(triangle, {0, 1, 2}) == expected.triangle(triangle, {0, 1, 2}));
+  CHECK(generic.tetrahedron(tetrahedron) == expected.tetrahedron(tetrahedron));
+}
+
 void test_all()
 {
   test_one_polygon();
   test_inheritance();
+  test_generic_weight();
   test_corners_next_to_a_line();
 }
 

@@ -14,12 +14,13 @@
 
 // libigl's deformation, in a separate file: its headers take long to compile.
 
-#include "scenario.h"
+#include "shapes.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace benchmark {
 
@@ -34,30 +35,32 @@ struct Libigl_scenario
   Eigen::MatrixXd targets;
 };
 
-inline Libigl_scenario libigl_scenario(const Scenario& scenario)
+// Targets are pairs of a vertex and a point.
+template <std::size_t N, typename Targets>
+Libigl_scenario libigl_scenario(const Shape<N>& shape, const Targets& targets)
 {
-  const Mesh& mesh = scenario.mesh;
   Libigl_scenario result;
-  result.points.resize(static_cast<Eigen::Index>(num_vertices(mesh)), 3);
-  for(vertex_descriptor v : vertices(mesh))
-    result.points.row(v.idx()) = to_vector(mesh.point(v));
-  result.simplices.resize(static_cast<Eigen::Index>(num_faces(mesh)), 3);
-  for(auto f : faces(mesh))
+  result.points.resize(static_cast<Eigen::Index>(shape.points.size()), 3);
+  for(Eigen::Index v = 0; v < result.points.rows(); ++v)
+    result.points.row(v) = to_vector(shape.points[static_cast<std::size_t>(v)]);
+  result.simplices.resize(static_cast<Eigen::Index>(shape.simplices.size()), N);
+  for(Eigen::Index s = 0; s < result.simplices.rows(); ++s)
+    result.simplices.row(s) = Eigen::Map<const Eigen::Matrix<int, 1, N>>(
+      shape.simplices[static_cast<std::size_t>(s)].data());
+  result.fixed.resize(static_cast<Eigen::Index>(targets.size()));
+  result.targets.resize(result.fixed.size(), 3);
+  for(Eigen::Index k = 0; k < result.fixed.size(); ++k)
   {
-    int corner = 0;
-    for(vertex_descriptor v : vertices_around_face(mesh.halfedge(f), mesh))
-      result.simplices(f.idx(), corner++) = static_cast<int>(v.idx());
-  }
-  const Eigen::Index n = static_cast<Eigen::Index>(scenario.targets.size());
-  result.fixed.resize(n);
-  result.targets.resize(n, 3);
-  for(Eigen::Index k = 0; k < n; ++k)
-  {
-    const auto& [v, target] = scenario.targets[static_cast<std::size_t>(k)];
-    result.fixed[k] = static_cast<int>(v.idx());
+    const auto& [v, target] = targets[static_cast<std::size_t>(k)];
+    result.fixed[k] = static_cast<int>(v);
     result.targets.row(k) = to_vector(target);
   }
   return result;
+}
+
+inline Libigl_scenario libigl_scenario(const Scenario& scenario)
+{
+  return libigl_scenario(surface("", scenario.mesh), scenario.targets);
 }
 
 class Libigl_deformation
@@ -67,7 +70,13 @@ public:
   ~Libigl_deformation();
 
   double preprocess_seconds() const { return m_preprocess_seconds; }
-  const Eigen::MatrixXd& points() const { return m_points; }
+  std::vector<Point> points() const
+  {
+    std::vector<Point> result;
+    for(Eigen::Index v = 0; v < m_points.rows(); ++v)
+      result.push_back(to_point(m_points.row(v)));
+    return result;
+  }
 
   // Local/global iterations from the rest shape; returns their seconds.
   double run(unsigned int iterations);

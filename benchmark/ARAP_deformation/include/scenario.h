@@ -30,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -186,13 +187,23 @@ inline Scenario make_scenario(Mesh mesh, double angle = 1.5)
   return scenario;
 }
 
-// of two meshes with the same vertices
+inline double largest_distance(const std::vector<Point>& a, const std::vector<Point>& b)
+{
+  double largest = a.size() == b.size() ? 0 : std::numeric_limits<double>::quiet_NaN();
+  for(std::size_t v = 0; v < (std::min)(a.size(), b.size()); ++v)
+    largest = larger(largest, CGAL::squared_distance(a[v], b[v]));
+  return std::sqrt(largest);
+}
+
+// of a mesh without gaps between its ids
+inline std::vector<Point> points_of(const Mesh& mesh)
+{
+  return {mesh.points().begin(), mesh.points().end()};
+}
+
 inline double largest_distance(const Mesh& a, const Mesh& b)
 {
-  double largest = 0;
-  for(vertex_descriptor v : vertices(a))
-    largest = larger(largest, CGAL::squared_distance(a.point(v), b.point(v)));
-  return std::sqrt(largest);
+  return largest_distance(points_of(a), points_of(b));
 }
 
 } // namespace benchmark

@@ -107,7 +107,7 @@ inline Shape<4> block(const std::string& name, int nx, int ny, int nz)
 
 inline Shape<3> surface(const std::string& name, const Mesh& mesh)
 {
-  Shape<3> shape{name, {mesh.points().begin(), mesh.points().end()}, {}};
+  Shape<3> shape{name, points_of(mesh), {}};
   for(auto f : faces(mesh))
   {
     std::array<int, 3> corners;

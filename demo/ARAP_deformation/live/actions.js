@@ -1,12 +1,19 @@
 // What buttons and keys do with the shape that is open.
-import { FIXED, FREE, HANDLE } from './colors.js';
+import { FIXED, FREE } from './colors.js';
 import { placeGizmo, showMeasure } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
-import { handlesMoved, hold, membersOf, messageOfHandles, recountHandles } from './handles.js';
+import {
+  handlesMoved,
+  hold,
+  membersOf,
+  messageOfHandles,
+  placeOf,
+  recountHandles,
+} from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
-import { painted, setTool } from './painting.js';
+import { cancelStroke, painted, setTool } from './painting.js';
 import { $, changed, engine, page, view } from './state.js';
 import { changing, commit, commitSoon, forgetPast, inTurn, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
@@ -62,17 +69,19 @@ export function changeHandle(change) {
 export async function removeHandle() {
   const handle = page.shape?.handles[page.chosen];
   if (!handle) return;
-  for (let v = 0; v < page.shape.status.length; ++v)
-    if (page.shape.status[v] === page.chosen + HANDLE) page.shape.status[v] = FREE;
-  handle.point = null;
-  page.stroke = null;
   setTool('grab');
-  await painted();
+  await painted(() => {
+    cancelStroke();
+    const k = page.shape.handles.indexOf(handle); // it may be gone by now
+    for (const v of k < 0 ? [] : membersOf(k)) page.shape.status[v] = FREE;
+    handle.point = null;
+  });
 }
 
 export function clearPaint() {
   stopPlaying();
   return changing(async () => {
+    cancelStroke();
     page.shape.status.fill(FREE);
     page.shape.handles = [];
     page.chosen = -1;
@@ -102,7 +111,7 @@ export async function restFromNow() {
     const { rest } = await engine.call('rest');
     page.shape.points = rest;
     page.shape.handles.forEach((handle, k) => {
-      if (handle.point) handle.pivot = rigidParts(handle).place.toArray();
+      if (handle.point) handle.pivot = placeOf(handle.point, rest);
       else if (handle.size) handle.pivot = center(rest, membersOf(k));
       handle.matrix = identity();
     });

@@ -3,12 +3,18 @@ export class Engine {
   #calls = [];
   #current = null;
   #made = 0;
+  #failure = null;
 
   constructor(worker, wasm) {
     this.worker = worker;
     this.ready = new Promise((resolve, reject) => {
-      worker.onerror = (event) =>
-        reject(new Error(event.message || 'the worker could not be started'));
+      worker.onerror = (event) => {
+        this.#failure = new Error(event.message || 'the worker could not be started');
+        reject(this.#failure);
+        for (const call of [this.#current, ...this.#calls]) call?.reject(this.#failure);
+        this.#current = null;
+        this.#calls = [];
+      };
       worker.onmessage = ({ data }) => {
         if (data.id === 0) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
         const { resolve: done, reject: fail } = this.#current;
@@ -25,6 +31,7 @@ export class Engine {
   }
 
   call(operation, message = {}, transfer = []) {
+    if (this.#failure) return Promise.reject(this.#failure);
     return new Promise((resolve, reject) => {
       this.#calls.push({
         message: { ...message, operation, id: ++this.#made },

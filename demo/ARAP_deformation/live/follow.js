@@ -7,7 +7,10 @@ import { $, changed, engine, history, measured, page, view } from './state.js';
 
 export function pump() {
   if (!page.shape || !engine.isIdle || page.isSettled) return;
-  if (!page.isHeld) return void (page.isSettled = true);
+  if (!page.isHeld) {
+    page.isSettled = true;
+    return void showMeasure();
+  }
   const moves = page.hasNewTargets,
     fast = moves || page.dragging || page.playing;
   const share = measured.perIteration || 1;

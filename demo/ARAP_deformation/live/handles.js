@@ -5,10 +5,13 @@ import { drawMarks, placeGizmo } from './drawing.js';
 import { center, fittedMotion, identity } from './motion.js';
 import { changed, engine, page, view } from './state.js';
 
+// without what a stroke that has not ended paints
+export const heldStatus = () => page.stroke?.before ?? page.shape.status;
+
 export function membersOf(k) {
-  const list = [];
-  for (let v = 0; v < page.shape.status.length; ++v)
-    if (page.shape.status[v] === k + HANDLE) list.push(v);
+  const list = [],
+    status = heldStatus();
+  for (let v = 0; v < status.length; ++v) if (status[v] === k + HANDLE) list.push(v);
   return list;
 }
 
@@ -36,7 +39,18 @@ export const messageOfHandles = () =>
   }));
 
 export const hold = () =>
-  engine.call('hold', { status: page.shape.status.slice(), handles: messageOfHandles() });
+  engine.call('hold', { status: heldStatus().slice(), handles: messageOfHandles() });
+
+// the place of a point handle when the vertices are at these points
+export function placeOf({ simplex, coordinates }, points) {
+  const { simplices, corners } = page.shape;
+  return [0, 1, 2].map((i) =>
+    coordinates.reduce(
+      (sum, b, k) => sum + b * points[3 * simplices[corners * simplex + k] + i],
+      0,
+    ),
+  );
+}
 
 export const isThere = (handle) => handle.size > 0 || !!handle.point;
 
@@ -45,7 +59,7 @@ export function recountHandles(fits) {
   const { shape } = page;
   const sizes = new Map();
   let fixed = 0;
-  for (const s of shape.status) {
+  for (const s of heldStatus()) {
     if (s >= HANDLE) sizes.set(s - HANDLE, (sizes.get(s - HANDLE) ?? 0) + 1);
     fixed += s === FIXED;
   }

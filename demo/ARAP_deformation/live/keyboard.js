@@ -19,8 +19,9 @@ addEventListener('keydown', (event) => {
     if (key === 'z') (event.shiftKey ? redo : undo)();
     else if (key === 'y') redo();
     else return;
-  } else if (found) setTool(found);
-  else if (/^\d$/.test(key)) {
+  } else if (found) {
+    if (!page.stroke) setTool(found);
+  } else if (/^\d$/.test(key)) {
     page.paints = key === '0' ? FREE : key === '1' ? FIXED : Number(key);
     if (page.tool === 'grab') setTool('brush');
     changed();

@@ -19,6 +19,10 @@ export function matrixOf(pivot, q, place) {
   return m.transpose().toArray(); // row by row
 }
 
+// of the box around points
+export const diagonalOf = (points) =>
+  new THREE.Box3().setFromArray(points).getSize(new THREE.Vector3()).length();
+
 export function center(points, list) {
   const c = [0, 0, 0];
   for (const v of list) for (let i = 0; i < 3; ++i) c[i] += points[3 * v + i] / list.length;

@@ -1,16 +1,16 @@
 // Opening a shape, from a file or a model.
 import { FIXED, FREE, HANDLE } from './colors.js';
-import { draw, placeGizmo } from './drawing.js';
+import { draw, measureChanged, placeGizmo } from './drawing.js';
 import { boundary, readMesh } from './files.js';
 import { stopPlaying } from './follow.js';
 import { handlesMoved, hold, isThere, recountHandles } from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
 import { models } from './models.js';
+import { diagonalOf } from './motion.js';
 import { options, sendOptions } from './options.js';
 import { cancelStroke, setTool } from './painting.js';
 import { $, engine, history, measured, page, view } from './state.js';
 import { commit, commitNow, forgetPast, inTurn } from './undo.js';
-import { THREE } from './view.js';
 
 export const open = (mesh, name, note) =>
   inTurn(() => busy('Opening…', () => openInTurn(mesh, name, note)));
@@ -34,7 +34,6 @@ async function openInTurn({ points, simplices, corners, volume, status }, name, 
   placeGizmo();
   try {
     await engine.call('open', { points, simplices, corners, volume, weights });
-    const box = new THREE.Box3().setFromArray(points);
     page.shape = {
       name,
       points,
@@ -46,7 +45,7 @@ async function openInTurn({ points, simplices, corners, volume, status }, name, 
       handles: [],
       status: status?.slice() ?? new Int32Array(n).fill(FREE),
       stiffness: null,
-      diagonal: box.getSize(new THREE.Vector3()).length(),
+      diagonal: diagonalOf(points),
     };
     forgetPast();
     page.keys = [];
@@ -56,7 +55,8 @@ async function openInTurn({ points, simplices, corners, volume, status }, name, 
     history.energy.length = history.milliseconds.length = 0;
     view.setShape(points, page.shape.faces);
     view.fit();
-    if ($('measure').value) $('measure').value = '';
+    $('measure').value = '';
+    measureChanged();
     recountHandles(false);
     await sendOptions(options());
     await hold();

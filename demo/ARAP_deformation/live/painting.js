@@ -97,10 +97,12 @@ export function paintArea() {
   paint(list);
 }
 
-export async function painted() {
+// `prepare` is called first, when it is its turn
+export async function painted(prepare = () => {}) {
   const fits = isDeformed(),
     { tool, paints } = page; // they may change until it is their turn
   await changing(async () => {
+    prepare();
     if (tool === 'stiffness') {
       $('measure').value = 'stiffness';
       await engine.call('stiffness', { values: cellStiffness() });

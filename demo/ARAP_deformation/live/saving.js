@@ -2,7 +2,7 @@
 import { HANDLE } from './colors.js';
 import { writeMesh, writeSelection, writeTransforms } from './files.js';
 import { complain, say } from './messages.js';
-import { identity } from './motion.js';
+import { diagonalOf, identity } from './motion.js';
 import { options } from './options.js';
 import { $, engine, page, view } from './state.js';
 
@@ -27,7 +27,8 @@ function filed() {
 // for a shell; where it cannot tell all, a second line has what is left out
 export function commandLine() {
   const { name, volume, weights } = page.shape,
-    { cells, minimizer } = options(),
+    { cells, minimizer, bending_length } = options(),
+    diagonal = diagonalOf(page.shape.points), // of the rest shape that is saved
     ending = volume ? 'mesh' : 'off',
     held = filed().numbers.map((k) => page.shape.handles[k]);
   const file = (end) =>
@@ -44,7 +45,7 @@ export function commandLine() {
     `arap_deform ${file(`_rest.${ending}`)} -o out.${ending} --selection ${file('.sel')}` +
     (held.length ? ` --transform ${file('.def')}` : '') +
     ` --cells ${cells} --weights ${weights}` +
-    ` --minimizer ${minimizer} --bending ${$('bending').value / 100}` +
+    ` --minimizer ${minimizer} --bending ${+(bending_length / diagonal).toPrecision(10)}` +
     (ofAll('weight') === null ? '' : ` --soft ${ofAll('weight')}`) +
     (ofAll('turns') ? ' --turn' : '') +
     (untold.length ? `\nThis line leaves out: ${untold.join(', ')}.` : '')

@@ -1,7 +1,7 @@
 // Undo and redo.
 import { draw } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
-import { recountHandles } from './handles.js';
+import { heldStatus, recountHandles } from './handles.js';
 import { complain } from './messages.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { $, changed, engine, page, view } from './state.js';
@@ -33,8 +33,8 @@ export async function commit() {
   const { shape } = page;
   if (!shape) return;
   const kept = {
-    status: shape.status.slice(),
-    stiffness: shape.stiffness && shape.stiffness.slice(),
+    status: heldStatus().slice(),
+    stiffness: (page.stroke ?? shape).stiffness?.slice() ?? null,
     keys: page.keys.slice(),
     chosen: page.chosen,
     handles: structuredClone(shape.handles),

@@ -59,6 +59,7 @@ function hold(next, handles) {
   const fixed = listOf(status, 0);
   session.setWeight(fixed, Infinity);
   session.transform(fixed, identity, { fromRest: true });
+  session.eraseRotations(fixed); // a handle may have turned them
   session.eraseHandles(pointHandles);
   pointHandles = [];
   vertices = handles.map((handle, k) => {
@@ -173,7 +174,7 @@ onmessage = async ({ data }) => {
     const moved = ['points', 'rest', 'values'].map((name) => answer[name]?.buffer).filter(Boolean);
     postMessage({ ...answer, id: data.id }, moved);
   } catch (error) {
-    postMessage({ id: data.id, error: error.message, status: error.status ?? error.name });
+    postMessage({ id: data.id, error: error.message || String(error), status: error.status ?? error.name });
   }
 };
 postMessage({ id: 0 });

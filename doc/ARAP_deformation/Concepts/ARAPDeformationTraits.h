@@ -5,8 +5,9 @@
 \brief The concept `ARAPDeformationTraits` defines the types of the numeric parts of the class
 `CGAL::ARAP_deformation`, and provides objects of them.
 
-The class keeps a copy of its traits, and requests the objects anew in every preprocessing. The
-traits store any data that the objects need.
+The class keeps a copy of its traits, and requests the objects anew whenever it collects the region
+(`CGAL::ARAP::Stages::region`). The traits store any data that the objects need. Weights that change
+between these times have an `ARAPEdgeWeight::version()`.
 
 A model must be `DefaultConstructible` only if a `CGAL::ARAP_deformation` is constructed without
 traits.
@@ -41,7 +42,7 @@ public:
   /// \name Objects
   /// @{
 
-  /// returns the solver, a copy of which factorizes each matrix.
+  /// returns the solver, which is copied for each pattern of a matrix.
   Sparse_solver sparse_solver_object() const;
 
   /// returns the edge weights.

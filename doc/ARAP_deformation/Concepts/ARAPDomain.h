@@ -74,7 +74,8 @@ public:
   /// \name Vertices
   /// @{
 
-  /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`.
+  /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`, also where
+  /// it is `const`.
   ///
   /// Used by `CGAL::arap_deform()` and by functions that process a whole mesh. The class
   /// `CGAL::ARAP_deformation` uses it only for the named parameter `vertex_is_constrained_map`.
@@ -122,7 +123,7 @@ public:
   /// @{
 
   /// returns the corners of `s`: a range whose iterators have the value type `vertex_descriptor`,
-  /// valid until the next call. The corners of a polygon are in cyclic order, starting anywhere and
+  /// also where it is `const`, valid until the next call. The corners of a polygon are in cyclic order, starting anywhere and
   /// in either direction; those of a tetrahedron are in any order.
   unspecified_type simplex_vertices(simplex_descriptor s) const;
 

@@ -9,11 +9,13 @@ The solver may be direct or iterative. What it solves for are corrections, so th
 not depend on its accuracy; how many iterations it takes may.
 
 The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times, and
-`set_border()` between them where there is one. No two calls of one solver overlap; they may come from
-different threads one after the other.
+`set_border()` between them where there is one. `factorize()` may follow again at any time, without
+`analyze()`, with other values of the same pattern: also after `solve()` and `set_border()`, and after
+it has returned `false`. No two calls of one solver overlap; they may come from different threads one
+after the other.
 
-`CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each matrix that it
-factorizes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
+`CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each pattern that it
+analyzes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
 need not have it too. A move, on the other hand, keeps the factor and its border, and does not throw.
 Eigen's solvers can be neither copied nor moved; `CGAL::ARAP::Eigen_sparse_solver` makes a model of
 any of them.

@@ -31,22 +31,22 @@ namespace ARAP {
 /// meter for surfaces. See \ref ARAPDeformation_DynamicsTheory for the equations.
 struct Dynamics
 {
-  /// \f$h\f$, positive and finite. Another one requires a factorization.
+  /// \f$h\f$, positive and finite. A new value requires a factorization.
   double time_step = 1.0 / 60;
 
   /// \f$\rho\f$, the mass of a unit of the volume, or of the area of a surface; positive and
   /// finite. A vertex has its share in the rest shape: an equal part of each of its simplices.
-  /// Another one requires a factorization.
+  /// A new value requires a factorization.
   double density = 1;
 
   /// \f$\mu\f$, which makes an elastic energy \f$\mu E\f$ of the energy \f$E\f$; positive and
   /// finite. \f$\mu\f$ is an energy per volume for tetrahedra, and per area for surfaces. It
   /// multiplies soft targets, too: one of weight \f$m\f$ pulls like a spring of the constant
-  /// \f$2 \mu m\f$. Another one requires a factorization.
+  /// \f$2 \mu m\f$. A new value requires a factorization.
   double modulus = 1;
 
   /// \f$d\f$, the rate at which velocities decay, one over a time, not negative and finite: 0 for
-  /// none. Another one requires a factorization.
+  /// none. A new value requires a factorization.
   double damping = 0;
 
   /// the acceleration of all vertices, such as that of gravity; of points with two coordinates the

@@ -89,7 +89,7 @@ private:
 /// \ingroup PkgARAPDeformationWeights
 /// \brief returns the weights given by a property map on the edges of a mesh. Linear time.
 ///
-/// \param mesh a model of `EdgeListGraph`
+/// \param mesh a model of `EdgeListGraph` and `VertexListGraph`
 /// \param edge_weight_map a model of `ReadablePropertyMap` from edges to numbers
 /// \param np an optional sequence of named parameters among those below
 ///

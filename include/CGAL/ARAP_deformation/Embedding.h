@@ -135,7 +135,7 @@ public:
     {
       const Coordinates c = position(moved.size());
       moved.push_back(internal::with_weight_of(
-        point, internal::construct_point<internal::Bare_point_of<Point>>(c[0], c[1], c[2])));
+        point, internal::construct_point<false, internal::Bare_point_of<Point>>(c[0], c[1], c[2])));
     }
     std::move(moved.begin(), moved.end(), std::begin(points));
   }

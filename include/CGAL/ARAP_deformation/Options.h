@@ -100,8 +100,8 @@ struct Options
   /// whether a quasi-Newton run that would end with `Status::converged` first looks at the second
   /// derivative of the energy, and goes on if it is at a saddle point or on a plateau: see
   /// \ref ARAPDeformation_Ends. A look takes some tens of iterations, at most about 310; a run may
-  /// look several times. In place of what the quasi-Newton steps need it takes some 450 bytes for
-  /// each vertex. Local/global runs, time steps and runs with `smoothing_length` do not look.
+  /// look several times. It takes about 450 bytes per vertex, in place of what the quasi-Newton
+  /// steps need. Local/global runs, time steps and runs with `smoothing_length` do not look.
   bool verify_minimum = true;
 
   /// whether a quasi-Newton run with 30,000 free vertices or more adds a coarse metric to that of

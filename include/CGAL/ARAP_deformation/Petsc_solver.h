@@ -58,7 +58,7 @@ public:
 
   /// returns `false` at once in the process of rank 0. In others does what the solvers there need,
   /// and returns `true` when the environment and the solvers of rank 0 are gone. If memory runs out
-  /// here where no other process could be told, the program ends: they would wait forever.
+  /// here and the other processes cannot be told, the program ends: they would wait forever.
   bool serve() const noexcept
   {
     using Ranks = internal::Petsc_ranks;
@@ -108,7 +108,7 @@ enum class Petsc_method
 /// `include(ARAP_deformation/cmake/CGAL_Petsc_support.cmake)` defines it; an installed package does
 /// not have it. The processes are those of a `Petsc_environment`.
 ///
-/// No two calls of the solvers of a program may overlap: PETSc is not for several threads.
+/// No two calls of the solvers of a program may overlap: PETSc is not thread-safe.
 ///
 /// A matrix is refused if an entry is not finite or one on the diagonal is not positive, and where
 /// MUMPS finds a pivot that is not positive. A solution fails where conjugate gradients do not
@@ -148,8 +148,8 @@ public:
   }
 
   /// computes the factor, or the levels of the multigrid; `a` has the pattern of the last
-  /// `analyze()`. Returns `false` if `a` is refused, or if memory runs out. (Where PETSc itself
-  /// finds no memory in some of the processes only, the others may wait for these.)
+  /// `analyze()`. Returns `false` if `a` is refused, or if memory runs out. (If PETSc itself
+  /// runs out of memory in only some of the processes, the others may hang.)
   bool factorize(const Sparse_matrix& a)
   {
     m_state->send(Task::factorize);

@@ -121,9 +121,10 @@ struct Report : Outcome
   /// an estimate of \f$(E - E^*) / E^*\f$, where \f$E^*\f$ is the minimum that the run converges
   /// to, extrapolated from the decreases of the energy; infinity if there are too few of them, or
   /// if they do not shrink. A look at the second derivative may raise it. It is infinity, too, if
-  /// the iterations run out after a look found it wrong, or found a negative curvature. Next to a
-  /// minimum of zero it is relative to \f$10^{-9} s\f$, or to \f$10^{-6} E_0\f$ where that is less.
-  /// It errs on the large side, but is not a bound: see \ref ARAPDeformation_Gap for its accuracy.
+  /// the iterations run out, or a visitor stops, after a look found it wrong or found a negative
+  /// curvature. Next to a minimum of zero it is relative to \f$10^{-9} s\f$, or to
+  /// \f$10^{-6} E_0\f$ where that is less. It errs on the large side, but is not a bound: see
+  /// \ref ARAPDeformation_Gap for its accuracy.
   double estimated_relative_gap = (std::numeric_limits<double>::infinity)();
 
   End end = End::unknown; ///< what kind of place the run ended at.
@@ -132,8 +133,8 @@ struct Report : Outcome
   /// direction of negative curvature.
   unsigned int saddles_left = 0;
 
-  /// the number of plateaus that the run has left likewise: there the gap was larger than
-  /// estimated, or the second derivative did not tell it.
+  /// the number of plateaus that the run has left in the same way: there the gap was larger than
+  /// estimated, or could not be determined from the second derivative.
   unsigned int plateaus_left = 0;
 
   /// the number of iterations that looked at the second derivative, or tried where it leads, and
@@ -142,7 +143,7 @@ struct Report : Outcome
 
   std::size_t free_vertices = 0; ///< the number of vertices that were solved for
   /// the number of simplices in and around the region of interest; where hard control vertices are
-  /// more than half of it, those at a distance from all that can move may not count
+  /// more than half of it, those far from everything that can move may be left out
   std::size_t simplices = 0;
 
   /// the number of these tetrahedra that are inverted: the sign of their volume differs from that

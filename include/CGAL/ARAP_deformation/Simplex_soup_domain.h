@@ -101,8 +101,7 @@ public:
 
   /// returns `v`.
   /// \pre `v` is smaller than the number of points. In Release all functions that take a vertex or
-  ///      a simplex throw `std::out_of_range` if there is none of that number, but
-  ///      `is_simplex()`.
+  ///      a simplex, except `is_simplex()`, throw `std::out_of_range` if it does not exist.
   std::size_t index(vertex_descriptor v) const { return checked("vertex ", v, m_points->size()); }
 
   /// returns the point of `v` in the input range.

@@ -37,8 +37,9 @@ enum class Status
                         ///< object
   foreign_state,        ///< the state to restore is of another object
   invalid_stiffness,    ///< the stiffness of a cell is negative, infinite or not a number
-  undeclared_map,       ///< cells are simplices, and a generic function object for their stiffness
-                        ///< or groups is not declared with `of_simplices()`
+  undeclared_map,       ///< cells are simplices, and their stiffness or groups are given by
+                        ///< a generic function object without `of_simplices()`, or by a vector
+                        ///< where simplices are not numbers
   invalid_rotation,     ///< the rotation of a control vertex is not a rotation, or leaves the plane
   not_a_control_vertex, ///< a target or its weight was set for neither a control vertex nor
                         ///< a control point
@@ -116,8 +117,8 @@ inline const char* to_string(Status status)
 struct Outcome
 {
   Status status = Status::not_run; ///< the status.
-  /// the message; empty after success of the functions of `CGAL::ARAP_deformation`, but for runs,
-  /// `preprocess()` and `set_options()`.
+  /// the message; empty if a function of `CGAL::ARAP_deformation` other than a run, `preprocess()`
+  /// or `set_options()` succeeds.
   std::string message = "nothing was run yet";
 
   /// constructs the outcome of a call that was not made yet.

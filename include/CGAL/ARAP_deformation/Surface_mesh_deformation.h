@@ -164,7 +164,7 @@ public:
     Options options;
     options.cells = TAG == SPOKES_AND_RIMS ? Cell_scheme::spokes_and_rims() : Cell_scheme::spokes();
     m_session.set_options(options);
-    if(TAG == SRE_ARAP)
+    if constexpr(TAG == SRE_ARAP)
     {
       const internal::Double_point_map<Vertex_point_map> points = {vertex_point_map};
       for(auto f : faces(mesh))
@@ -368,7 +368,7 @@ public:
   /// must be finite.
   void set_sre_arap_alpha(double alpha)
   {
-    if(TAG == SRE_ARAP)
+    if constexpr(TAG == SRE_ARAP)
       m_session.change_cell_values([&](auto& values) {
         if(alpha == 0)
           values.set_fit_order({}, 0);

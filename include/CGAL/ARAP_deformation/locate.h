@@ -38,8 +38,8 @@ namespace ARAP {
 ///
 /// It is built for the points that the domain has at construction. Takes \f$O(n \log n)\f$ time for
 /// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Polygons are cut into
-/// triangles, as seen along their mean normal; they need not be convex, but those with hundreds of
-/// corners that are not take long. Triangles without area are ignored, and so are tetrahedra
+/// triangles, as seen along their mean normal; they need not be convex, but non-convex ones with
+/// hundreds of corners take long. Triangles without area are ignored, and so are tetrahedra
 /// without volume and simplices with a point that is not finite.
 ///
 /// \tparam Domain a model of `ARAPDomain`

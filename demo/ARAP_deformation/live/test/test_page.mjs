@@ -637,9 +637,35 @@ const steps = {
     await page.keyboard.press('b');
     await page.keyboard.press('1');
     await paintMiddle();
-    assert((await settled()).fixed > fixed, 'what is painted later is held');
+    const { fixed: more } = await settled();
+    assert(more > fixed, 'what is painted later is held');
+    // a key that would choose another tool does nothing until the stroke has ended
+    await drag([x + 60, y + 30], [x + 90, y]);
+    await page.keyboard.press('s');
+    await page.mouse.up();
+    assert((await settled()).fixed > more, 'what was painted when a key was pressed is held');
     assert.equal(await message(), '');
     await page.keyboard.press('g');
+  },
+
+  async 'colors of what is gone'() {
+    await openModel('bar');
+    await dragHandle(100, 60);
+    await page.mouse.up();
+    await settled();
+    await page.select('#measure', 'edge_length_error');
+    const quality = () => page.$eval('#quality', (q) => q.textContent);
+    await page.waitForFunction(() => /Edges/.test(document.getElementById('quality').textContent));
+    assert.doesNotMatch(await quality(), /Edges 0\.00%/);
+    await page.click('#clear');
+    await settled();
+    await page.waitForFunction(
+      () => /Edges 0\.00%/.test(document.getElementById('quality').textContent),
+      { timeout: 20000 },
+    );
+    await openModel('sheet');
+    assert.equal(await quality(), '');
+    assert(await page.$eval('#legend', (legend) => legend.hidden));
   },
 
   async 'no module knows one that imports it'() {
@@ -756,6 +782,13 @@ const steps = {
     await rest(600);
     assert((await settled()).energy > energy + 1e-3, 'one vertex turns its surroundings');
     await shot('10_one_vertex_turned');
+    // painted over, it turns nothing any more
+    await page.keyboard.press('b');
+    await page.keyboard.press('1');
+    await page.mouse.click(x, y);
+    now = await settled();
+    assert.equal(now.handles.length, 1);
+    assert(now.energy < energy + 1e-4, `the energy is ${now.energy} instead of ${energy}`);
     await page.$eval('#brush', (b) => {
       b.value = 26;
       b.dispatchEvent(new Event('input'));
@@ -836,14 +869,53 @@ const steps = {
     await openModel('bar');
     await dragHandle(100, 30);
     await page.mouse.up();
+    await bend(5);
     assert((await settled()).energy > 1e-4);
     const before = await positions();
+    const diagonal = () =>
+      page.evaluate(() => {
+        const ranges = [0, 1, 2].map((i) => window.arap.positions().filter((x, k) => k % 3 === i));
+        return Math.hypot(...ranges.map((range) => Math.max(...range) - Math.min(...range)));
+      });
+    const bendingOf = async () =>
+      Number((await page.evaluate(() => window.arap.commandLine())).match(/--bending (\S+)/)[1]);
+    await page.click('#reset');
+    await settled();
+    const first = await diagonal();
+    assert.equal(await bendingOf(), 0.05);
+    await page.click('#undo');
+    await settled();
     await page.click('#rest');
     const now = await settled();
     assert(now.energy < 1e-12, `the energy of a rest shape is ${now.energy}`);
     assert(largestDifference(before, await positions()) < 1e-5);
+    const share = (0.05 * first) / (await diagonal()); // the command takes that of this shape
+    assert(Math.abs((await bendingOf()) / share - 1) < 1e-4, `${await bendingOf()}, not ${share}`);
     await page.click('#undo');
     assert((await settled()).energy > 1e-4, 'undo of a rest shape');
+    await bend(0);
+    // a soft point handle is at its point again, not where it was drawn to
+    await openModel('sheet');
+    await page.keyboard.press('p');
+    await page.mouse.click(...(await middle()));
+    await settled();
+    await page.click('#soft');
+    await page.$eval('#weight', (w) => {
+      w.value = -3;
+      w.dispatchEvent(new Event('change'));
+    });
+    await dragHandle(0, -150, 2);
+    await page.mouse.up();
+    await settled();
+    await page.click('#rest');
+    const { space } = (await settled()).handles[1],
+      shape = await positions();
+    let nearest = Infinity;
+    for (let v = 0; v < shape.length; v += 3)
+      nearest = Math.min(nearest, Math.hypot(...space.map((x, i) => x - shape[v + i])));
+    assert(nearest < 0.02, `the marker is at a distance of ${nearest}`);
+    await page.click('#soft');
+    await page.keyboard.press('g');
   },
 
   async 'painted where it is deformed'() {

@@ -103,8 +103,7 @@ private:
         begin += sizes[child];
       }
     }
-    if(!blocks.empty())
-      m_block_updates.reset(new double[sizes[0]]); // first touched by the threads
+    m_block_updates.reset(new double[sizes[0]]); // first touched by the threads
   }
 
   double* block_update(int block) const

@@ -129,8 +129,6 @@ public:
   // the length of all local vectors together
   std::size_t vectors_size() const
   {
-    if(m_blocks.empty())
-      return 0;
     const Block& last = m_blocks.back();
     return last.vector + static_cast<std::size_t>(last.own + last.boundary);
   }

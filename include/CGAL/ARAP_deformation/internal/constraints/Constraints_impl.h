@@ -36,11 +36,8 @@ namespace internal {
 CGAL_ARAP_INLINE_FUNCTION
 void Weighted_rows::append(int vertex, double weight)
 {
-  m_vertices.items.push_back(vertex);
-  m_vertices.end_list();
-  m_coefficients.push_back(1);
-  m_weights.push_back(weight);
-  m_lengths.push_back(1);
+  const double one = 1;
+  append({&vertex, &vertex + 1, &one, 1}, weight);
 }
 
 CGAL_ARAP_INLINE_FUNCTION

@@ -68,32 +68,32 @@ Point construct_from_coordinates(const FT&... coordinates)
   }
 }
 
-// constructs a point; one with two coordinates leaves out z
-template <typename Point, typename FT>
+// constructs a point; one in the plane leaves out z
+template <bool is_planar, typename Point, typename FT>
 Point construct_point(const FT& x, const FT& y, const FT& z)
 {
-  if constexpr(number_of_coordinates<Point>() == 2)
+  if constexpr(is_planar)
     return construct_from_coordinates<Point>(x, y);
   else
     return construct_from_coordinates<Point>(x, y, z);
 }
 
 // p + t, for a vector with as many coordinates
-template <typename Point, typename Vector>
+template <bool is_planar, typename Point, typename Vector>
 Point translated(const Point& p, const Vector& t)
 {
-  if constexpr(number_of_coordinates<Point>() == 2)
+  if constexpr(is_planar)
     return construct_from_coordinates<Point>(p[0] + t[0], p[1] + t[1]);
   else
     return construct_from_coordinates<Point>(p[0] + t[0], p[1] + t[1], p[2] + t[2]);
 }
 
-// the coordinates of a point or a vector that has as many as points do; in the plane z is 0
-template <typename Point, typename Vector>
+// the coordinates of a point or a vector; in the plane it need not have z, which is 0
+template <bool is_planar, typename Vector>
 Coordinates coordinates_of(const Vector& v)
 {
   double z = 0;
-  if constexpr(number_of_coordinates<Point>() != 2)
+  if constexpr(!is_planar)
     z = CGAL::to_double(v[2]);
   return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), z};
 }
@@ -107,9 +107,12 @@ struct Point_conversion
   static_assert(is_planar || number_of_coordinates<Point>() == 3,
                 "the points of a shape must have three coordinates, or two in the plane");
 
-  static Coordinates coordinates(const Point& point) { return coordinates_of<Point>(point); }
+  static Coordinates coordinates(const Point& point) { return coordinates_of<is_planar>(point); }
 
-  static Point make_point(const Coordinates& c) { return construct_point<Point>(c[0], c[1], c[2]); }
+  static Point make_point(const Coordinates& c)
+  {
+    return construct_point<is_planar, Point>(c[0], c[1], c[2]);
+  }
 };
 
 } // namespace internal

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
@@ -62,20 +63,14 @@ public:
   template <typename Simplices>
   explicit Triangle_tree(const Simplices& simplices)
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Coordinates lowest = {infinity, infinity, infinity};
-    Coordinates highest = {-infinity, -infinity, -infinity};
+    Bounding_box box;
     for(const auto& corners : simplices)
       for(const Coordinates& c : corners)
-        for(std::size_t k = 0; k < 3; ++k)
-        {
-          lowest[k] = (std::min)(lowest[k], c[k]);
-          highest[k] = (std::max)(highest[k], c[k]);
-        }
+        box.include(c);
     for(std::size_t k = 0; k < 3; ++k)
     {
-      m_center[k] = 0.5 * lowest[k] + 0.5 * highest[k];
-      m_extent = (std::max)(m_extent, highest[k] - lowest[k]);
+      m_center[k] = 0.5 * box.least()[k] + 0.5 * box.most()[k];
+      m_extent = (std::max)(m_extent, box.most()[k] - box.least()[k]);
     }
   }
 

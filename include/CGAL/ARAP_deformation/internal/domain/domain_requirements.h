@@ -125,10 +125,11 @@ struct Domain_requirements
   static_assert(is_valid<Call_is_isolated, Domain>,
     "the model of ARAPDomain lacks: bool is_isolated(vertex_descriptor) const");
   static_assert(is_valid<Call_vertices, Domain>,
-    "the model of ARAPDomain lacks: vertices() const, a range of vertex_descriptor");
+    "the model of ARAPDomain lacks: vertices() const, a range of vertex_descriptor, also where "
+    "it is const");
   static_assert(is_valid<Call_simplex_vertices, Domain>,
     "the model of ARAPDomain lacks: simplex_vertices(simplex_descriptor) const, "
-    "a range of vertex_descriptor");
+    "a range of vertex_descriptor, also where it is const");
   static_assert(is_valid<Call_coordinates, Domain>,
     "the model of ARAPDomain lacks: "
     "static CGAL::ARAP::Coordinates coordinates(const Point&)");

@@ -90,7 +90,7 @@ public:
 
   // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those
   // of its halfedges. Zero where a face of more corners has no such halfedge.
-  std::array<double, 3> simplex_weights(const std::array<std::size_t, 3>& indices) const
+  std::array<double, 3> weights_of_halfedges(const std::array<std::size_t, 3>& indices) const
   {
     for(const auto& [a, b, c] : {indices, {indices[1], indices[0], indices[2]}})
       for(const halfedge_descriptor h : halfedges_to(b))

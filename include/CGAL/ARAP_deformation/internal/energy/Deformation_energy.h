@@ -223,6 +223,8 @@ public:
       m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
       covariances_of_cells(x, begin, end, covariances);
+      if(has_steps)
+        std::copy_n(covariances, end - begin, m_covariances.data() + begin);
       if(is_smooth)
         m_smooth.add_covariances(begin, end, covariances);
     };
@@ -236,11 +238,7 @@ public:
     if(m_sequential_fit.is_none())
       m_batches.for_each([&](int begin, int end) {
         std::array<Matrix_3x3, batch_size> covariances;
-        covariances_of_cells(x, begin, end, covariances.data());
-        if(has_steps)
-          std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
-        if(is_smooth)
-          m_smooth.add_covariances(begin, end, covariances.data());
+        compute_covariances(begin, end, covariances.data());
         closest_rotations(static_cast<std::size_t>(end - begin), covariances.data(),
                           rotations.data() + begin);
       });

@@ -64,8 +64,8 @@ using Inherited_weights =
   std::pair<Inherited_weights_of<Weight, 3>, Inherited_weights_of<Weight, 4>>;
 
 template <typename Weight>
-using Call_triangle_weights_of_vertices =
-  decltype(std::declval<const Weight&>().simplex_weights(std::array<std::size_t, 3>()));
+using Call_weights_of_halfedges =
+  decltype(std::declval<const Weight&>().weights_of_halfedges(std::array<std::size_t, 3>()));
 
 template <typename Weight>
 using Call_tetrahedron_weights_of =
@@ -80,8 +80,8 @@ public:
   std::array<double, 3> triangle(const Triangle& points,
                                  const std::array<std::size_t, 3>& indices) const override
   {
-    if constexpr(is_valid<Call_triangle_weights_of_vertices, Weight>)
-      return m_weight.simplex_weights(indices); // weights that a mesh has for its halfedges
+    if constexpr(is_valid<Call_weights_of_halfedges, Weight>)
+      return m_weight.weights_of_halfedges(indices);
     else
       return m_weight.simplex_weights(points);
   }

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
@@ -107,12 +108,7 @@ public:
     m_force = m_step;
     if(!m_system.solve(m_step))
       return 0;
-    return sum_over_blocks(n, [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for(std::size_t c = begin; c < end; ++c)
-        sum += dot(m_force[c], m_step[c]);
-      return sum;
-    });
+    return dot_product(m_force, m_step);
   }
 
   // Takes a step, or a share of it, if that lowers the energy; false if it does not.

@@ -136,7 +136,7 @@ public:
       m_number_of_movable_vertices(number_of_movable_vertices),
       m_covariances(m_stars.size()), m_means(m_stars.size()), m_rest_covariances(m_stars.size())
   {
-    run_kernel<Star_covariances_kernel>(view(rest, rest), 0, m_stars.size(),
+    run_kernel<Star_covariances_kernel>(view(rest, rest, m_stars.weights), 0, m_stars.size(),
                                         m_rest_covariances.data());
   }
 
@@ -215,7 +215,7 @@ public:
   {
     if(!has_stars_as_cells())
       m_chosen.for_each([&](int begin, int end) {
-        run_kernel<Star_covariances_kernel>(view(rest, x), begin, end,
+        run_kernel<Star_covariances_kernel>(view(rest, x, m_stars.weights), begin, end,
                                             m_covariances.data() + begin);
       });
   }
@@ -225,7 +225,8 @@ public:
                            Matrix_3x3* covariances) const
   {
     if(has_stars_as_cells())
-      return run_kernel<Star_covariances_kernel>(view(rest, x), begin, end, covariances);
+      return run_kernel<Star_covariances_kernel>(view(rest, x, m_stars.weights), begin, end,
+                                                 covariances);
     add_up_covariances(m_cells, m_covariances, begin, end, covariances);
   }
 
@@ -243,7 +244,7 @@ public:
   double evaluate(const Points& rest, const Points& x, const Matrix_3x3* rotations,
                   Coordinates* force)
   {
-    Star_view stars = view(rest, x);
+    Star_view stars = view(rest, x, m_stars.weights);
     double spread_energy = 0;
     if(!has_stars_as_cells())
     {
@@ -254,9 +255,7 @@ public:
         return energy;
       });
       rotations = m_means.data();
-      stars.weights = m_weights_of_cells.data();
-      stars.opposite_weights =
-        (m_opposite_weights.empty() ? m_weights_of_cells : m_opposite_weights).data();
+      stars = view(rest, x, m_weights_of_cells);
     }
     const int number_of_forces = force ? m_number_of_movable_vertices : 0;
     return spread_energy + m_chosen.sum([&](int begin, int end) {
@@ -326,12 +325,10 @@ private:
     return opposite;
   }
 
-  Star_view view(const Points& rest, const Points& x) const
+  Star_view view(const Points& rest, const Points& x, const Array<double>& weights) const
   {
-    const Array<double>& opposite =
-      m_opposite_weights.empty() ? m_stars.weights : m_opposite_weights;
-    return {m_stars.neighbors.begin.data(), m_stars.neighbors.items.data(),
-            m_stars.weights.data(), opposite.data(), rest, x};
+    return {m_stars.neighbors.begin.data(), m_stars.neighbors.items.data(), weights.data(),
+            (m_opposite_weights.empty() ? weights : m_opposite_weights).data(), rest, x};
   }
 
   Stars m_stars;

@@ -17,7 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
+#include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>

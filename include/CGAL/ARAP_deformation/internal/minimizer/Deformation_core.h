@@ -105,13 +105,22 @@ public:
   // The rotation of a cell, the identity where nothing moves. None if all are identities, as before
   // the first run.
   const Array<Matrix_3x3>& rotations() const { return m_rotations; }
-  void set_rotations(Array<Matrix_3x3> rotations) { m_rotations = std::move(rotations); }
+
+  // whether these are of a run that went on from others: else those of cells that did not move are
+  // identities
+  bool are_rotations_complete() const { return m_are_rotations_complete; }
+
+  void set_rotations(Array<Matrix_3x3> rotations, bool are_complete)
+  {
+    m_rotations = std::move(rotations);
+    m_are_rotations_complete = are_complete;
+  }
 
   // whether a run goes on from the rotations before
   bool are_rotations_state() const;
 
-  // Where it does, but there are none, as of a new region: makes them those of the positions that
-  // it starts from.
+  // Where it does, but these are not complete, as of a new region: makes them those of the
+  // positions that it starts from.
   void complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
                 unsigned int number_of_threads);
 
@@ -160,6 +169,7 @@ private:
   Constraints m_constraints;
   std::vector<std::size_t> m_unconstrained_components;
   Array<Matrix_3x3> m_rotations;
+  bool m_are_rotations_complete = false;
   Diagnosis m_diagnosis;
 };
 

@@ -37,6 +37,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
+#include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
@@ -358,9 +359,14 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
                                 unsigned int number_of_threads)
 {
-  if(rotations.empty() && are_rotations_state() && m_order == Minimization_order::local_first &&
-     x != m_region.rest)
+  if(m_are_rotations_complete || !are_rotations_state() ||
+     m_order != Minimization_order::local_first)
+    return;
+  rotations.clear();
+  if(x != m_region.rest)
     run_with_threads(threads(number_of_threads), [&] {
+      m_state->energy.set_given_rotations({}); // a run leaves those of its own targets
+      m_state->energy.clear_rotation_steps();
       for(int k = 0; k <= 10; ++k) // then smooth them
         m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
     });
@@ -522,12 +528,9 @@ CGAL_ARAP_INLINE_FUNCTION
 std::size_t
 Deformation_core::number_of_inverted_simplices(const Array<Coordinates>& x) const
 {
-  // the sign of the volume of the tetrahedron s
   const auto orientation = [this](int s, const Coordinates* points) {
-    const int* c = m_region.corners_of(s);
     const double volume =
-      dot(cross(difference(points[c[1]], points[c[0]]), difference(points[c[2]], points[c[0]])),
-          difference(points[c[3]], points[c[0]]));
+      signed_volume([&](std::size_t k) { return points[m_region.corners_of(s)[k]]; });
     return (volume > 0) - (volume < 0);
   };
   std::size_t count = 0;

@@ -73,7 +73,7 @@ public:
       sharpen(look, most_turns_at_saddle);
     }
     if(m_interruption)
-      return m_interruption;
+      return interrupted(!is_convex);
     if(finding == Second_look::Finding::failure) // a lost chance, and no more
       return Status::converged;
 
@@ -101,7 +101,7 @@ public:
     if(m_interruption)
     {
       return_to(iterate);
-      return m_interruption;
+      return interrupted(!is_convex || !is_gap_small);
     }
     if(!is_lower) // rounding errors are all that is left
       return finish(end);
@@ -134,6 +134,14 @@ private:
     }
     report.end = m_is_cut_off ? End::undecided : end;
     return Status::converged;
+  }
+
+  // The visitor has stopped the look. An estimate of the gap that it has refuted is not believed.
+  std::optional<Status> interrupted(bool is_refuted)
+  {
+    if(is_refuted)
+      m_run.report.estimated_relative_gap = std::numeric_limits<double>::infinity();
+    return m_interruption;
   }
 
   // Counts an iteration that looked, and moved nothing.
@@ -255,12 +263,12 @@ private:
            error <= (std::max)(0.2 * std::abs(predicted), 1e-3 * tolerated);
   }
 
-  // Where the curvature is small, the model may have a minimum that the energy has not: this falls
-  // further on. Goes along the direction to where the model has risen by what is tolerated, and
-  // from there by steps of local/global, as long as these promise to fall by twice the gap of the
-  // model, and a hundredth of what is tolerated. Where this was of use, in slit tubes, curvatures
-  // were at most 0.0085 of that of the Laplacian. With a coarse metric the same shapes have four to
-  // five times as much. There is no bound for it: shapes that are large enough for one are soft.
+  // Where the curvature is small, the model may have a minimum that the energy lacks: the energy
+  // keeps falling. Goes along the direction until the model has risen by the tolerance, and from
+  // there by steps of local/global, as long as these promise to lower the energy by twice the gap
+  // of the model and a hundredth of the tolerance. Where this helped, in slit tubes, curvatures
+  // were at most 0.0085 of that of the Laplacian, and with a coarse metric four to five times as
+  // much. With one, any curvature qualifies: shapes large enough to have it are soft.
   bool descend_along_soft_direction(Array<Coordinates>& iterate, Second_look& look,
                                     double tolerated)
   {

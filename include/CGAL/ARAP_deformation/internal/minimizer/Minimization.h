@@ -131,6 +131,7 @@ public:
       m_last_rotations = last_rotations;
       return Start::rejected;
     }
+    measure();
     return Start::taken;
   }
 
@@ -144,7 +145,10 @@ public:
     m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, nullptr, false);
     keep_rotations();
     if(evaluate_without_fit() < energy)
+    {
+      measure();
       return true;
+    }
     x.swap(other);
     m_rotations.swap(fitted);
     keep_rotations();

@@ -304,10 +304,10 @@ private:
     const std::size_t m = m_number_of_pairs;
     if(m == 0)
       return c;
-    // The ratio is that of the mix of modes that the last step was made of. The modes that converge
-    // last are softer, and to go somewhat too far in the others costs less than to go not far
-    // enough there: hence more than the ratio. After a run of local/global it is a hundred and
-    // more, and would let the stiff modes explode: hence a bound.
+    // The ratio is that of the mix of modes in the last step. The modes that converge last are
+    // softer, and overshooting in the others costs less than falling short in these: so more than
+    // the ratio is taken. After a run of local/global it can exceed a hundred, and would make the
+    // stiff modes explode: so it is bounded.
     const double ratio = m_slots[m_order[m - 1]].sy[m_order[m - 1]] / zy(m - 1, m - 1);
     c.of_d = (std::max)(1.0, (std::min)(3.0, 1.5 * ratio));
 

@@ -36,29 +36,6 @@ inline Coordinates centroid(const Array<Coordinates>& points)
   return sum;
 }
 
-// The smallest rotation that takes one unit vector to another: the product of two reflections.
-inline Matrix_3x3 smallest_rotation(const Coordinates& from, const Coordinates& to)
-{
-  Coordinates middle = from;
-  add(middle, 1, to);
-  if(dot(middle, middle) < 1e-16) // a half-turn about any axis, in the plane z = 0 about z
-    middle = cross(from, std::abs(from[2]) < 0.6 ? Coordinates{0, 0, 1} : Coordinates{0, 1, 0});
-  const auto reflected = [](Coordinates v, const Coordinates& normal) {
-    add(v, -2 * dot(v, normal) / dot(normal, normal), normal);
-    return v;
-  };
-  Matrix_3x3 rotation;
-  for(std::size_t k = 0; k < 3; ++k)
-  {
-    Coordinates axis = {0, 0, 0};
-    axis[k] = 1;
-    const Coordinates column = reflected(reflected(axis, from), middle);
-    for(std::size_t row = 0; row < 3; ++row)
-      rotation[3 * row + k] = column[row];
-  }
-  return rotation;
-}
-
 // The smallest rotation that is closest to a covariance of rank one, up to rounding, as that of
 // points on a line is; nothing for others.
 inline std::optional<Matrix_3x3> rotation_of_line(const Matrix_3x3& covariance)
@@ -81,7 +58,7 @@ inline std::optional<Matrix_3x3> rotation_of_line(const Matrix_3x3& covariance)
       left = (std::max)(left, std::abs(covariance[3 * row + k] - to[row] * from[k]));
   if(!(left * left <= 1e-24 * dot(to, to)))
     return std::nullopt;
-  return smallest_rotation(from, unit(to));
+  return Svd_rotation::smallest_rotation(from, unit(to));
 }
 
 CGAL_ARAP_INLINE_FUNCTION

@@ -19,8 +19,8 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>

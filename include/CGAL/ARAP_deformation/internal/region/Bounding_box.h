@@ -45,6 +45,10 @@ public:
       include(p);
   }
 
+  // of an empty box, infinite ones
+  const Coordinates& least() const { return m_least; }
+  const Coordinates& most() const { return m_most; }
+
   friend Bounding_box operator+(Bounding_box a, const Bounding_box& b) // of the points of both
   {
     for(std::size_t c = 0; c < 3; ++c)

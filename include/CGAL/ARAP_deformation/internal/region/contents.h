@@ -36,15 +36,20 @@ Coordinates vector_area(std::size_t n, const Corner& corner)
   return area;
 }
 
+// the volume of a tetrahedron, negative if it is inverted
+template <typename Corner>
+double signed_volume(const Corner& corner)
+{
+  const auto edge = [&](std::size_t k) { return difference(corner(k), corner(0)); };
+  return dot(edge(3), cross(edge(1), edge(2))) / 6;
+}
+
 // the area or volume of simplex s of the rest shape
 inline double content_of(const Region& region, int s)
 {
   const auto corner = [&](std::size_t k) { return region.rest[region.corners_of(s)[k]]; };
   if(region.dimension == 3)
-  {
-    const auto edge = [&](std::size_t k) { return difference(corner(k), corner(0)); };
-    return std::abs(dot(edge(1), cross(edge(2), edge(3)))) / 6;
-  }
+    return std::abs(signed_volume(corner));
   const auto n = static_cast<std::size_t>(region.number_of_corners(s));
   const Coordinates area = vector_area(n, corner);
   return std::sqrt(dot(area, area));

@@ -62,6 +62,33 @@ public:
     return compose(b, v);
   }
 
+  // The rotation by the smallest angle that takes the unit vector `from` to the unit vector `to`.
+  // Half a turn in the plane z = 0 stays in it.
+  static Matrix_3x3 smallest_rotation(const Coordinates& from, const Coordinates& to)
+  {
+    // two reflections: in the plane orthogonal to `from + to`, and in that orthogonal to `to`
+    Coordinates mid = {from[0] + to[0], from[1] + to[1], from[2] + to[2]};
+    double length = std::sqrt(dot(mid, mid));
+    if(length < 1e-8) // opposite: half a turn about an axis orthogonal to both
+    {
+      const std::size_t smallest = std::abs(to[0]) < std::abs(to[1])
+                         ? (std::abs(to[0]) < std::abs(to[2]) ? 0 : 2)
+                         : (std::abs(to[1]) < std::abs(to[2]) ? 1 : 2);
+      Coordinates axis = {0, 0, 0};
+      axis[smallest] = 1;
+      mid = cross(to, axis);
+      length = std::sqrt(dot(mid, mid));
+    }
+    mid = scaled(mid, 1 / length);
+    Matrix_3x3 r;
+    const double product = 2 * dot(mid, to);
+    for(std::size_t row = 0; row < 3; ++row)
+      for(std::size_t column = 0; column < 3; ++column)
+        r[3 * row + column] = (row == column ? 1 : 0) - 2 * mid[row] * mid[column]
+                            - 2 * to[row] * to[column] + 2 * product * to[row] * mid[column];
+    return r;
+  }
+
 private:
   using Columns = std::array<Coordinates, 3>;
 
@@ -114,32 +141,6 @@ private:
     for(std::size_t row = 0; row < 3; ++row)
       for(std::size_t column = 0; column < 3; ++column)
         r[3 * row + column] = u0[row] * v0[column] + u1[row] * v1[column] + u2[row] * v2[column];
-    return r;
-  }
-
-  // the rotation by the smallest angle that takes the unit vector `from` to the unit vector `to`
-  static Matrix_3x3 smallest_rotation(const Coordinates& from, const Coordinates& to)
-  {
-    // two reflections: in the plane orthogonal to `from + to`, and in that orthogonal to `to`
-    Coordinates mid = {from[0] + to[0], from[1] + to[1], from[2] + to[2]};
-    double length = std::sqrt(dot(mid, mid));
-    if(length < 1e-8) // opposite: half a turn about any axis orthogonal to both
-    {
-      const std::size_t smallest = std::abs(to[0]) < std::abs(to[1])
-                         ? (std::abs(to[0]) < std::abs(to[2]) ? 0 : 2)
-                         : (std::abs(to[1]) < std::abs(to[2]) ? 1 : 2);
-      Coordinates axis = {0, 0, 0};
-      axis[smallest] = 1;
-      mid = cross(to, axis);
-      length = std::sqrt(dot(mid, mid));
-    }
-    mid = scaled(mid, 1 / length);
-    Matrix_3x3 r;
-    const double product = 2 * dot(mid, to);
-    for(std::size_t row = 0; row < 3; ++row)
-      for(std::size_t column = 0; column < 3; ++column)
-        r[3 * row + column] = (row == column ? 1 : 0) - 2 * mid[row] * mid[column]
-                            - 2 * to[row] * to[column] + 2 * product * to[row] * mid[column];
     return r;
   }
 };

@@ -33,8 +33,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// By this a program does not link with a core whose memory Eigen aligns otherwise, as if only one
-// of them is compiled with -mavx: one would free what the other has allocated in another way.
+// Keeps a program from linking with a core whose memory Eigen aligns differently, for example if
+// only one is compiled with -mavx: one would free memory that the other has allocated differently.
 template <int bytes = EIGEN_MAX_ALIGN_BYTES>
 struct Eigen_alignment
 {};

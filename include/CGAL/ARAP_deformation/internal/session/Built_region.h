@@ -42,6 +42,7 @@ struct Cell_rotations
 {
   std::shared_ptr<const Domain_region<Domain>> region;
   Array<Matrix_3x3> rotations;
+  bool are_complete = false; // see Deformation_core
 };
 
 // A region with its positions and its core.
@@ -124,7 +125,7 @@ struct Built_region : Built_core
       if(!can_move)
         continue;
       if(vertices.is_pulled(entry))
-        constraints.pull(v, vertices.weight(entry));
+        constraints.pull(v, vertices.whole_target(entry).weight);
       else if(vertices.is_hard_control(entry) || (is_isolated && !rules.are_unconstrained_refused))
         constraints.fix(v);
     }
@@ -142,28 +143,31 @@ struct Built_region : Built_core
       constraints.add_inertia(inertia);
   }
 
+  Cell_rotations<Domain> rotations_of_cells() const
+  {
+    return {region, core->rotations(), core->are_rotations_complete()};
+  }
+
   // The rotations that these cells have in another region, the identity where they have none. None
   // if there are none.
-  Array<Matrix_3x3> rotations_from(const Domain_region<Domain>& other,
-                                   const Array<Matrix_3x3>& others, const Domain& domain) const
+  Array<Matrix_3x3> rotations_from(const Cell_rotations<Domain>& others, const Domain& domain) const
   {
-    if(others.empty())
+    if(others.rotations.empty())
       return {};
     Array<Matrix_3x3> rotations(core->number_of_cells(), identity_matrix());
     const bool are_at_vertices = core->has_vertex_cells();
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(const int old = are_at_vertices
-                           ? other.find_vertex(domain, region->vertices[c])
-                           : other.find_simplex(domain, region->simplices[c]);
-         old >= 0 && old < static_cast<int>(others.size()))
-        rotations[c] = others[old];
+                           ? others.region->find_vertex(domain, region->vertices[c])
+                           : others.region->find_simplex(domain, region->simplices[c]);
+         old >= 0 && old < static_cast<int>(others.rotations.size()))
+        rotations[c] = others.rotations[old];
     return rotations;
   }
 
-  void take_rotations(const Domain_region<Domain>& other, const Array<Matrix_3x3>& others,
-                      const Domain& domain)
+  void take_rotations(const Cell_rotations<Domain>& others, const Domain& domain)
   {
-    core->set_rotations(rotations_from(other, others, domain));
+    core->set_rotations(rotations_from(others, domain), others.are_complete);
   }
 
 private:

@@ -100,7 +100,7 @@ private:
     void set(Map map, T otherwise)
     {
       Values next; // a map of the user may throw
-      next.m_is_undeclared = !is_for_simplices<Map>() && is_generic<Map>;
+      next.m_is_undeclared = !is_for_simplices<Map>() && !tells_keys<Map>();
       if constexpr(is_for_simplices<Map>())
         next.ask_for_simplices(map, otherwise);
       if constexpr(is_for_vertices<Map>())
@@ -167,14 +167,23 @@ private:
     std::is_class_v<Map> && !is_valid<Call_operator_of, Map> &&
     is_valid<Call_map, Map, vertex_descriptor>;
 
+  // not so for a vector, which takes numbers
+  template <typename Map>
+  static constexpr bool tells_keys()
+  {
+    if constexpr(is_generic<Map>)
+      return false;
+    else
+      return is_value_of<Map, vertex_descriptor> || is_value_of<Map, simplex_descriptor>;
+  }
+
   template <typename Map>
   static constexpr bool is_for_simplices()
   {
     if constexpr(is_generic<Map>)
       return std::is_same_v<vertex_descriptor, simplex_descriptor>;
     else
-      return is_value_of<Map, simplex_descriptor> ||
-             (is_simplex_index && !is_value_of<Map, vertex_descriptor>);
+      return is_value_of<Map, simplex_descriptor> || (is_simplex_index && !tells_keys<Map>());
   }
 
   template <typename Map>
@@ -183,7 +192,7 @@ private:
     if constexpr(is_generic<Map>)
       return true;
     else
-      return is_value_of<Map, vertex_descriptor> || !is_value_of<Map, simplex_descriptor>;
+      return is_value_of<Map, vertex_descriptor> || !tells_keys<Map>();
   }
 
   Values<double> m_stiffness;

@@ -110,7 +110,7 @@ public:
     for(std::size_t c = 0; c < rotations.size(); ++c)
       if(is_forgotten(m_prepared->region->vertices[c]))
         rotations[c] = identity_matrix();
-    core().set_rotations(std::move(rotations));
+    core().set_rotations(std::move(rotations), core().are_rotations_complete());
   }
 
   // how many vertices are in the region of interest, and how many controls there are
@@ -159,14 +159,9 @@ public:
       m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
       if(!m_outcome)
         return m_outcome;
-      const bool were_rotations_state = core().are_rotations_state();
       core().update_weights(std::move(model), options.threads);
       if(core().diagnosis().status == Status::success)
-      {
         m_ready.values = m_present.values;
-        if(core().are_rotations_state() && !were_rotations_state)
-          core().set_rotations({}); // those of cells that did not move were not kept
-      }
     }
     if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
     {
@@ -184,7 +179,7 @@ public:
   {
     m_restored = Cell_rotations<Domain>();
     if(m_prepared)
-      m_prepared->core->set_rotations({});
+      m_prepared->core->set_rotations({}, false);
   }
 
   // What is needed to return to the present sets, positions and rotations, bit by bit.
@@ -202,7 +197,7 @@ public:
     if(!has_region())
       return {m_present, none, {}, m_restored, m_inertia};
     return {m_present, m_prepared->numbering, m_prepared->positions,
-            {m_prepared->region, core().rotations()}, m_inertia};
+            m_prepared->rotations_of_cells(), m_inertia};
   }
 
   // whether stiffness and lengths are those of a state
@@ -220,8 +215,7 @@ public:
       if(const Point* present = find_present(region().vertices[k]))
         positions[k] = Domain::coordinates(*present);
     if(state.cells.region)
-      state.cells.rotations =
-        m_prepared->rotations_from(*state.cells.region, state.cells.rotations, domain);
+      state.cells.rotations = m_prepared->rotations_from(state.cells, domain);
     state.positions.swap(positions);
   }
 
@@ -241,7 +235,7 @@ public:
       return;
     }
     m_prepared->positions.swap(state.positions);
-    core().set_rotations(std::move(state.cells.rotations));
+    core().set_rotations(std::move(state.cells.rotations), state.cells.are_complete);
   }
 
 private:
@@ -280,10 +274,10 @@ private:
                                                     is_whole(roi_size, number_of_fixed));
       if(Outcome made = next->make(vertices, values, m_models, options, m_rules); !made)
         return made;
-      if(m_prepared && (m_rules.are_targets_and_rotations_kept || has_region()))
-        next->take_rotations(*m_prepared->region, core().rotations(), vertices.domain());
+      if(m_prepared && (m_rules.are_rotations_kept || has_region()))
+        next->take_rotations(m_prepared->rotations_of_cells(), vertices.domain());
       else if(m_restored.region)
-        next->take_rotations(*m_restored.region, m_restored.rotations, vertices.domain());
+        next->take_rotations(m_restored, vertices.domain());
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
     if(prepared.core->diagnosis().status != Status::success) // its weights

@@ -57,8 +57,9 @@ public:
     for(std::size_t k : rows.controls)
     {
       const Entry& entry = m_vertices.entries()[k];
-      const Coordinates target = Domain::coordinates(m_vertices.target(entry));
-      if(m_vertices.weight(entry) > 0 && !is_finite(target) && !m_vertices.whole_target(entry).set)
+      const auto& whole_target = m_vertices.whole_target(entry);
+      const Coordinates target = Domain::coordinates(whole_target.point);
+      if(whole_target.weight > 0 && !is_finite(target) && !whole_target.set)
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex),
                                  "the target of ");
       const int v = m_prepared.number_of_entry(k);
@@ -137,7 +138,7 @@ private:
   void add_frames(Targets& targets) const
   {
     for(std::size_t k : m_prepared.rows().controls)
-      if(const auto& rotation = m_vertices.rotation(m_vertices.entries()[k]))
+      if(const auto& rotation = m_vertices.whole_target(m_vertices.entries()[k]).rotation)
         if(const int v = m_prepared.number_of_entry(k); v >= 0)
           targets.add_frame(v, *rotation);
   }

@@ -54,7 +54,7 @@ Outcome Run::run(const Options& options, const Observer& observe, Report& report
 CGAL_ARAP_INLINE_FUNCTION
 void Run::finish(Report& report)
 {
-  m_core.core->set_rotations(std::move(m_rotations));
+  m_core.core->set_rotations(std::move(m_rotations), m_core.core->are_rotations_state());
   report.inverted_simplices = m_core.core->number_of_inverted_simplices(m_core.positions);
 }
 

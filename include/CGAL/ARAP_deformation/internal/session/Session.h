@@ -145,6 +145,7 @@ protected:
   using Base::m_prepared;
   using Base::m_rules;
   using Base::m_vertices;
+  using Base::mend;
   using Base::points_of_entries;
   using Base::refuse_in_a_run;
   using Base::region_changed;
@@ -274,7 +275,7 @@ private:
     for(const auto& [k, point] : changed)
     {
       m_vertices.present_points()[k] = point;
-      if(this->mend(m_vertices.entries()[k], point))
+      if(mend(m_vertices.entries()[k], point))
         region_changed();
     }
     return m_prepared.has_region() ? m_prepared.take_points(m_vertices, changed)

@@ -271,7 +271,7 @@ protected:
     return true;
   }
 
-  // Whether a visitor, or another function of the user, has called that a run calls.
+  // Whether a run is under way, so that a visitor or another user function has made the call.
   bool refuse_in_a_run() const
   {
     CGAL_precondition_msg(!m_is_in_a_run,

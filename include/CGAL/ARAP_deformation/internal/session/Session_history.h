@@ -76,7 +76,7 @@ public:
       if(const Entry& entry = m_vertices.entries()[k]; entry.is_control)
       {
         replace_target(m_vertices.whole_target(entry), std::move(targets[k]));
-        m_vertices.rotation(entry).reset();
+        m_vertices.whole_target(entry).rotation.reset();
       }
     std::size_t number = 0;
     for(auto& held : m_vertices.points())
@@ -102,7 +102,7 @@ public:
     m_prepared.reset_rotations();
     for(const Entry& entry : m_vertices.entries()) // they were those from the other rest shape
       if(entry.is_control)
-        m_vertices.rotation(entry).reset();
+        m_vertices.whole_target(entry).rotation.reset();
     region_changed();
     m_vertices.present_points().swap(points);
     for(std::size_t k = 0; k < rest.size(); ++k)
@@ -181,8 +181,8 @@ protected:
   using Base::set_points;
   using Base::takes_points;
 
-  // Where a vertex was inserted whose point was not finite, and others have mended it: there its
-  // rest point is. Returns whether it has changed.
+  // If the point of a vertex was not finite when it was inserted, and is now: makes the new point
+  // its rest point. Returns whether it has changed.
   static bool mend(Entry& entry, const Point& point)
   {
     const bool is_mended = !is_finite(Domain::coordinates(entry.rest)) &&

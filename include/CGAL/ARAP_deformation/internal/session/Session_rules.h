@@ -32,9 +32,8 @@ struct Session_rules
   // used
   bool are_erased_put_back = false;
 
-  // whether targets survive erasing the control vertex, and rotations a change of the region of
-  // interest
-  bool are_targets_and_rotations_kept = false;
+  // whether rotations survive a change of the region of interest before a run
+  bool are_rotations_kept = false;
 };
 
 // those of CGAL's Surface_mesh_deformation

@@ -70,19 +70,6 @@ public:
   Point& target(const Entry& entry) { return m_targets[entry.target].point; }
   const Point& target(const Entry& entry) const { return m_targets[entry.target].point; }
 
-  // the weight of the target of a control vertex
-  double weight(const Entry& entry) const { return m_targets[entry.target].weight; }
-
-  // the rotation of the cells at a control vertex, if it is given
-  std::optional<Matrix_3x3>& rotation(const Entry& entry)
-  {
-    return m_targets[entry.target].rotation;
-  }
-  const std::optional<Matrix_3x3>& rotation(const Entry& entry) const
-  {
-    return m_targets[entry.target].rotation;
-  }
-
   bool is_hard_control(const Entry& entry) const
   {
     return entry.is_control && whole_target(entry).is_hard();

@@ -242,8 +242,7 @@ private:
   static double size(const Simplex& s, const Points& p)
   {
     if constexpr(is_volume)
-      return dot(difference(p[s[3]], p[s[0]]), cross(difference(p[s[1]], p[s[0]]),
-                                                     difference(p[s[2]], p[s[0]]))) / 6;
+      return signed_volume([&](std::size_t k) { return p[s[k]]; });
     else
       return length(vector_area(s, p));
   }
@@ -258,8 +257,9 @@ private:
       Coordinates mean = {0, 0, 0};
       for(std::size_t v : face)
         add(mean, 1 / static_cast<double>(face.size()), difference(p[v], p[faces[0][0]]));
-      volume += dot(mean, vector_area(face, p)) / 3;
-      largest += length(mean) * length(vector_area(face, p)) / 3;
+      const Coordinates area = vector_area(face, p);
+      volume += dot(mean, area) / 3;
+      largest += length(mean) * length(area) / 3;
     }
     return std::abs(volume) <= 1e-12 * largest ? 0 : volume; // of what is flat: rounding errors
   }

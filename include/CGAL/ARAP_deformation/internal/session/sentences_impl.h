@@ -128,8 +128,9 @@ inline const char* sentence(Status status, const std::string& what)
   case Status::invalid_stiffness:
     return " has a stiffness that is negative, infinite or not a number";
   case Status::undeclared_map:
-    return "cells are simplices, but a generic function object for stiffness or groups is asked "
-           "for vertices; pass of_simplices() of it, or give its parameter a type";
+    return "cells are simplices, but stiffness or groups are a generic function object or vector, "
+           "whose keys are vertices; wrap the function object in of_simplices() or give its "
+           "parameter a type; instead of a vector, pass a map with simplices as keys";
   case Status::invalid_rotation:
     return " was given a target rotation that is not a rotation: its columns must have "
            "length 1, be orthogonal, and be right-handed; of points with two coordinates it must "

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DOT_PRODUCT_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DOT_PRODUCT_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_DOT_PRODUCT_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_DOT_PRODUCT_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -41,4 +41,4 @@ inline double dot_product(const Array<Coordinates>& a, const Array<Coordinates>&
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_MINIMIZER_DOT_PRODUCT_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_DOT_PRODUCT_H
