@@ -120,7 +120,7 @@ void test_obj()
   accept("isolated.obj", "v 7 7 7\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\n");
   accept("good.obj", square + "f -4 -2 -1\n");
   for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
-    refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or is no oriented");
+    refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or does not form");
   refuse_at(1, "obj", "f 1 2 -3\n" + square, "a face has the vertex '-3', which does not exist");
   for(const std::string corner : {"5", "2147483648", "9223372036854775807"})
     refuse_at(6, "obj", square + "f 1 3 " + corner + "\nf 1 2 4\n",

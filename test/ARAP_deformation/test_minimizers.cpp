@@ -341,7 +341,7 @@ void test_far_positions()
     prepare(d, s, all_vertices(mesh));
     std::mt19937 random(1);
     for(Mesh::Vertex_index v : mesh.vertices())
-      if(!d.is_control_vertex(v))
+      if(d.is_roi_vertex(v) && !d.is_control_vertex(v))
         for(int k = 0; k < 3; ++k)
         {
           const Point& p = mesh.point(v);
