@@ -26,6 +26,7 @@ async function sendChangedOptions() {
   const wanted = options();
   try {
     if ((wanted.cells === 'elements') !== (before.cells === 'elements') && page.shape.stiffness) {
+      cancelStroke();
       page.shape.stiffness = null;
       await engine.call('stiffness', { values: [] });
       say('The painted stiffness was of other cells, and is cleared.');
@@ -69,6 +70,7 @@ export function changeHandle(change) {
 export async function removeHandle() {
   const handle = page.shape?.handles[page.chosen];
   if (!handle) return;
+  cancelStroke();
   setTool('grab');
   await painted(() => {
     cancelStroke();

@@ -17,6 +17,7 @@ export class Engine {
       };
       worker.onmessage = ({ data }) => {
         if (data.id === 0) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
+        if (!this.#current) return; // after a failure
         const { resolve: done, reject: fail } = this.#current;
         this.#current = null;
         if (data.error) fail(Object.assign(new Error(data.error), { status: data.status }));

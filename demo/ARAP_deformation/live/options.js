@@ -27,8 +27,13 @@ export function stiffnessOfVertices() {
   return page.shape.stiffness;
 }
 
+// without what a stroke that has not ended paints
+export const heldStiffness = () => (page.stroke ?? page.shape).stiffness;
+
 // what the session wants: of its cells, and nothing where nothing is painted
-export const cellStiffness = () =>
-  !page.shape.stiffness || $('cells').value !== 'elements'
-    ? (page.shape.stiffness ?? [])
-    : ofSimplices(page.shape, page.shape.stiffness);
+export function cellStiffness() {
+  const stiffness = heldStiffness();
+  return stiffness && $('cells').value === 'elements'
+    ? ofSimplices(page.shape, stiffness)
+    : (stiffness ?? []);
+}

@@ -4,7 +4,7 @@ import { writeMesh, writeSelection, writeTransforms } from './files.js';
 import { complain, say } from './messages.js';
 import { diagonalOf, identity } from './motion.js';
 import { options } from './options.js';
-import { $, engine, page, view } from './state.js';
+import { engine, page, view } from './state.js';
 
 export function save(name, content) {
   const url = URL.createObjectURL(

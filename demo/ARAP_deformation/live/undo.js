@@ -3,7 +3,7 @@ import { draw } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
 import { heldStatus, recountHandles } from './handles.js';
 import { complain } from './messages.js';
-import { cellStiffness, options, sendOptions, showOptions } from './options.js';
+import { cellStiffness, heldStiffness, options, sendOptions, showOptions } from './options.js';
 import { $, changed, engine, page, view } from './state.js';
 
 let past = [],
@@ -34,7 +34,7 @@ export async function commit() {
   if (!shape) return;
   const kept = {
     status: heldStatus().slice(),
-    stiffness: (page.stroke ?? shape).stiffness?.slice() ?? null,
+    stiffness: heldStiffness()?.slice() ?? null,
     keys: page.keys.slice(),
     chosen: page.chosen,
     handles: structuredClone(shape.handles),

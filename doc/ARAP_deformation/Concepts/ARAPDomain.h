@@ -74,8 +74,8 @@ public:
   /// \name Vertices
   /// @{
 
-  /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`, also where
-  /// it is `const`.
+  /// returns all vertices: a range whose iterators have the value type `vertex_descriptor`, also
+  /// where it is `const`.
   ///
   /// Used by `CGAL::arap_deform()` and by functions that process a whole mesh. The class
   /// `CGAL::ARAP_deformation` uses it only for the named parameter `vertex_is_constrained_map`.

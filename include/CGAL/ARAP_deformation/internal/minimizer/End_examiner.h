@@ -73,7 +73,7 @@ public:
       sharpen(look, most_turns_at_saddle);
     }
     if(m_interruption)
-      return interrupted(!is_convex);
+      return interrupted(!is_convex || look.gap() > tolerated);
     if(finding == Second_look::Finding::failure) // a lost chance, and no more
       return Status::converged;
 
@@ -139,7 +139,7 @@ private:
   // The visitor has stopped the look. An estimate of the gap that it has refuted is not believed.
   std::optional<Status> interrupted(bool is_refuted)
   {
-    if(is_refuted)
+    if(is_refuted || m_number_of_moves > 0)
       m_run.report.estimated_relative_gap = std::numeric_limits<double>::infinity();
     return m_interruption;
   }

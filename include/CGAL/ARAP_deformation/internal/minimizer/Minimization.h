@@ -131,6 +131,7 @@ public:
       m_last_rotations = last_rotations;
       return Start::rejected;
     }
+    m_targets.project(m_rows, x);
     measure();
     return Start::taken;
   }
