@@ -55,20 +55,6 @@ public:
     const std::int32_t* corners = m_corners.data() + s * m_columns;
     return boost::make_iterator_range(corners, corners + m_columns);
   }
-  class Iterator
-  {
-  public:
-    Iterator(const Simplices& simplices, std::size_t s) : m_simplices(&simplices), m_s(s) {}
-    auto operator*() const { return (*m_simplices)[m_s]; }
-    Iterator& operator++() { ++m_s; return *this; }
-    bool operator!=(const Iterator& other) const { return m_s != other.m_s; }
-
-  private:
-    const Simplices* m_simplices;
-    std::size_t m_s;
-  };
-  Iterator begin() const { return {*this, 0}; }
-  Iterator end() const { return {*this, size()}; }
 
 private:
   std::vector<std::int32_t> m_corners;

@@ -4,8 +4,8 @@
 # usage: packaging/check_recipes.sh [VCPKG]   VCPKG: a clone of vcpkg's repository, whose scripts run the
 #                                          portfile, with ninja; without it vcpkg's recipe is only read
 set -euo pipefail
-cd "$(dirname "$0")/.."
 vcpkg=${1:+$(cd "$1" && pwd)}
+cd "$(dirname "$0")/.."
 work=$PWD/build/recipes
 rm -rf "$work"
 mkdir -p "$work"
@@ -60,7 +60,7 @@ done
 mkdir -p "$work/vcpkg/port" "$work/vcpkg/downloads"
 cp "$archive" "$work/vcpkg/downloads"
 cp $port/* "$work/vcpkg/port"
-sed -i "s/^set(SOURCE_SHA512 0)/set(SOURCE_SHA512 $(sha512sum "$archive" | cut -d ' ' -f 1))/" "$work/vcpkg/port/portfile.cmake"
+sed -i "s/^set(SOURCE_SHA512 .*)/set(SOURCE_SHA512 $(sha512sum "$archive" | cut -d ' ' -f 1))/" "$work/vcpkg/port/portfile.cmake"
 helpers=$installed/x64-linux/share
 cmake -DCMD=BUILD -DPORT=arap-deformation -DVERSION="$version" "-DFEATURES=core;tbb;tools" \
   "-DALL_FEATURES=tbb;tools" -DTARGET_TRIPLET=x64-linux -D_HOST_TRIPLET=x64-linux \

@@ -1,14 +1,18 @@
-# What `cmake --install` installs, in two parts: "development" (headers, compiled core, CMake's
-# package), and "command" (arap_deform and its man page); and the Debian packages of both.
+# What `cmake --install` installs, in two parts: "development" (headers, compiled core if there is
+# one, CMake's package), and "command" (arap_deform and its man page); and the Debian packages of both.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set_property(TARGET ARAP_deformation_core PROPERTY EXCLUDE_FROM_ALL OFF)
+set(libraries ARAP_deformation_headers)
+if(TARGET ARAP_deformation_core)
+  list(APPEND libraries ARAP_deformation_core)
+  set_property(TARGET ARAP_deformation_core PROPERTY EXCLUDE_FROM_ALL OFF)
+endif()
 target_include_directories(ARAP_deformation_headers INTERFACE # those of imported targets are SYSTEM
                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/ARAP_deformation)
 install(DIRECTORY include/CGAL DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-install(TARGETS ARAP_deformation_headers ARAP_deformation_core EXPORT ARAP_deformation
+install(TARGETS ${libraries} EXPORT ARAP_deformation
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT ARAP_deformation NAMESPACE ARAP_deformation:: FILE ARAP_deformationTargets.cmake
         DESTINATION ${folder} COMPONENT development)

@@ -118,9 +118,7 @@ void add_row(const std::string& name, const Rotation& rotation, const std::strin
 
 Json run(const Settings& settings)
 {
-  const Scenario scenario = make_scenario(read_mesh(
-    settings.mesh_file.empty() ? CGAL::data_file_path("meshes/armadillo.off")
-                               : settings.mesh_file));
+  const Scenario scenario = make_scenario(read_mesh(settings.file_or("armadillo.off")));
   Json section = make_section(
     "The closest rotation",
     "Nanoseconds for one cell on one thread, and the largest difference (Frobenius norm) from "

@@ -153,10 +153,8 @@ void measure(const Scenario& scenario, const Term& term, Result& result)
 
 Json run(const Settings& settings)
 {
-  const Scenario scenario = make_scenario(read_mesh(
-    settings.mesh_file.empty() ? CGAL::data_file_path(settings.quick ? "meshes/camel.off"
-                                                                     : "meshes/armadillo.off")
-                               : settings.mesh_file));
+  const Scenario scenario =
+    make_scenario(read_mesh(settings.file_or(settings.quick ? "camel.off" : "armadillo.off")));
   Json section = make_section(
     "Terms of the energy",
     "The twisted model of " + format_number(static_cast<double>(scenario.number_of_vertices())) +

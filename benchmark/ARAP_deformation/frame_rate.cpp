@@ -101,8 +101,7 @@ void verify_drag(const Scenario& scenario, const Drag& drag)
 
 Json run(const Settings& settings)
 {
-  const Scenario scenario = make_scenario(read_mesh(
-    settings.mesh_file.empty() ? CGAL::data_file_path("meshes/camel.off") : settings.mesh_file));
+  const Scenario scenario = make_scenario(read_mesh(settings.file_or("camel.off")));
   const Drag drag(scenario);
   verify_drag(scenario, drag);
 

@@ -173,9 +173,7 @@ Json run(const Settings& settings)
     section["streaming_of_" + std::to_string(threads)] = curve;
   }
 
-  const Mesh mesh = read_mesh(settings.mesh_file.empty()
-                              ? CGAL::data_file_path("meshes/armadillo.off")
-                              : settings.mesh_file);
+  const Mesh mesh = read_mesh(settings.file_or("armadillo.off"));
   for(unsigned int parts : settings.quick ? std::vector<unsigned int>{1, 2}
                                           : std::vector<unsigned int>{1, 2, 3, 4, 6})
   {

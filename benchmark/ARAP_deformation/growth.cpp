@@ -25,9 +25,7 @@ using namespace benchmark;
 
 Json run(const Settings& settings)
 {
-  const Mesh mesh = read_mesh(settings.mesh_file.empty()
-                              ? CGAL::data_file_path("meshes/armadillo.off")
-                              : settings.mesh_file);
+  const Mesh mesh = read_mesh(settings.file_or("armadillo.off"));
   Json section = make_section(
     "Growth",
     "Milliseconds; the last column is the time divided by n log n, relative to the first size.",

@@ -109,9 +109,7 @@ struct Seconds
 
 Json run(const Settings& settings)
 {
-  const Mesh mesh = read_mesh(settings.mesh_file.empty()
-                              ? CGAL::data_file_path("meshes/armadillo.off")
-                              : settings.mesh_file);
+  const Mesh mesh = read_mesh(settings.file_or("armadillo.off"));
   Json section = make_section(
     "Other control vertices in the same region",
     "Milliseconds for full preprocessing, and after " + std::to_string(number_of_changes) +

@@ -21,7 +21,6 @@
 
 #include <CGAL/boost/graph/helpers.h>
 
-#include <algorithm>
 #include <iostream>
 #include <map>
 #include <string>
@@ -115,8 +114,7 @@ void compare(const Scenario& scenario, const Settings& settings, ARAP::Cell_sche
 
 Json run(const Settings& settings)
 {
-  const std::string file = settings.mesh_file.empty()
-                         ? CGAL::data_file_path("meshes/armadillo.off") : settings.mesh_file;
+  const std::string file = settings.file_or("armadillo.off");
   const Mesh mesh = read_mesh(file);
   if(!CGAL::is_closed(mesh))
     std::cout << "NOTICE: the mesh has a border, where the weights of ORIGINAL_ARAP depend on the "

@@ -104,9 +104,7 @@ Json curve(const std::vector<Sample>& samples, double minimum)
 
 Json run(const Settings& settings)
 {
-  const std::string file = !settings.mesh_file.empty() ? settings.mesh_file
-                         : CGAL::data_file_path(settings.quick ? "meshes/dino.off"
-                                                               : "meshes/armadillo.off");
+  const std::string file = settings.file_or(settings.quick ? "dino.off" : "armadillo.off");
   const Scenario scenario = make_scenario(read_mesh(file));
   const Star_energy energy(scenario);
   const double minimum = find_minimum(scenario, energy);

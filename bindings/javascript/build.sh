@@ -16,6 +16,9 @@ read -ra extra_flags <<<"${ARAP_WASM_FLAGS--msimd128}"
 flags=(-std=c++17 -O3 -DNDEBUG -Wall -Wextra -Wshadow -fwasm-exceptions "${extra_flags[@]}"
        -DCGAL_EIGEN3_ENABLED -DCGAL_DISABLE_GMP=1 -DCGAL_ALWAYS_ROUND_TO_NEAREST -DCGAL_DISABLE_ROUNDING_MATH_CHECK
        -DFE_UNDERFLOW=0 -DCGAL_ARAP_DEFORMATION_COMPILED "-I$root/include" -isystem "$out/include" -isystem /usr/include/eigen3)
+made_by="${flags[*]} $(em++ --version | head -1)"
+[ "$(cat "$out/made_by" 2>/dev/null)" = "$made_by" ] || rm -f "$out"/*.o
+echo "$made_by" >"$out/made_by"
 objects=()
 pids=
 for source in bindings/javascript/arap bindings/Array_deformation src/ARAP_deformation/core; do

@@ -242,6 +242,8 @@ private:
         if(t[k] >= piece.vertices.size())
           throw std::runtime_error("a triangle has a vertex that does not exist");
       }
+      if(to_scene.linear().determinant() < 0) // a mirror image: glTF turns its triangles over
+        std::swap(t[1], t[2]);
       const std::vector<std::size_t> face = {piece.vertices[t[0]], piece.vertices[t[1]],
                                              piece.vertices[t[2]]};
       if(face[0] == face[1] || face[1] == face[2] || face[2] == face[0])

@@ -101,14 +101,14 @@ inline C_file open_descriptor(const std::filesystem::path& file)
 
 } // namespace internal
 
-// Whether two names refer to the same file or pipe, or would if it existed. Devices can serve for
-// two things.
+// Whether two names refer to the same file, pipe or socket, or would if it existed. Devices can
+// serve for two things.
 inline bool is_same_file(const std::string& a, const std::string& b)
 {
 #if defined(__unix__) || defined(__APPLE__)
-  // std::filesystem::equivalent() does not compare pipes
+  // std::filesystem::equivalent() compares neither pipes nor sockets
   struct stat of_a, of_b;
-  if(stat(a.c_str(), &of_a) == 0 && S_ISFIFO(of_a.st_mode))
+  if(stat(a.c_str(), &of_a) == 0 && (S_ISFIFO(of_a.st_mode) || S_ISSOCK(of_a.st_mode)))
     return stat(b.c_str(), &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 #endif
   std::error_code error;
@@ -217,7 +217,7 @@ private:
     const bool exists = std::filesystem::is_regular_file(status);
     require(exists || status.type() == std::filesystem::file_type::not_found);
     require(!m_file.empty() && (!exists || std::ofstream(m_file, std::ios::app)));
-    const auto temporary = other_name();
+    const auto temporary = free_name();
     require(bool(std::ofstream(temporary)));
     m_temporary = temporary;
     std::error_code ignored;
@@ -225,20 +225,25 @@ private:
       std::filesystem::permissions(m_temporary, status.permissions(), ignored);
   }
 
-  // a name in the same folder; short, since that of the file may have the maximum length
-  std::filesystem::path other_name() const
+  // A name in the same folder that no file has; short, since that of the file may have the maximum
+  // length.
+  std::filesystem::path free_name() const
   {
-    return m_file.parent_path() / ("arap_" + std::to_string(std::random_device()()) + ".tmp");
+    std::filesystem::path name;
+    std::error_code ignored;
+    do
+      name = m_file.parent_path() / ("arap_" + std::to_string(std::random_device()()) + ".tmp");
+    while(std::filesystem::exists(name, ignored));
+    return name;
   }
 
   // Gives what is there a second name, or copies it where there are no links.
   void set_aside(std::error_code& error)
   {
-    const auto former = other_name();
-    std::filesystem::create_hard_link(m_file, former, error);
+    m_former = free_name();
+    std::filesystem::create_hard_link(m_file, m_former, error);
     if(error)
-      std::filesystem::copy_file(m_file, former, error);
-    m_former = former;
+      std::filesystem::copy_file(m_file, m_former, error);
   }
 
   // In pieces that a pipe takes as a whole or not at all: a signal interrupts only what has to wait

@@ -15,6 +15,10 @@
 // Pictures of triangulated shapes in the style of the figures of Sorkine and Alexa 2007, drawn by
 // the ray tracer POV-Ray, which needs neither a display nor a library.
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/wait.h>
+#endif
+
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/number_type_config.h>
@@ -22,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -199,10 +204,10 @@ void write_lines(std::ostream& out, const Lines& lines, const std::vector<Vector
           << texture << " } no_shadow }\n";
 }
 
-inline std::set<std::pair<int, int>> edges(const Panel& panel)
+inline std::set<std::pair<int, int>> edges(const std::vector<std::array<int, 3>>& triangles)
 {
   std::set<std::pair<int, int>> result;
-  for(const auto& t : panel.triangles)
+  for(const auto& t : triangles)
     for(int i = 0; i < 3; ++i)
       result.insert(std::minmax({t[i], t[(i + 1) % 3]}));
   return result;
@@ -294,7 +299,14 @@ struct Temporary_folder
 inline int run_program(const Temporary_folder& folder, const std::string& call)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
-  return std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
+  const int status = std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
+#if defined(__unix__) || defined(__APPLE__)
+  // meanwhile this program ignores an interrupt from the keyboard, which ends the other one
+  if((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
+     (WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT))
+    throw std::runtime_error("interrupted");
+#endif
+  return status;
 }
 
 // The messages of POV-Ray after its last headline, which tell why it stopped.
@@ -372,7 +384,7 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
   for(std::size_t k = 0; k < panels.size(); ++k) {
     internal::write_surface(out, panels[k], seen[k]);
     if(view.show_edges)
-      internal::write_lines(out, internal::edges(panels[k]), seen[k], "Line");
+      internal::write_lines(out, internal::edges(panels[k].triangles), seen[k], "Line");
     internal::write_lines(out, panels[k].lines, seen[k], "Pale_line");
     if(!panels[k].caption.empty())
       out << "Caption(\"" << internal::escaped(panels[k].caption, "\\\"") << "\", " << slot(k)

@@ -80,7 +80,7 @@ private:
   using Span = Source_text::Span;
   using Attributes = std::map<std::string, Span>;
 
-  // a DataArray: its attributes, and its contents, which may be elsewhere
+  // a DataArray, or an Array of strings: its attributes, and its contents, which may be elsewhere
   struct Array
   {
     const std::string& text;
@@ -153,7 +153,7 @@ private:
         m_piece = {array.get("NumberOfPoints"), array.get("NumberOfCells")};
       else if(name == "Points" || name == "Cells")
         parent = name;
-      else if(name == "DataArray")
+      else if(name == "DataArray" || name == "Array")
       {
         array.end = (std::min)(text().find('<', place), text().size());
         m_arrays.push_back(array);

@@ -586,9 +586,9 @@ void print_table(const fs::path& folder, std::istream& rows)
 // Section 5 of the paper: a surface in many pieces follows a coarse volume around it.
 void draw_embedding(const fs::path& folder)
 {
-  Soup<3> palm = make_palm();
-  Soup<4> volume = make_lattice_around(palm, 0.17, 0.17);
-  const Domain domain(volume.points, volume.simplices);
+  Soup palm = make_palm();
+  Tetrahedral_mesh volume = make_lattice_around(palm, 0.17, 0.17);
+  const Domain domain(volume.points, volume.tetrahedra);
   const CGAL::ARAP::Embedding embedding(domain, palm.points);
   if(!embedding.outcome())
     throw std::runtime_error(embedding.outcome().message);
@@ -606,7 +606,7 @@ void draw_embedding(const fs::path& folder)
   const auto report = deformation.deform();
   expect_success(report);
   embedding.put_points(palm.points);
-  std::cout << "  " << palm.points.size() << " points in " << volume.simplices.size()
+  std::cout << "  " << palm.points.size() << " points in " << volume.tetrahedra.size()
             << " tetrahedra\n";
   draw({before, panel(palm, volume, selection, "deformed")},
        View{Vector(0.3, -1, 0.3), Vector(0, 0, 1), 480, 480}, folder / "embedding.png");

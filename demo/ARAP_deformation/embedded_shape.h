@@ -17,6 +17,7 @@
 
 #include "Scene.h"
 #include "demo_shapes.h"
+#include "mesh_panel.h"
 #include "shape_files.h"
 
 #include <algorithm>
@@ -24,39 +25,36 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
 
-// triangles or tetrahedra, without any connectivity
-template <std::size_t N>
+// triangles without any connectivity
 struct Soup
 {
   std::vector<Point> points;
-  std::vector<std::array<int, N>> simplices;
+  std::vector<std::array<int, 3>> triangles;
 };
 
 // A sheet of nu x nv squares at the points f(u, v), with u and v from 0 to 1.
 template <typename Place>
-void add_sheet(Soup<3>& soup, int nu, int nv, Place f)
+void add_sheet(Soup& soup, int nu, int nv, Place f)
 {
   for(int i = 0; i <= nu; ++i)
     for(int j = 0; j <= nv; ++j) {
       const int d = int(soup.points.size()), c = d - 1, b = d - nv - 1, a = b - 1;
       soup.points.push_back(f(double(i) / nu, double(j) / nv));
       if(i > 0 && j > 0)
-        soup.simplices.insert(soup.simplices.end(), {{a, b, c}, {c, b, d}});
+        soup.triangles.insert(soup.triangles.end(), {{a, b, c}, {c, b, d}});
     }
 }
 
 // A palm: its trunk consists of open cones, some of which overlap the next one while others do not
 // reach it, and its leaves intersect.
-inline Soup<3> make_palm()
+inline Soup make_palm()
 {
-  Soup<3> palm;
+  Soup palm;
   const int cones = 11, leaves = 7;
   for(int k = 0; k < cones; ++k) {
     const double length = k % 2 == 0 ? 0.75 : 1.2;
@@ -80,10 +78,10 @@ inline Soup<3> make_palm()
 
 // The tetrahedra of a body-centered cubic lattice whose centroids are close to a point of the
 // surface. The cubes of the lattice have edge length 2 * size.
-inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double distance)
+inline Tetrahedral_mesh make_lattice_around(const Soup& surface, double size, double distance)
 {
   using Node = std::array<int, 3>;
-  Soup<4> volume;
+  Tetrahedral_mesh volume;
   std::map<Node, int> vertices;
   const auto place = [=](const Node& n) { return Point(size * n[0], size * n[1], size * n[2]); };
   const auto vertex = [&](const Node& n) {
@@ -100,8 +98,8 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
       return CGAL::squared_distance(p, CGAL::ORIGIN + center) < distance * distance;
     };
     if(std::any_of(surface.points.begin(), surface.points.end(), is_close))
-      volume.simplices.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2]),
-                                  vertex(corners[3])});
+      volume.tetrahedra.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2]),
+                                   vertex(corners[3])});
   };
 
   CGAL::Bbox_3 box;
@@ -131,36 +129,20 @@ inline Soup<4> make_lattice_around(const Soup<3>& surface, double size, double d
   return volume;
 }
 
-// The edges of the triangles that belong to only one tetrahedron.
-inline std::set<std::pair<int, int>> boundary_edges(const Soup<4>& volume)
-{
-  std::map<std::array<int, 3>, int> number_of_tetrahedra;
-  for(const auto& t : volume.simplices)
-    for(int k = 0; k < 4; ++k) {
-      std::array<int, 3> face{t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]};
-      std::sort(face.begin(), face.end());
-      ++number_of_tetrahedra[face];
-    }
-  std::set<std::pair<int, int>> edges;
-  for(const auto& [face, number] : number_of_tetrahedra)
-    if(number == 1)
-      edges.insert({{face[0], face[1]}, {face[0], face[2]}, {face[1], face[2]}});
-  return edges;
-}
-
 // The panel that shows a surface and the boundary edges of the volume around it. The selection is
 // that of the vertices of the volume.
-inline Panel panel(const Soup<3>& surface, const Soup<4>& volume, const std::vector<int>& selection,
-                   const std::string& caption)
+inline Panel panel(const Soup& surface, const Tetrahedral_mesh& volume,
+                   const std::vector<int>& selection, const std::string& caption)
 {
   Panel result;
   for(const auto* points : {&surface.points, &volume.points})
     for(const Point& p : *points)
       result.points.push_back({p.x(), p.y(), p.z()});
-  result.triangles = surface.simplices;
+  result.triangles = surface.triangles;
   const int n = int(surface.points.size());
-  for(const auto& [a, b] : boundary_edges(volume))
-    result.lines.push_back({n + a, n + b});
+  const Skin boundary = skin(volume);
+  for(const auto& [a, b] : internal::edges(boundary.triangles))
+    result.lines.push_back({n + int(boundary.vertices[a]), n + int(boundary.vertices[b])});
   result.selection.assign(surface.points.size(), FREE);
   result.selection.insert(result.selection.end(), selection.begin(), selection.end());
   result.caption = caption;

@@ -48,14 +48,16 @@ int main(int argc, char** argv)
 
   // drag and turn the handle a little in each frame; a few iterations per frame are enough
   const std::vector<vertex_descriptor> handle = deformation.control_vertices();
-  const Point pivot = mesh.point(handle.front());
+  Point pivot = mesh.point(handle.front());
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
+  const Kernel::Vector_3 step(0, 0.01 * (*highest - *lowest), 0);
   std::vector<CGAL::ARAP_deformation<Mesh>::State> history; // what undo returns to
+  history.push_back(deformation.state()); // once for the drag: a state copies the region
   for(int frame = 1; frame <= 10; ++frame)
   {
-    history.push_back(deformation.state());
     deformation.rotate(handle, Eigen::Vector3d(pivot.x(), pivot.y(), pivot.z()), turn);
-    deformation.translate(handle, Kernel::Vector_3(0, 0.01 * (*highest - *lowest), 0));
+    deformation.translate(handle, step);
+    pivot = pivot + step;
     const CGAL::ARAP::Report report = deformation.deform(3, 0);
     if(!report)
     {
@@ -66,13 +68,24 @@ int main(int argc, char** argv)
               << 1000 * report.seconds.total << " ms" << std::endl;
   }
 
-  // undo the last three frames; deformation.reset() would return to the rest shape
-  const CGAL::ARAP::Outcome undone = deformation.restore(history[7]);
+  // the drag has ended: on to the minimum
+  const CGAL::ARAP::Report end = deformation.deform();
+  if(!end)
+  {
+    std::cerr << end.message << std::endl;
+    return EXIT_FAILURE;
+  }
+  std::cout << "the minimum: energy " << end.final_energy() << ", "
+            << 1000 * end.seconds.total << " ms" << std::endl;
+
+  // undo; deformation.reset() would return to the rest shape
+  const CGAL::ARAP::Outcome undone = deformation.restore(history.back());
   if(!undone)
   {
     std::cerr << undone.message << std::endl;
     return EXIT_FAILURE;
   }
+  history.pop_back();
   std::cout << "after undo: the handle is at " << mesh.point(handle.front()) << std::endl;
   return EXIT_SUCCESS;
 }

@@ -396,8 +396,9 @@ public:
   /// rises. An exception from it ends the run and changes nothing.
   ///
   /// The weight must be finite, see `set_target_weight()`; if not, the call returns
-  /// `ARAP::Status::invalid_weight` and changes nothing. Functions that set or move a target, and
-  /// `reset()`, make it a point again.
+  /// `ARAP::Status::invalid_weight` and leaves this target, and in a range those after it, as they
+  /// were. What the function refers to must outlive the target and all states that have it.
+  /// Functions that set or move a target, and `reset()`, make it a point again.
   template <typename Handles, typename Projection>
   [[nodiscard]] ARAP::Outcome set_target_set(const Handles& handles, const Projection& projection)
   {
@@ -458,7 +459,8 @@ public:
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
   /// Choose the weight relative to the edges: on a surface with cotangents, one edge, over all
-  /// cells that contain it, weighs about 1; in a volume, about a length. Weights below about
+  /// cells that contain it, weighs about 1, with cells of `k_ring(1)` 8 and of `k_ring(2)` 22; in a
+  /// volume, about a length. The stiffness of the cells multiplies this. Weights below about
   /// \f$10^{-14}\f$ times these are lost to rounding.
   ///
   /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
@@ -495,11 +497,12 @@ public:
   /// \tparam Rotation a quaternion, angle and axis or matrix as Eigen's, a
   ///         `CGAL::Aff_transformation_3`, or an `ARAP::Matrix_3x3`
   ///
-  /// The rotation is that from the rest shape; it counts for soft control vertices too. A new
-  /// rotation costs no preprocessing. It stays when the target changes, by `rotate()` for example;
-  /// `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it. Returns
-  /// `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or turns
-  /// points with two coordinates out of their plane. \pre `is_control_vertex(v)`
+  /// The rotation is that from the rest shape; it counts for soft control vertices too. A simplex
+  /// with several frames gets the mean of their rotations, and so does a group (`set_groups()`). A
+  /// new rotation costs no preprocessing. It stays when the target changes, by `rotate()` for
+  /// example; `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it.
+  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or
+  /// turns points with two coordinates out of their plane. \pre `is_control_vertex(v)`
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -529,15 +532,16 @@ public:
 
   /// \name Stiffness and Rigid Parts
   /// A map is a function object, a property map, an associative container, or a vector by indices.
-  /// It is copied, and asked when the region is prepared: call the function again after a change of
-  /// its values. Its keys are vertices if cells are at vertices, and simplices if cells are
-  /// simplices; a map with the other keys has no effect, and no call fails because of it. Where
-  /// both have the same type, as in ranges, it is taken for what the cells are. The keys of a
-  /// generic lambda, or of another function object without a unique `operator()`, are vertices:
-  /// `ARAP::of_simplices()` of it takes simplices. The indices of a vector are those of vertices,
-  /// too, unless simplices are numbers, as in ranges and linear cell complexes. Where cells are
-  /// simplices, a run refuses such a function object and such a vector, with
-  /// `ARAP::Status::undeclared_map`. The functions themselves return
+  /// It is copied, and asked whenever the region or its weights are prepared, by any later run:
+  /// call the function again after a change of its values. What it refers to, as a lambda that
+  /// captures by reference does, must live until other values are set. Its keys are vertices if
+  /// cells are at vertices, and simplices if cells are simplices; a map with the other keys has no
+  /// effect, and no call fails because of it. Where both have the same type, as in ranges, it is
+  /// taken for what the cells are. The keys of a generic lambda, or of another function object
+  /// without a unique `operator()`, are vertices: `ARAP::of_simplices()` of it takes simplices. The
+  /// indices of a vector are those of vertices, too, unless simplices are numbers, as in ranges and
+  /// linear cell complexes. Where cells are simplices, a run refuses such a function object and
+  /// such a vector, with `ARAP::Status::undeclared_map`. The functions themselves return
   /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a run calls them.
   /// @{
 
@@ -560,7 +564,8 @@ public:
   }
 
   /// lets all cells to which the map gives the same number from 0 on share one rotation, as rigid
-  /// parts do; those with a negative number, or none, have their own. Numbers are at most
+  /// parts do; those with a negative number, or none, have their own. 0 is the number of a group:
+  /// a map to `bool` makes one of all cells with `false`. Numbers are at most
   /// \f$2^{63}-1\f$. What is not in the region of interest or next to it does not count.
   /// Takes new weights and a numeric factorization.
   template <typename GroupMap>
@@ -582,7 +587,8 @@ public:
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
   /// result throws, only the object is: points written before keep their new values.)
   /// A visitor must not change the object, nor must a map or a function that a call reads. This is
-  /// a precondition; in Release such calls fail.
+  /// a precondition; in Release such calls fail. An object and its mesh are for one thread at a
+  /// time: `ARAP::Status::in_a_run` does not tell that another thread runs it.
   /// @{
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
@@ -685,14 +691,16 @@ public:
   /// rotations that control vertices prescribe.
   void overwrite_initial_geometry() { m_session.overwrite_initial_geometry(); }
 
-  /// returns the region of interest, the control vertices and control points, their targets and
-  /// weights, the rest shape, the positions and velocities, for undo and redo. Linear time and
-  /// memory. What functions of target sets refer to must live as long as a state that has them.
-  /// Options, stiffness and groups are no part of it: a program that lets its users change these
-  /// must save them itself, and must set them again before it restores the state, because the
-  /// rotations in a state belong to the cells that were in use when it was taken. The factor is no
-  /// part of it, either: if it, or the region, was computed again since, runs from a restored state
-  /// have the same iterates only up to rounding.
+  /// returns the region of interest, the control vertices and control points, their targets
+  /// (points, sets and rotations) and weights, the rest shape, the positions and velocities, for
+  /// undo and redo. Linear time and memory: take one for a drag, not for each of its frames. What
+  /// functions of target sets refer to must live as long as a state that has them. Options,
+  /// stiffness and groups are no part of it: a program that lets its users change these must save
+  /// them itself, and where they differ now, must set them again before it restores the state,
+  /// because the rotations in a state belong to the cells that were in use when it was taken. That
+  /// costs what such a change costs, and `energy()` is not a number until the next run. The factor
+  /// is no part of it, either: if it, or the region, was computed again since, runs from a restored
+  /// state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
@@ -712,8 +720,9 @@ public:
   /// cells, their stiffness and groups, the bending and the smoothing length.
   double energy() const { return m_session.energy(); }
 
-  /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`; the identity
-  /// where `v` has no cell in the region and, until the next call, after `reset()`,
+  /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`. It is the
+  /// identity where no vertex of the cell is free, also inside a handle that has turned: there take
+  /// the rotation of the handle. It is the identity, too, until the next call, after `reset()`,
   /// `overwrite_initial_geometry()` and a change of the region of interest or the cells, also by
   /// `restore()`.
   /// \pre `options().cells.has_vertex_cells()`
@@ -725,9 +734,7 @@ public:
   }
 
   /// returns the rotation of the cell of `s` after the last `deform()` or `advance()`; the identity
-  /// where `s` has no cell in the region and, until the next call, after `reset()`,
-  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells, also by
-  /// `restore()`. \pre `!options().cells.has_vertex_cells()`
+  /// in the same cases as `rotation()`. \pre `!options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
     CGAL_precondition_msg(!options().cells.has_vertex_cells(),

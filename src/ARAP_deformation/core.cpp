@@ -22,11 +22,9 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Deformation_core_impl.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit_impl.h>
 #include <CGAL/ARAP_deformation/internal/region/Numbered_region_impl.h>
-#include <CGAL/ARAP_deformation/internal/region/Paged_index_map_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/rotation/SVD_closest_rotation_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Built_core_impl.h>
-#include <CGAL/ARAP_deformation/internal/session/Insertions_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Run_impl.h>
 #include <CGAL/ARAP_deformation/internal/session/Time_step_impl.h>

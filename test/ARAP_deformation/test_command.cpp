@@ -1049,6 +1049,22 @@ void test_gltf()
   const auto points = read_points("out.off");
   CHECK(points.size() == 4); // the seam is closed
   CHECK_AT_MOST((points[1] - to_scene * local[1]).norm(), 1e-12);
+  auto mirrored = json;
+  mirrored["nodes"][1]["scale"] = {-2, 1, 3};
+  write("mirrored.gltf", mirrored.dump());
+  CHECK(run("mirrored.gltf" + stay + "mirrored.off").exit_code == 0);
+  const Affine_map mirror = {Eigen::Quaterniond(0.8, 0.6, 0, 0).toRotationMatrix() *
+                               P(-2, 1, 3).asDiagonal(), P(1, 2, 3)};
+  for(const auto& [file, map] : {std::pair("out.off", to_scene), {"mirrored.off", mirror}})
+  {
+    const std::string text = content(folder / file);
+    std::istringstream face(text.substr(text.rfind("\n3 ") + 3));
+    std::size_t a = 0, b = 0, c = 0;
+    face >> a >> b >> c;
+    const auto p = read_points(file);
+    const P outwards = map.linear.inverse().transpose() * normal;
+    CHECK((p.at(b) - p.at(a)).cross(p.at(c) - p.at(a)).dot(outwards) > 0);
+  }
   CHECK(run("in.off --selection in.sel --transform in.def -o tube.off --quiet").exit_code == 0);
   CHECK(run("in.off --selection in.sel --transform in.def -o tube.glb --quiet").exit_code == 0);
   CHECK(run("tube.glb" + stay + "tube2.off").exit_code == 0);

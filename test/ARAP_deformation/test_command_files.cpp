@@ -15,6 +15,11 @@
 #include "include/check.h"
 #include "include/command.h"
 
+#ifdef __linux__
+#include <sys/socket.h>
+#include <unistd.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -639,19 +644,20 @@ struct Style
 std::string vtu(const Points& p, const Style& style)
 {
   std::string appended;
-  const auto array = [&](const std::string& name, const std::string& type, const auto& numbers) {
-    const std::string start = "<DataArray Name='" + name + "' NumberOfComponents=\"" +
+  const auto array = [&](const std::string& name, const std::string& type, const auto& numbers,
+                         const std::string& tag = "DataArray") {
+    const std::string start = '<' + tag + " Name='" + name + "' NumberOfComponents=\"" +
                               (name == "Points" ? "3" : "1") + "\" type=\"" + type + "\" format=\"";
     if(style.format == "ascii")
     {
       std::ostringstream text;
       for(auto number : numbers)
         text << +number << '\n';
-      return start + "ascii\">\n" + text.str() + "</DataArray>\n";
+      return start + "ascii\">\n" + text.str() + "</" + tag + ">\n";
     }
     const std::string encoded = style.encoded_array(all(numbers, style.is_big));
     if(style.format == "binary")
-      return start + "binary\">\n  " + encoded + "\n</DataArray>\n";
+      return start + "binary\">\n  " + encoded + "\n</" + tag + ">\n";
     appended += encoded;
     return start + "appended\" offset=\"" + std::to_string(appended.size() - encoded.size()) +
            "\"/>\n";
@@ -681,7 +687,9 @@ std::string vtu(const Points& p, const Style& style)
                                   std::vector<float>(coordinates.begin(), coordinates.end()));
   text += "</Points>\n<Cells>\n" + array("connectivity", "Int64", corners);
   text += array("offsets", "Int32", std::vector<int>(ends.begin(), ends.end()));
-  text += array("types", "UInt8", types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+  text += array("types", "UInt8", types) + "</Cells>\n<CellData>\n";
+  text += array("labels", "String", std::vector<unsigned char>{'a', 0, 'b', 0, 'c', 0, 'd', 0},
+                "Array") + "</CellData>\n</Piece>\n</UnstructuredGrid>\n";
   if(!appended.empty())
     text += "<AppendedData encoding=\"" + style.format + "\">\n   _" + appended +
             "\n</AppendedData>\n";
@@ -997,6 +1005,18 @@ void test_meshes_in_pipes()
                  "is given for two things");
   check_failed("arap in.off " + arguments + "fifo.off --report fifo.off", 2,
                "is given for two things");
+
+#ifdef __linux__
+  int ends[2]; // of a socket, as some programs give those that they run for a standard output
+  CHECK(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
+  const std::string to_socket = " 1>&" + std::to_string(ends[0]);
+  done = run_arap("arap in.off " + arguments + "/dev/stdout" + to_socket);
+  CHECK(done.exit_code == 0 && done.err.find("written: /dev/stdout") != std::string::npos);
+  check_failed("arap in.off " + arguments + "/dev/stdout --report /dev/stdout" + to_socket, 2,
+               "is given for two things");
+  for(int end : ends)
+    close(end);
+#endif
   check_failed(when_nobody_reads("arap in.off " + arguments + "/dev/stdout"), 1,
                "/dev/stdout: could not be written to the end");
   check_failed("arap in.off " + arguments + "nothing", 2, "the name of a mesh file ends in");
@@ -1108,6 +1128,11 @@ void test_signals()
   check_failed("timeout 30 sleep 30 < fifo & " + call +
                "--iterations 20000 --tolerance 0 --report fifo; kill $!", 124, "interrupted",
                "-s TERM -k 20 2");
+  // the keyboard interrupts the program that draws, and not the one that waits for it
+  write("povray", "#!/bin/sh\n[ \"$1\" = --version ] || kill -INT $$\n");
+  fs::permissions(folder / "povray", fs::perms::owner_all);
+  check_failed("PATH=\"$PWD:$PATH\"; " + call + "--image new.png", 1, "interrupted");
+  fs::remove(folder / "povray");
 }
 
 void test_all()

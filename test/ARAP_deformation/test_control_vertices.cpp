@@ -130,7 +130,7 @@ using Soup_of =
 // largest that was measured. Neither minimizer goes upwards, nor quasi-Newton less far.
 void test_balance_of_forces()
 {
-  Every_nth is_run(9);
+  Every_nth is_run(7);
   for_each_shape([&](const std::string& name, const auto& rest, const auto& simplices, double) {
     const Scenario s = scenario(Shape{"", rest, {}}, 0.7);
     for(Cell_scheme cells : all_cell_schemes)
@@ -1375,8 +1375,8 @@ void test_bridge(const std::string& solver)
       });
 }
 
-// All that holds a sheet are pulls, down to nothing. Where they can be told from rounding errors
-// the sheet follows them.
+// All that holds a sheet are pulls, down to nothing. Where they can be told from rounding errors the
+// sheet follows them to where no rigid motion takes it; else it is placed by a rigid motion only.
 void test_pulls()
 {
   Every_nth is_run(9);
@@ -1391,6 +1391,7 @@ void test_pulls()
           return Eigen::Vector3d(7 * u, 6 * v, height * std::sin(9 * u + 4 * v));
         });
         const Eigen::Vector3d shift(1, 2, 3);
+        const bool is_felt = weight >= 1e-12;
         std::vector<Point> points = points_of(shape.points);
         using Domain =
           CGAL::ARAP::Polygon_soup_domain<std::vector<Point>, decltype(shape.triangles)>;
@@ -1402,14 +1403,15 @@ void test_pulls()
           if(v >= 7 && v + 7 < points.size())
             continue;
           d.insert_control_vertex(v);
-          d.translate(v, shift);
+          const double bump = is_felt ? 0.05 * std::sin(double(v)) : 0;
+          d.translate(v, Eigen::Vector3d(shift.x(), shift.y(), shift.z() + bump));
           CHECK(d.set_target_weight(v, weight));
         }
         const Report report = d.deform(300, 0);
         CHECK(report);
         CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
         CHECK_AT_MOST(largest_distance(points, points_of(shape.points)), 3 * shift.norm());
-        if(weight >= 1e-12)
+        if(is_felt)
           CHECK_AT_MOST((vector(points[20]) - shape.points[20] - shift).norm(), 0.5 * shift.norm());
       });
 }

@@ -729,6 +729,10 @@ void test_points_of_others()
   CHECK(s.d.preprocess()); // reads it again, as a run does
   s.mesh.point(Vertex(50)) = Point(0, std::nan(""), 0);
   CHECK(s.d.preprocess().status == Status::non_finite_point);
+  const auto broken_state = s.d.state();
+  s.mesh.point(Vertex(50)) = sound;
+  CHECK(s.d.restore(broken_state));
+  CHECK(says(s.d.deform(2, 0), "vertex 50"));
   s.mesh.point(Vertex(50)) = sound;
   CHECK(s.d.deform(2, 0));
 
@@ -744,6 +748,17 @@ void test_points_of_others()
   CHECK(says(s.d.deform(2, 0), "vertex 52"));
   s.mesh.point(Vertex(52)) = beside;
   CHECK(s.d.deform(2, 0));
+
+  // nothing of a refused run stays
+  const Report sound_run = s.d.deform(0, 0);
+  const Point free = s.mesh.point(Vertex(80));
+  s.mesh.point(Vertex(80)) = Point(5, 5, 5);
+  s.mesh.point(Vertex(52)) = Point(0, std::nan(""), 0);
+  CHECK(says(s.d.deform(0, 0), "vertex 52"));
+  s.mesh.point(Vertex(80)) = free;
+  s.mesh.point(Vertex(52)) = beside;
+  CHECK_AT_MOST(std::abs(s.d.deform(0, 0).final_energy() - sound_run.final_energy()),
+                1e-12 * sound_run.energy_scale);
   s.mesh.point(Vertex(13)) = corner;
 }
 

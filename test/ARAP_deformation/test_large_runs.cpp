@@ -201,6 +201,7 @@ void test_starts()
 
     options.iterations = 20;
     const Report sequential = course(shape, s, options);
+    CHECK(sequential.energy.front() == with.energy.front());
     options.threads = 3;
     CHECK(course(shape, s, options).final_energy() == sequential.final_energy());
     std::vector<std::size_t> place;
@@ -251,6 +252,14 @@ void test_runs_without_start()
     return first_energy(shape, s, options);
   };
   const Shape shape = sheet(200, 110);
+  test_case() = "a run with a start";
+  const Scenario s = twist(shape, 1.5);
+  Options with = options_with_start(Cell_scheme::spokes_and_rims(),
+                                    CGAL::ARAP::Initial_guess::rotations);
+  with.iterations = 20;
+  const double without_start = energy_of(shape, s, with);
+  with.initial_guess = CGAL::ARAP::Initial_guess::automatic;
+  CHECK_AT_MOST(energy_of(shape, s, with), 0.1 * without_start);
   test_case() = "few iterations";
   first_energies_agree(shape, 19, energy_of);
   test_case() = "elements";

@@ -844,11 +844,15 @@ void test_statuses()
 {
   const Status all[] = {
     Status::not_run, Status::success, Status::converged, Status::iteration_limit, Status::stopped,
-    Status::cancelled, Status::invalid_option, Status::in_a_run, Status::not_a_control_vertex,
-    Status::invalid_weight, Status::undeclared_map, Status::not_a_simplex, Status::too_many_corners,
-    Status::no_simplex, Status::no_tetrahedron, Status::non_finite_point,
+    Status::cancelled, Status::invalid_option, Status::in_a_run, Status::foreign_state,
+    Status::invalid_stiffness, Status::undeclared_map, Status::invalid_rotation,
+    Status::not_a_control_vertex, Status::invalid_weight, Status::invalid_coordinates,
+    Status::dependent_target, Status::too_many_control_points, Status::not_a_simplex,
+    Status::too_many_corners, Status::no_tetrahedron, Status::no_simplex, Status::non_finite_point,
     Status::non_finite_weight, Status::no_fixed_vertex, Status::singular_matrix,
     Status::solver_failed, Status::non_finite_energy};
+  for(std::size_t k = 0; k < std::size(all); ++k)
+    CHECK(all[k] == static_cast<Status>(k));
   std::set<std::string> names, sentences;
   for(Status status : all)
   {

@@ -54,6 +54,12 @@ struct Settings
   unsigned int few_repetitions = 3; // of what takes long
   std::string mesh_file; // empty for the benchmark's own choice
   std::string json_file;
+
+  // the file to read where the benchmark's own choice is this one of CGAL's
+  std::string file_or(const std::string& name) const
+  {
+    return mesh_file.empty() ? CGAL::data_file_path("meshes/" + name) : mesh_file;
+  }
 };
 
 inline std::string processor()

@@ -5,7 +5,7 @@
 # NAME.def
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../../.." && pwd)
-package=$(cd "$1" && pwd)
+package=$(cd "$1" && pwd) meshes=${2:+$(cd "$2" && pwd)}
 work=$root/build/live/empty
 rm -rf "$work"
 mkdir -p "$work"
@@ -16,4 +16,4 @@ npm install --silent --no-audit --no-fund ./arap-deformation-*.tgz
 cp "$root"/bindings/javascript/test/test.mjs "$root"/bindings/javascript/test/types.ts .
 cp "$root/demo/ARAP_deformation/live/models.js" .
 "$root/build/live/node_modules/.bin/tsc" --noEmit --strict --target es2022 --module nodenext types.ts
-ARAP_DEFORM=$root/build/release/demo/ARAP_deformation/arap_deform node test.mjs ${2+"$2"}
+ARAP_DEFORM=$root/build/release/demo/ARAP_deformation/arap_deform node test.mjs ${meshes:+"$meshes"}

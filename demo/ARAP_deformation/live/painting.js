@@ -1,7 +1,15 @@
 // The tools: what they paint, and what they draw over the view.
 import { HANDLE, colorOf, css } from './colors.js';
 import { drawColors, placeGizmo } from './drawing.js';
-import { choose, hold, isDeformed, isThere, newHandle, recountHandles } from './handles.js';
+import {
+  choose,
+  hold,
+  isDeformed,
+  isThere,
+  newHandle,
+  placeOf,
+  recountHandles,
+} from './handles.js';
 import { say } from './messages.js';
 import { matrixOf } from './motion.js';
 import { cellStiffness, stiffnessOfVertices } from './options.js';
@@ -122,20 +130,16 @@ export async function placePoint(x, y) {
   view.mesh.geometry.computeBoundingSphere(); // that of the present positions
   const hit = view.ray(x, y).intersectObject(view.mesh)[0];
   if (!hit) return;
-  // the place in the rest shape: the same barycentric coordinates in the face that was hit
-  const face = [hit.face.a, hit.face.b, hit.face.c],
-    corners = face.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
-  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3())?.toArray() ?? [
-    1, 0, 0,
-  ];
-  const pivot = [0, 1, 2].map((i) =>
-    face.reduce((sum, v, k) => sum + b[k] * page.shape.points[3 * v + i], 0),
+  const corners = [hit.face.a, hit.face.b, hit.face.c].map((v) =>
+    new THREE.Vector3().fromArray(view.positions, 3 * v),
   );
+  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3());
   await changing(async () => {
-    let place = { simplex: hit.faceIndex, coordinates: b };
+    let place = { simplex: hit.faceIndex, coordinates: b?.toArray() ?? [1, 0, 0] };
     if (page.shape.volume)
       ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
     if (!place) throw new Error('there is no tetrahedron at this place');
+    const pivot = placeOf(place, page.shape.points); // in the rest shape
     const matrix = matrixOf(pivot, new THREE.Quaternion(), hit.point);
     page.shape.handles.push(newHandle({ pivot, matrix, point: place }));
     await hold();

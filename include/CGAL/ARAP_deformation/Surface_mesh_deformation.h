@@ -159,7 +159,7 @@ public:
     : m_mesh(mesh),
       m_weights(mesh, vertex_index_map, hedge_index_map, vertex_point_map, weight_calculator),
       m_session(Domain(mesh, vertex_point_map, vertex_index_map),
-                Traits(Solver(), m_weights, Rotation()))
+                Traits{Solver(), m_weights, Rotation()})
   {
     Options options;
     options.cells = TAG == SPOKES_AND_RIMS ? Cell_scheme::spokes_and_rims() : Cell_scheme::spokes();

@@ -27,4 +27,11 @@
 #error "CGAL/ARAP_deformation needs Eigen: link with CGAL::Eigen3_support."
 #endif
 
+#if __has_include(<CGAL/version.h>)
+#include <CGAL/version.h>
+#if CGAL_VERSION_NR < 1050500000
+#error "CGAL/ARAP_deformation needs CGAL 5.5 or newer."
+#endif
+#endif
+
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_CONFIG_H

@@ -161,19 +161,16 @@ private:
                          const Array<int>& block_of, const Array<int>& order)
   {
     const std::size_t n = supernodes.size();
-    for(Block& b : m_blocks)
-      b.supernodes_begin = b.supernodes_end = 0;
     for(int b : block_of)
       ++m_blocks[b].supernodes_end;
+    Array<int> next; // free number in each block
     int end = 0;
     for(Block& b : m_blocks)
     {
+      next.push_back(end);
       b.supernodes_begin = end;
       end = b.supernodes_end += end;
     }
-    Array<int> next(m_blocks.size());
-    for(std::size_t b = 0; b < m_blocks.size(); ++b)
-      next[b] = m_blocks[b].supernodes_begin;
     m_numbers.resize(n);
     m_block_of.resize(n);
     for(std::size_t s = 0; s < n; ++s)

@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -54,58 +53,42 @@ inline Array<int> supernode_of_columns(const Array<int>& columns)
 // Where supernodes begin, and at last the number of columns. Columns with the same rows form
 // supernodes, which are then merged with their parents if that adds few zeros to the factor: fewer
 // and wider supernodes have less overhead.
-class Supernode_columns
+inline Array<int> supernode_columns(const Array<int>& parent, const Array<int>& count)
 {
-public:
-  Supernode_columns(const Array<int>& parent, const Array<int>& count)
-  {
-    const int n = static_cast<int>(parent.size());
-    for(int j = 0; j < n; ++j)
-      if(j == 0 || parent[j - 1] != j || count[j - 1] != count[j] + 1)
-        m_begin.push_back(j);
-    m_begin.push_back(n);
-    merge(parent, count);
-  }
+  const int n = static_cast<int>(parent.size());
+  Array<int> all;
+  for(int j = 0; j < n; ++j)
+    if(j == 0 || parent[j - 1] != j || count[j - 1] != count[j] + 1)
+      all.push_back(j);
 
-  Array<int> begin() && { return std::move(m_begin); }
-
-private:
   // the share of zeros in a supernode of that many columns
-  static double largest_share_of_zeros(double width)
-  {
+  const auto largest_share_of_zeros = [](double width) {
     return width <= 4 ? 1 : width <= 8 ? 0.8 : width <= 48 ? 0.1 : 0.05;
-  }
-
-  // Supernodes that follow each other and are child and parent, the last ones first.
-  void merge(const Array<int>& parent, const Array<int>& count)
+  };
+  // supernodes that follow each other and are child and parent, the last ones first
+  Array<int> begin(1, n);
+  double entries_above = 0, below = 0;
+  for(std::size_t s = all.size(); s-- > 0;)
   {
-    Array<int> begin(1, m_begin.back());
-    double entries_above = 0, below = 0;
-    for(std::size_t s = m_begin.size() - 1; s-- > 0;)
+    const int first = all[s], end = s + 1 < all.size() ? all[s + 1] : n;
+    const double entries = std::accumulate(count.begin() + first, count.begin() + end, 0.0);
+    if(begin.size() > 1 && parent[end - 1] == end)
     {
-      const int first = m_begin[s], end = m_begin[s + 1];
-      const double entries =
-        std::accumulate(count.begin() + first, count.begin() + end, 0.0);
-      if(begin.size() > 1 && parent[end - 1] == end)
+      const double width = begin[begin.size() - 2] - first;
+      const double size = width * ((width + 1) / 2 + below);
+      if(size - entries - entries_above <= largest_share_of_zeros(width) * size)
       {
-        const double width = begin[begin.size() - 2] - first;
-        const double size = width * ((width + 1) / 2 + below);
-        if(size - entries - entries_above <= largest_share_of_zeros(width) * size)
-        {
-          begin.back() = first;
-          entries_above += entries;
-          continue;
-        }
+        begin.back() = first;
+        entries_above += entries;
+        continue;
       }
-      begin.push_back(first);
-      entries_above = entries;
-      below = count[end - 1] - 1;
     }
-    m_begin.assign(begin.rbegin(), begin.rend());
+    begin.push_back(first);
+    entries_above = entries;
+    below = count[end - 1] - 1;
   }
-
-  Array<int> m_begin;
-};
+  return Array<int>(begin.rbegin(), begin.rend());
+}
 
 // The supernodes of the factor of P A P^T. `order`, which has the row of the matrix for each row of
 // the factor, is replaced by an equivalent postorder.
@@ -124,7 +107,7 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
   const Triangle_pattern lower = permuted_triangle(a, inverse_permutation(order), true);
 
   Supernodes result;
-  result.columns = Supernode_columns(parent, column_counts(lower, parent)).begin();
+  result.columns = supernode_columns(parent, column_counts(lower, parent));
   const std::size_t n = result.columns.size() - 1;
   result.rows_begin.assign(1, 0);
   const Array<int> supernode_of = supernode_of_columns(result.columns);

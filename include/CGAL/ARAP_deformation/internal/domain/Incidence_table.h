@@ -27,7 +27,7 @@ namespace internal {
 class Incidence_table
 {
 public:
-  // Each simplex is a range of integers. Corners that are not vertices are ignored.
+  // Each simplex of an array is a range of integers. Corners that are not vertices are ignored.
   template <typename SimplexRange>
   Incidence_table(std::size_t number_of_vertices, const SimplexRange& simplices)
     : m_begin(number_of_vertices + 1, 0)
@@ -55,14 +55,10 @@ private:
   template <typename SimplexRange, typename Function>
   void for_each_corner(const SimplexRange& simplices, const Function& f) const
   {
-    std::size_t s = 0;
-    for(const auto& simplex : simplices)
-    {
-      for(auto corner : simplex)
+    for(std::size_t s = 0; s < simplices.size(); ++s)
+      for(auto corner : simplices[s])
         if(const std::size_t v = static_cast<std::size_t>(corner); v < number_of_vertices())
           f(s, v);
-      ++s;
-    }
   }
 
   // the simplices at vertex v are m_simplices[m_begin[v]] to m_simplices[m_begin[v + 1] - 1]

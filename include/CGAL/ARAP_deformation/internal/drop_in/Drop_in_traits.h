@@ -27,7 +27,6 @@
 
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {
@@ -98,25 +97,19 @@ public:
 
 // a model of ARAPDeformationTraits
 template <typename Solver, typename Weight, typename Rotation>
-class Drop_in_traits
+struct Drop_in_traits
 {
-public:
   using Sparse_solver = Solver;
   using Edge_weight = Weight;
   using Closest_rotation = Rotation;
 
-  Drop_in_traits(Solver solver, Weight weight, Rotation rotation)
-    : m_solver(std::move(solver)), m_weight(std::move(weight)), m_rotation(std::move(rotation))
-  {}
+  Solver solver;
+  Weight weight;
+  Rotation rotation;
 
-  Solver sparse_solver_object() const { return m_solver; }
-  Weight edge_weight_object() const { return m_weight; }
-  Rotation closest_rotation_object() const { return m_rotation; }
-
-private:
-  Solver m_solver;
-  Weight m_weight;
-  Rotation m_rotation;
+  Solver sparse_solver_object() const { return solver; }
+  Weight edge_weight_object() const { return weight; }
+  Rotation closest_rotation_object() const { return rotation; }
 };
 
 } // namespace internal

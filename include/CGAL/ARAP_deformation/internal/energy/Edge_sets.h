@@ -102,16 +102,23 @@ struct Simplices
     return true;
   }
 
-  // calls f(s, i, j, w) for each edge (i, j) of each simplex s with its weight w, which f may
-  // change
+  // calls f(s, i, j, w) for each edge (i, j) of each simplex s, in the order of their weights w
   template <typename Function>
-  void for_each_edge(const Function& f) const { visit_edges(*this, f); }
-  template <typename Function>
-  void for_each_edge(const Function& f) { visit_edges(*this, f); }
+  void for_each_edge(const Function& f) const
+  {
+    for(int s = 0; s < size(); ++s)
+      for_each_edge_of(s, [&f, s](int i, int j, double w) { f(s, i, j, w); });
+  }
 
   // calls f(i, j, w) for each edge of simplex s
   template <typename Function>
-  void for_each_edge_of(int s, const Function& f) const { visit_edges_of(*this, s, f); }
+  void for_each_edge_of(int s, const Function& f) const
+  {
+    const double* w = weights.data() + first_weight[s];
+    for(int a = corners.begin[s]; a < corners.begin[s + 1]; ++a)
+      for(int b = a + 1; b < corners.begin[s + 1]; ++b, ++w)
+        f(corners.items[a], corners.items[b], *w);
+  }
 
 private:
   // Whether the matrix of a simplex has no negative eigenvalue up to rounding: raised by that much
@@ -140,22 +147,6 @@ private:
           matrix[a * n + b] -= matrix[a * n + k] * matrix[b * n + k] / pivot;
     }
     return true;
-  }
-
-  template <typename Self, typename Function>
-  static void visit_edges(Self& self, const Function& f)
-  {
-    for(int s = 0; s < self.size(); ++s)
-      visit_edges_of(self, s, [&f, s](int i, int j, auto& w) { f(s, i, j, w); });
-  }
-
-  template <typename Self, typename Function>
-  static void visit_edges_of(Self& self, int s, const Function& f)
-  {
-    auto* w = self.weights.data() + self.first_weight[s];
-    for(int a = self.corners.begin[s]; a < self.corners.begin[s + 1]; ++a)
-      for(int b = a + 1; b < self.corners.begin[s + 1]; ++b, ++w)
-        f(self.corners.items[a], self.corners.items[b], *w);
   }
 };
 

@@ -97,7 +97,12 @@ public:
     m_step.resize(n);
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
       for(std::size_t c = begin; c < end; ++c)
-        m_step[c] = force(smooth, static_cast<int>(c), covariances[c], rotations);
+      {
+        // f_c, by which R_c is pulled: the axis of (S_c + sum over d of s_cd R_d) R_c^T
+        Matrix_3x3 s = covariances[c];
+        smooth.add_neighbors(static_cast<int>(c), rotations, s);
+        m_step[c] = axial_vector(product_with_transpose(s, rotations[c]));
+      }
     });
     for(std::size_t c = 0; c < n; ++c)
       if(const auto leader = static_cast<std::size_t>(m_leader[c]); leader != c)
@@ -145,14 +150,6 @@ public:
   }
 
 private:
-  // f_c, by which the rotation R_c is pulled: the axis of (S_c + sum over d of s_cd R_d) R_c^T
-  static Coordinates force(const Smooth_rotations& smooth, int c, Matrix_3x3 s,
-                           const Array<Matrix_3x3>& rotations)
-  {
-    smooth.add_neighbors(c, rotations, s);
-    return axial_vector(product_with_transpose(s, rotations[c]));
-  }
-
   Constrained_system m_system;
   Array<int> m_leader;
   Array<char> m_is_fixed;

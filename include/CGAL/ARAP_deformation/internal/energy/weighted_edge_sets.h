@@ -182,10 +182,10 @@ inline Simplices simplex_edge_sets(const Edge_weight_model& model, Simplices sim
                                    const Region& region)
 {
   bool are_of_shapes = model.are_of_shapes();
-  simplices.for_each_edge([&](int, int i, int j, double& w) {
-    const double sum = w;
-    w = model.edge(Edge_set::simplex, region.indices[i], region.indices[j], sum);
-    are_of_shapes &= w == sum;
+  double* w = simplices.weights.data(); // in the order of the visit
+  simplices.for_each_edge([&](int, int i, int j, double sum) {
+    *w = model.edge(Edge_set::simplex, region.indices[i], region.indices[j], sum);
+    are_of_shapes &= *w++ == sum;
   });
   simplices.is_sum_of_squares = are_of_shapes || simplices.are_sums_of_squares();
   return simplices;

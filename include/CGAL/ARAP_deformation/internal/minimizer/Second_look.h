@@ -38,8 +38,8 @@ namespace internal {
 
 // A look at the second derivative 2 A of the energy where a run would end, by conjugate gradients
 // for A s = f + e, with the metric M of the minimizer for the preconditioner: the Laplacian L, on
-// large shapes completed by a coarse metric. f is the force, and e a small pseudorandom
-// one, which reveals directions that the symmetry of shape and targets would hide.
+// large shapes completed by a coarse metric. f is the force, and e a small pseudorandom one, which
+// reveals directions that the symmetry of shape and targets would hide.
 // As long as all directions have positive curvature, the model of the energy decreases, and what it
 // tends to is the gap that is left. A direction p with p A p < 0 is found if there is one in the
 // space that the steps span (Steihaug 1983); the residual cannot become small as long as it has a

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -34,28 +35,11 @@ namespace ARAP {
 namespace internal {
 
 #ifdef CGAL_LINKED_WITH_TBB
-// A type-erased reference to a function object: TBB's templates are instantiated for this type
-// only and not for each loop, which would take seconds to compile.
-class Task_reference
-{
-public:
-  template <typename Function>
-  explicit Task_reference(const Function& f) : m_function(&f), m_call(&call<Function>) {}
+// A task by its number, with references to the function objects of loops: TBB's templates are
+// instantiated for this type only and not for each loop, which would take seconds to compile.
+using Task = std::function<void(std::size_t)>;
 
-  void operator()(std::size_t k) const { m_call(m_function, k); }
-
-private:
-  template <typename Function>
-  static void call(const void* f, std::size_t k)
-  {
-    (*static_cast<const Function*>(f))(k);
-  }
-
-  const void* m_function;
-  void (*m_call)(const void*, std::size_t);
-};
-
-inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_reference& f)
+inline void run_with_tbb_threads(unsigned int number_of_threads, const Task& f)
 {
   const std::size_t available =
     tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -64,12 +48,12 @@ inline void run_with_tbb_threads(unsigned int number_of_threads, const Task_refe
 }
 
 // A thread that waits in here does not take tasks of the caller's own parallel loops.
-inline void run_in_isolation(const Task_reference& f)
+inline void run_in_isolation(const Task& f)
 {
   tbb::this_task_arena::isolate([&] { f(0); });
 }
 
-inline void for_each_tbb_task(std::size_t n, const Task_reference& f)
+inline void for_each_tbb_task(std::size_t n, const Task& f)
 {
   tbb::parallel_for(std::size_t(0), n, f);
 }
@@ -92,9 +76,9 @@ void run_with_threads(unsigned int number_of_threads, const Function& f)
 #ifdef CGAL_LINKED_WITH_TBB
   const auto task = [&](std::size_t) { f(); };
   if(number_of_threads > 0)
-    run_with_tbb_threads(number_of_threads, Task_reference(task));
+    run_with_tbb_threads(number_of_threads, std::cref(task));
   else
-    run_in_isolation(Task_reference(task));
+    run_in_isolation(std::cref(task));
 #else
   static_cast<void>(number_of_threads);
   f();
@@ -107,7 +91,7 @@ void for_each_task(std::size_t n, const Function& f)
 {
 #ifdef CGAL_LINKED_WITH_TBB
   if(n > 1)
-    return for_each_tbb_task(n, Task_reference(f));
+    return for_each_tbb_task(n, std::cref(f));
 #endif
   for(std::size_t k = 0; k < n; ++k)
     f(k);

@@ -14,8 +14,6 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
-#include <CGAL/ARAP_deformation/internal/linkage.h>
-
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -39,9 +37,23 @@ public:
   }
 
   // allocates what set(index, ...) needs
-  void reserve(std::size_t index);
+  void reserve(std::size_t index)
+  {
+    const std::size_t page = index / page_size;
+    if(page >= m_pages.size())
+      m_pages.resize(page + 1);
+    if(!m_pages[page])
+    {
+      m_pages[page] = std::make_unique<Page>();
+      m_pages[page]->fill(none);
+    }
+  }
 
-  void set(std::size_t index, int value);
+  void set(std::size_t index, int value)
+  {
+    reserve(index);
+    (*m_pages[index / page_size])[index % page_size] = value;
+  }
 
 private:
   static constexpr std::size_t page_size = 512;
@@ -53,9 +65,5 @@ private:
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
-
-#ifndef CGAL_ARAP_DEFORMATION_COMPILED
-#include <CGAL/ARAP_deformation/internal/region/Paged_index_map_impl.h>
-#endif
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_PAGED_INDEX_MAP_H

@@ -73,31 +73,32 @@ public:
   Array<Coordinates>& positions() { return m_prepared->positions; }
   const Array<Coordinates>& positions() const { return m_prepared->positions; }
 
-  // Takes the points of some entries, which others have changed, and reads those around the region
-  // of interest again, which have no entries.
-  Outcome take_points(const Vertices& vertices,
-                      const std::vector<std::pair<std::size_t, Point>>& changed)
+  // Others have moved the vertex of an entry.
+  void set_position(std::size_t k, const Coordinates& position)
   {
-    const Domain& domain = vertices.domain();
-    take_points(changed, m_prepared->positions);
-    for(int v = core().region().number_of_movable_vertices;
-        v < core().region().number_of_vertices(); ++v)
-    {
-      if(!vertices.find(region().vertices[v]))
-        m_prepared->positions[v] = Domain::coordinates(domain.point(region().vertices[v]));
-      if(!is_finite(m_prepared->positions[v]))
-        return outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
-    }
-    return outcome(Status::success);
+    set_position(k, position, m_prepared->positions);
   }
 
-  // the same for the entries only, in positions of the vertices of the region
-  void take_points(const std::vector<std::pair<std::size_t, Point>>& changed,
-                   Array<Coordinates>& positions) const
+  // the same in other positions of the vertices of the region
+  void set_position(std::size_t k, const Coordinates& position,
+                    Array<Coordinates>& positions) const
   {
-    for(const auto& [k, point] : changed)
-      if(const int v = number_of_entry(k); v >= 0)
-        positions[v] = Domain::coordinates(point);
+    if(const int v = number_of_entry(k); v >= 0)
+      positions[v] = position;
+  }
+
+  // Reads the points around the region of interest again, which have no entries. All have to be
+  // finite then.
+  Outcome read_surroundings(const Vertices& vertices)
+  {
+    Array<Coordinates>& positions = m_prepared->positions;
+    for(int v = core().region().number_of_movable_vertices;
+        v < core().region().number_of_vertices(); ++v)
+      if(!vertices.find(region().vertices[v]))
+        positions[v] = Domain::coordinates(vertices.domain().point(region().vertices[v]));
+    const int v = find_non_finite(positions);
+    return v < 0 ? outcome(Status::success)
+                 : outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
   }
 
   // makes those rotations identities that are at vertices which satisfy a predicate

@@ -54,7 +54,7 @@ public:
   explicit Region_constraints(Built_core& core);
   ~Region_constraints();
 
-  void fix(int v);
+  void fix(int v) { m_constraints.is_fixed[v] = true; }
   void pull(int v, double weight);
 
   // A control point has corners, by their numbers in the region, with coefficients. Those that are
@@ -68,7 +68,7 @@ public:
   // weight for a unit of their area or volume.
   void add_inertia(double weight);
 
-  void add_isolated_control(std::size_t index);
+  void add_isolated_control(std::size_t index) { m_rows.isolated_controls.push_back(index); }
 
   // prepares the core for these constraints, which are gone then
   Outcome prepare(Unconstrained_components unconstrained, unsigned int number_of_threads,

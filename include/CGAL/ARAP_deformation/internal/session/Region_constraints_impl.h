@@ -47,12 +47,6 @@ CGAL_ARAP_INLINE_FUNCTION
 Region_constraints::~Region_constraints() = default;
 
 CGAL_ARAP_INLINE_FUNCTION
-void Region_constraints::fix(int v)
-{
-  m_constraints.is_fixed[v] = true;
-}
-
-CGAL_ARAP_INLINE_FUNCTION
 void Region_constraints::pull(int v, double weight)
 {
   m_constraints.rows.append(v, weight);
@@ -108,12 +102,6 @@ void Region_constraints::add_inertia(double weight)
       m_constraints.rows.append(v, weight * contents[v]);
       m_constraints.inertia += weight * contents[v];
     }
-}
-
-CGAL_ARAP_INLINE_FUNCTION
-void Region_constraints::add_isolated_control(std::size_t index)
-{
-  m_rows.isolated_controls.push_back(index);
 }
 
 CGAL_ARAP_INLINE_FUNCTION

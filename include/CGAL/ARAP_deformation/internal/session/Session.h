@@ -138,6 +138,8 @@ public:
 
 protected:
   using Base::domain;
+  using Base::is_taking_points;
+  using Base::m_are_points_written;
   using Base::m_energy;
   using Base::m_is_in_a_run;
   using Base::m_is_region_written;
@@ -267,28 +269,37 @@ private:
     Scoped_seconds seconds(transfer);
     if(!takes_points())
       return outcome(Status::success);
-    const std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
+    std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
     for(const auto& [k, point] : changed)
       if(const Entry& entry = m_vertices.entries()[k];
          entry.is_roi && !is_finite(Domain::coordinates(point)))
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex));
-    for(const auto& [k, point] : changed)
+    const bool has_region = m_prepared.has_region();
+    for(auto& [k, point] : changed) // one after the other: a copy that throws leaves the others
     {
-      m_vertices.present_points()[k] = point;
+      const Coordinates position = Domain::coordinates(point);
       if(mend(m_vertices.entries()[k], point))
         region_changed();
+      std::swap(m_vertices.present_points()[k], point);
+      if(has_region)
+        m_prepared.set_position(k, position);
     }
-    return m_prepared.has_region() ? m_prepared.take_points(m_vertices, changed)
-                                   : outcome(Status::success);
+    return has_region ? m_prepared.read_surroundings(m_vertices) : outcome(Status::success);
   }
 
   void write_points(Array<Coordinates>& positions)
   {
     std::vector<Point> points = new_points(positions);
+    const auto write = [this](const auto& vertex, const Point& point) {
+      domain().set_point(vertex, point);
+    };
+    const bool are_all_there = m_are_points_written || !is_taking_points();
     set_points([&] {
-      for_each_written_vertex(points, [this](const auto& vertex, const Point& point) {
-        domain().set_point(vertex, point);
-      });
+      for_each_written_vertex(points, write);
+      if(!are_all_there) // what has left the region since may be where a failed call put it
+        for(std::size_t k = 0; k < points.size(); ++k)
+          if(const Entry& entry = m_vertices.entries()[k]; !entry.is_roi)
+            write(entry.vertex, points[k]);
     });
     m_vertices.present_points().swap(points);
     note_region_as_written();

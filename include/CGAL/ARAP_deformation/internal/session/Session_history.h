@@ -62,7 +62,9 @@ public:
         if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
           positions[k] = Domain::coordinates(entry->rest);
     }
-    std::vector<Point> points = rest_points(), targets = points, held_targets;
+    std::vector<Point> points =
+      points_of_entries([](std::size_t, const Entry& entry) { return entry.rest; });
+    std::vector<Point> targets = points, held_targets;
     for(const auto& held : m_vertices.points())
       held_targets.push_back(rest_point(held.first));
     set_points([&] {
@@ -129,9 +131,9 @@ public:
       {
         state.vertices.present_points[k] = point;
         mend(state.vertices.entries[k], point);
+        if(m_prepared.has_region())
+          m_prepared.set_position(k, Domain::coordinates(point), state.prepared.positions);
       }
-      if(m_prepared.has_region())
-        m_prepared.take_points(changed, state.prepared.positions);
     }
     return state;
   }
@@ -203,12 +205,6 @@ protected:
     for(std::size_t k = 0; k < points.size(); ++k)
       points[k] = f(k, entries[k]);
     return points;
-  }
-
-private:
-  std::vector<Point> rest_points() const
-  {
-    return points_of_entries([](std::size_t, const Entry& entry) { return entry.rest; });
   }
 };
 

@@ -20,7 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Held_point.h>
-#include <CGAL/ARAP_deformation/internal/session/Insertions.h>
 #include <CGAL/ARAP_deformation/internal/session/Surroundings.h>
 
 #include <CGAL/assertions.h>
@@ -296,14 +295,15 @@ public:
   template <typename Predicate>
   std::vector<vertex_descriptor> select(const Predicate& predicate) const
   {
-    Insertions insertions;
+    std::vector<std::pair<std::uint64_t, std::size_t>> chosen; // with their places
     for(std::size_t k = 0; k < m_entries.size(); ++k)
       if(predicate(m_entries[k]))
-        insertions.add(m_entries[k].insertion, k);
-    const std::vector<std::size_t> places = insertions.places_in_order();
+        chosen.emplace_back(m_entries[k].insertion, k);
+    if(!std::is_sorted(chosen.begin(), chosen.end()))
+      std::sort(chosen.begin(), chosen.end());
     std::vector<vertex_descriptor> selected;
-    selected.reserve(places.size());
-    for(std::size_t k : places)
+    selected.reserve(chosen.size());
+    for(const auto& [insertion, k] : chosen)
       selected.push_back(m_entries[k].vertex);
     return selected;
   }

@@ -40,8 +40,7 @@ void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bo
                  const std::vector<std::size_t>& isolated_controls);
 
 // The outcome for a status; `what` names the vertex or the simplex concerned.
-Outcome outcome(Status status);
-Outcome outcome(Status status, const std::string& what);
+Outcome outcome(Status status, const std::string& what = std::string());
 
 // the same for a vertex, given by its index; `what` goes before its name, as "the target of "
 Outcome outcome_of_vertex(Status status, std::size_t index, const char* what = "");

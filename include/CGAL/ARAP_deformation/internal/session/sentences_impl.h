@@ -181,12 +181,6 @@ Outcome outcome(Status status, const std::string& what)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-Outcome outcome(Status status)
-{
-  return outcome(status, std::string());
-}
-
-CGAL_ARAP_INLINE_FUNCTION
 Outcome outcome_of_vertex(Status status, std::size_t index, const char* what)
 {
   return outcome(status, what + vertex_name(index));
