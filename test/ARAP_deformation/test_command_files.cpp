@@ -782,6 +782,16 @@ void test_msh()
          "a node has the same number as another one, in 100");
 }
 
+// the appended text of the strings, from where their offset says that it begins
+std::string appended_labels(const std::string& text)
+{
+  const std::string before = "offset=\"";
+  const std::size_t offset =
+    std::stoul(text.substr(text.find(before, text.find("'labels'")) + before.size()));
+  const std::size_t begin = text.find('_', text.find("<AppendedData")) + 1;
+  return text.substr(begin + offset, text.find("\n</AppendedData>") - begin - offset);
+}
+
 void test_vtu()
 {
   for(const std::string format : {"ascii", "binary", "raw", "base64"})
@@ -807,6 +817,8 @@ void test_vtu()
     CHECK(as_mesh("new.vtu") == expected_mesh(moved));
     const std::size_t begin = text.find("<Points>"); // what is before is as it was
     CHECK(content(folder / "new.vtu").substr(0, begin) == text.substr(0, begin));
+    if(format != "binary") // the strings are still the last of what is appended
+      CHECK(appended_labels(content(folder / "new.vtu")) == appended_labels(text));
     CHECK(run("in.vtu" + rest + "vtu --move -0.25,0,0.5").exit_code == 0);
     CHECK(content(folder / "new.vtu") == text); // where nothing moves, all is
     fs::remove(folder / "new.vtu");

@@ -1375,8 +1375,8 @@ void test_bridge(const std::string& solver)
       });
 }
 
-// All that holds a sheet are pulls, down to nothing. Where they can be told from rounding errors the
-// sheet follows them to where no rigid motion takes it; else it is placed by a rigid motion only.
+// All that holds a sheet are pulls, down to nothing. Where they can be told from rounding errors
+// the sheet follows them to where no rigid motion takes it; else a rigid motion places it.
 void test_pulls()
 {
   Every_nth is_run(9);
