@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace CGAL::ARAP::bindings {
@@ -80,6 +81,22 @@ public:
   std::string option(const std::string& name) const override
   {
     return option_value(options(), name);
+  }
+
+  void set_points(Numbers points) override
+  {
+    refuse_in_a_run();
+    require(points.rows == number_of_vertices() && points.columns == 3,
+            "there are " + std::to_string(number_of_vertices()) + " vertices, but " +
+            std::to_string(points.rows) + " points of " + std::to_string(points.columns) +
+            " coordinates");
+    for(std::size_t v = 0; v < points.rows; ++v)
+      require(std::all_of(points[v], points[v + 1], [](double x) { return std::isfinite(x); })
+                ? Outcome(Status::success, "")
+                : Outcome(Status::non_finite_point,
+                          "the point of vertex " + std::to_string(v) + " is not finite"));
+    const Points copy = points_of(points);
+    std::copy(copy.begin(), copy.end(), m_points.begin());
   }
 
   Options options_with(const Named_options& values) const override
@@ -379,9 +396,9 @@ private:
     for(std::size_t k = 0; k < vertices.rows; ++k)
     {
       const std::int32_t v = *vertices[k];
-      if(v < 0) // converted, it would be named by another number
+      if(!is_vertex(v))
         throw std::out_of_range("there is no vertex " + std::to_string(v));
-      result.push_back(domain().index(static_cast<std::size_t>(v))); // throws if there is none
+      result.push_back(static_cast<std::size_t>(v));
     }
     return result;
   }

@@ -80,6 +80,8 @@ public:
 
   // n x 3: where the vertices are. The memory stays the same as long as this object lives.
   virtual const double* points() const = 0;
+  // where the next run starts, and what is fixed is
+  virtual void set_points(Numbers points) = 0;
   // n x 3: the rest shape
   virtual const double* rest_points() const = 0;
 
@@ -89,17 +91,17 @@ public:
   virtual std::string option(const std::string& name) const = 0;
   virtual Options options_with(const Named_options& values) const = 0; // which are not set
 
-  // All vertices are in the region of interest at first.
+  // All vertices are in the region of interest at first. Handles that are not in it are erased.
   virtual void set_region(Indices vertices) = 0;
   virtual std::vector<std::int32_t> region() const = 0;
 
-  // vertices that become handles, whose targets are where they are
+  // vertices that become handles, whose targets are where they are; they enter the region
   virtual void insert_handles(Indices vertices) = 0;
   virtual void erase_handles(Indices handles) = 0;
   virtual void clear_handles() = 0;
   virtual std::vector<std::int32_t> handles() const = 0;
 
-  // the place nearest to a point, if there is any
+  // the place nearest to a point where the shape is now, if there is any; builds a search tree
   virtual std::optional<Place> locate(const double* point) const = 0;
   // returns the handle of a new control point
   virtual std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) = 0;

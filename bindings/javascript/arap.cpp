@@ -166,6 +166,10 @@ ARAP_EXPORT Array_deformation* arap_create(const double* points, std::size_t n,
 ARAP_EXPORT void arap_delete(Array_deformation* d) { delete d; }
 
 ARAP_EXPORT const double* arap_points(const Array_deformation* d) { return d->points(); }
+ARAP_EXPORT bool arap_set_points(Array_deformation* d, const double* points, std::size_t rows)
+{
+  return answer_of([&] { d->set_points({points, rows, 3}); });
+}
 ARAP_EXPORT const double* arap_rest_points(const Array_deformation* d) { return d->rest_points(); }
 
 // texts: a name, its value, the next name, ...

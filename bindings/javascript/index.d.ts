@@ -10,7 +10,8 @@ export type Numbers = Float64Array | Float32Array | readonly number[];
 export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
 
 /**
- * `misuse` is a wrong index, name or shape of an array; the others are those of the C++ library.
+ * `misuse` is a wrong index, name or shape of an array, and `out_of_memory` is that of the engine;
+ * the others are those of the C++ library.
  */
 export type Status =
   | 'success'
@@ -46,6 +47,7 @@ export type Status =
  *  TypeError, and those of an impossible length a RangeError; a number of rows that does not match
  *  that of another array is 'misuse'. */
 export class ArapError extends Error {
+  constructor(status: Status | '', message: string);
   status: Status;
 }
 
@@ -62,7 +64,7 @@ export interface Options {
   iterations?: number;
   /**
    * a run stops where the estimated relative gap to the minimum is at most this; default 0.001; 0
-   * runs all iterations
+   * runs all iterations, and an automatic minimizer is `local_global` then
    */
   tolerance?: number;
   /** whether a run that converges looks whether it is at a saddle point; default true */
@@ -177,8 +179,11 @@ export interface Quality {
   invertedSimplices: number;
 }
 
-/** A value for undo and redo. */
+declare const state: unique symbol;
+
+/** A value for undo and redo, which only `state()` makes. */
 export interface State {
+  readonly [state]: true;
   dispose(): void;
 }
 
@@ -196,27 +201,30 @@ export interface Session {
   /** a copy of where the vertices are, n x 3, or into an array of that length, which is returned */
   points(): Float64Array;
   points<T extends Float64Array | Float32Array>(out: T): T;
+  /** where the next run starts, and what is fixed is; the rest shape and the targets stay */
+  setPoints(points: Numbers): void;
   restPoints(): Float64Array;
   restPoints<T extends Float64Array | Float32Array>(out: T): T;
 
-  setOption(name: keyof Options, value: string | number | boolean): void;
+  setOption<Name extends keyof Options>(name: Name, value: NonNullable<Options[Name]>): void;
   /** Sets all of them, or none if they are not valid together. What is undefined stays as it is. */
   setOptions(options: Options): void;
   option<Name extends keyof Options>(name: Name): NonNullable<Options[Name]>;
 
-  /** All vertices are in the region of interest at first. */
+  /** All vertices are in the region of interest at first. Handles that are not in it are erased. */
   setRegion(vertices: Indices | number): void;
   region(): Int32Array;
 
-  /** vertices that become handles, whose targets are where they are */
+  /** vertices that become handles, whose targets are where they are; they enter the region */
   insertHandles(vertices: Indices | number): void;
   eraseHandles(handles: Indices | number): void;
   clearHandles(): void;
   handles(): Int32Array;
 
-  /** the place nearest to a point */
+  /** the place nearest to a point where the shape is now; each call builds a search tree */
   locate(point: Numbers): Place | null;
-  /** a new control point; returns its handle */
+  /** a new control point; returns its handle. Messages number control points from 1: number k is
+   *  the handle n + k - 1. */
   insertPoint(simplex: number, coordinates: Numbers): number;
   pointPosition(handle: number): Float64Array;
 
@@ -230,19 +238,24 @@ export interface Session {
   weight(handle: number): number;
   /** Infinity: a hard target, which is met exactly */
   setWeight(handles: Indices | number, weight: number): void;
-  /** of the cells around vertices, 3 x 3 */
+  /** of the cells around vertices, 3 x 3, from the rest shape: it is given, and not fitted */
   setRotation(vertices: Indices | number, matrix: Numbers): void;
+  /** the same, with the rotation of the rigid motion that takes these vertices to their targets */
   setRotationsOfMotion(vertices: Indices | number): void;
+  /** lets them be fitted again */
   eraseRotations(vertices: Indices | number): void;
 
   /** a value for each vertex, or for each simplex if cells are elements; none clears them, as must
    * be before cells become elements or are these no longer */
   setStiffness(values?: Numbers): void;
+  /** lets cells with the same number from 0 on share a rotation, as rigid parts do; those with a
+   *  negative number have their own */
   setGroups(groups?: Indices): void;
 
   /**
    * does what the next call of `deform()` needs, such as the factorization, before it is made;
-   * returns a sentence, which tells also what unconstrained components there are
+   * returns a sentence, which tells also what unconstrained components there are. Not for time
+   * steps, which need another factorization.
    */
   preprocess(): string;
   deform(run?: Run): Report;

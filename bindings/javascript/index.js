@@ -282,6 +282,11 @@ export async function load({ wasmBinary } = {}) {
     points(out) {
       return this.#copy('_arap_points', out);
     }
+    setPoints(points) {
+      const p = numbersOf(points, 'points', Float64Array);
+      const rows = rowsOf(p, 3, 'points');
+      withCopies([p], (pointer) => this.#call('set_points', pointer, rows));
+    }
     restPoints(out) {
       return this.#copy('_arap_rest_points', out);
     }

@@ -333,7 +333,7 @@ PYBIND11_MODULE(_core, module)
   using D = Array_deformation;
   py::class_<Session>(module, "Session")
     .def(py::init<const Doubles&, const Integers&, bool, const std::string&>())
-    .def("points", &Session::points)
+    .def("points", &Session::points).def("set_points", bound(&D::set_points))
     .def("rest_points", [](Session& s) {
       return result(s.at_work([](const D& d) {
         return std::vector<double>(d.rest_points(), d.rest_points() + 3 * d.number_of_vertices());

@@ -372,11 +372,9 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
   line.is_sequence = values.count("frames") || (keys > 1 && line.animation.empty());
   if(line.frames < keys || line.frames > 9999)
     throw Usage_error(
-      values.count("frames")
-        ? "--frames " + std::to_string(line.frames) + ": there is at least one for each "
-          "--transform, and at most 9999"
-        : "--transform is given " + std::to_string(keys) + " times; with 24 frames for each, a "
-          "film has more than 9999: give their number with --frames");
+      "--frames " + std::to_string(line.frames) +
+      (values.count("frames") || line.animation.empty() ? "" : " (24 for each --transform)") +
+      ": there is at least one for each --transform, and at most 9999");
   if(line.is_sequence && is_written_directly(line.output))
     throw Usage_error("--output " + line.output + ": frames need a file each");
   if(values.count("view"))

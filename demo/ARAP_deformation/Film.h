@@ -57,7 +57,7 @@ public:
     if(format == ".mp4" || format == ".webm")
     {
       const internal::Temporary_folder folder;
-      if(internal::run_program(folder, "ffmpeg -version") != 0)
+      if(!run_ffmpeg(folder, "-version"))
         refuse("needs the program ffmpeg, which was not found");
     }
 #ifndef CGAL_ARAP_DEMO_WITH_GIFLIB
@@ -100,9 +100,8 @@ public:
     if(m_format == ".gif")
       return write_gif(folder, out);
 #endif
-    if(internal::run_program(folder, "ffmpeg -loglevel error -framerate " +
-                                       std::to_string(frames_per_second) +
-                                       " -i %04d.ppm -pix_fmt yuv420p film" + m_format) != 0)
+    if(!run_ffmpeg(folder, "-loglevel error -framerate " + std::to_string(frames_per_second) +
+                             " -i %04d.ppm -pix_fmt yuv420p film" + m_format))
       throw std::runtime_error("ffmpeg could not make the film:" +
                                internal::last_messages(folder.path / "messages"));
     out << std::ifstream(folder.path / ("film" + m_format), std::ios::binary).rdbuf();
@@ -110,6 +109,12 @@ public:
 
 private:
   static constexpr int frames_per_second = 20;
+
+  // its exit code for an interrupt is 255
+  static bool run_ffmpeg(const internal::Temporary_folder& folder, const std::string& arguments)
+  {
+    return internal::run_program(folder, "ffmpeg " + arguments, 255);
+  }
 
   static std::string picture(std::size_t frame) { return four_digits(frame) + ".ppm"; }
 

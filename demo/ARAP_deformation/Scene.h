@@ -294,19 +294,29 @@ struct Temporary_folder
   }
 };
 
-// Runs a program in the folder, where its files and messages go, and returns its exit code. No name
-// chosen by a user reaches the shell, and the name of the folder is quoted.
-inline int run_program(const Temporary_folder& folder, const std::string& call)
+// Runs a program in the folder, where its files and messages go, and returns whether it succeeded.
+// Its exit code is `interrupted` if the user has interrupted it. No name chosen by a user reaches
+// the shell, and the name of the folder is quoted.
+inline bool run_program(const Temporary_folder& folder, const std::string& call, int interrupted)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
   const int status = std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
 #if defined(__unix__) || defined(__APPLE__)
-  // meanwhile this program ignores an interrupt from the keyboard, which ends the other one
-  if((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) ||
-     (WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT))
+  // meanwhile this program ignores an interrupt from the keyboard, which ends the other one, or the
+  // shell
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if(code == interrupted || code == 128 + SIGINT)
     throw std::runtime_error("interrupted");
+#else
+  static_cast<void>(interrupted);
 #endif
-  return status;
+  return status == 0;
+}
+
+// POV-Ray's exit code for an interrupt
+inline bool run_povray(const Temporary_folder& folder, const std::string& arguments)
+{
+  return run_program(folder, "povray " + arguments, 2);
 }
 
 // The messages of POV-Ray after its last headline, which tell why it stopped.
@@ -396,7 +406,7 @@ inline void write_scene(std::ostream& out, std::vector<Panel> panels, const View
 inline void check_renderer()
 {
   const internal::Temporary_folder folder;
-  if(internal::run_program(folder, "povray --version") != 0)
+  if(!internal::run_povray(folder, "--version"))
     throw std::runtime_error("pictures need POV-Ray, but its program povray was not found");
 }
 
@@ -417,8 +427,8 @@ inline void draw(const Temporary_folder& folder, const std::vector<Panel>& panel
     throw std::runtime_error("the scene of the picture could not be written to " +
                              folder.path.string());
   const std::string width = std::to_string(view.width * panels.size());
-  if(run_program(folder, "povray +Iscene.pov +O" + picture + " +F" + format + " +W" + width +
-                           " +H" + std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P") != 0)
+  if(!run_povray(folder, "+Iscene.pov +O" + picture + " +F" + format + " +W" + width + " +H" +
+                           std::to_string(view.height) + " +A0.15 +AM2 +R2 -D -V -P"))
     throw std::runtime_error("POV-Ray could not draw the picture:" +
                              last_messages(folder.path / "messages"));
 }

@@ -585,10 +585,11 @@ public:
 
   /// \name Deformation
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
-  /// result throws, only the object is: points written before keep their new values.)
-  /// A visitor must not change the object, nor must a map or a function that a call reads. This is
-  /// a precondition; in Release such calls fail. An object and its mesh are for one thread at a
-  /// time: `ARAP::Status::in_a_run` does not tell that another thread runs it.
+  /// result throws, only the object is: points written before keep their new values until the next
+  /// call that succeeds writes the points of all vertices that were ever in the region.) A visitor
+  /// must not change the object, nor must a map or a function that a call reads. This is a
+  /// precondition; in Release such calls fail. An object and its mesh are for one thread at a time:
+  /// `ARAP::Status::in_a_run` does not tell that another thread runs it.
   /// @{
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
@@ -721,10 +722,11 @@ public:
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`. It is the
-  /// identity where no vertex of the cell is free, also inside a handle that has turned: there take
-  /// the rotation of the handle. It is the identity, too, until the next call, after `reset()`,
-  /// `overwrite_initial_geometry()` and a change of the region of interest or the cells, also by
-  /// `restore()`.
+  /// identity where `v` has no cell in the region, and where no vertex of the cell is free, as
+  /// inside a handle that has turned: there take the rotation of the handle. (Not so if rotations
+  /// are smoothed, or the cell shares its rotation with others.) It is the identity, too, until the
+  /// next call, after `reset()`, `overwrite_initial_geometry()` and a change of the region of
+  /// interest or the cells, also by `restore()`.
   /// \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {

@@ -350,13 +350,14 @@ void test_undo_after_failed_insertion()
 }
 
 // Points that others have moved are all seen by the run after one that a copy of a point stopped.
+template <typename Point_>
 void test_points_of_others_after_faults()
 {
   test_case() = "points of others after a fault";
   bool has_thrown = true;
   for(std::size_t first = 0; has_thrown; ++first)
   {
-    Solid_of<Faulty_point> solid;
+    Solid_of<Point_> solid;
     CGAL::ARAP_deformation d(solid.domain());
     d.insert_roi_vertices(solid.vertices());
     for(std::size_t v : {0, 1, 2, 3})
@@ -367,7 +368,7 @@ void test_points_of_others_after_faults()
     CHECK(d.set_options(options) && d.deform(1, 0));
     const std::size_t moved[] = {8, 9};
     for(std::size_t v : moved)
-      solid.points[v] = Faulty_point(10 + double(v), 0, 0);
+      solid.points[v] = Point_(10 + double(v), 0, 0);
     has_thrown = false;
     point_faults.arm(first, false);
     try { static_cast<void>(d.deform(0, 0)); }
@@ -503,7 +504,8 @@ int main()
   test_domain();
   test_points();
   test_undo_after_failed_insertion();
-  test_points_of_others_after_faults();
+  test_points_of_others_after_faults<Faulty_point>();
+  test_points_of_others_after_faults<Copied_point>();
   test_points_after_faults();
   test_drop_in_class();
   return faults_result();

@@ -132,6 +132,29 @@ void compare_all(const std::string& name, const std::vector<Eigen::Vector3d>& po
     }
 }
 
+// A fan around one free vertex: with cotangents cells may have negative energies, so that the rest
+// shape is not the lowest one. No run ends there as at a minimum, nor goes back to it.
+void test_negative_energies(const std::vector<Eigen::Vector3d>& rest, const Point& below)
+{
+  test_case() = "negative energies";
+  const Simplices simplices = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}};
+  using Domain = CGAL::ARAP::Simplex_soup_domain<2, std::vector<Point>, Simplices>;
+  std::vector<Point> points = points_of(rest);
+  using Weight = CGAL::ARAP::Cotangent_weight;
+  CGAL::ARAP_deformation<Domain, CGAL::ARAP_deformation_traits<CGAL::Default, Weight>> d(
+    Domain(points, simplices));
+  CHECK(d.set_options(options_for(Cell_scheme::spokes())));
+  d.insert_roi_vertices(numbers(points.size()));
+  for(std::size_t v = 1; v < points.size(); ++v)
+    d.insert_control_vertex(v);
+  const CGAL::ARAP::Report from_rest = d.deform();
+  CHECK(from_rest.end == CGAL::ARAP::End::minimum && from_rest.final_energy() < -0.1);
+  points[0] = below;
+  const double before = d.deform(0, 0).final_energy();
+  CHECK(before < -0.1 && points[0] == below);
+  CHECK_AT_MOST(d.deform().final_energy(), before);
+}
+
 // a sheet of hexagons and quads, not flat
 void test_polygons()
 {
@@ -166,6 +189,10 @@ void test_all()
     compare_all<2>(shape.name, shape.points, triangles, shape.diameter());
   }
   test_polygons();
+  test_negative_energies({{0, 0, 0}, {1.49, 0.76, 0}, {0.35, 0.47, 0}, {-0.67, -0.39, 0},
+                          {-0.86, -0.92, 0}, {0.92, -1.57, 0}}, Point(-0.2, -0.2, 0));
+  test_negative_energies({{0, 0, 0}, {1.37, 0.65, 0}, {0.41, 1.8, 0}, {-0.44, 0.25, 0},
+                          {-0.02, -1.19, 0}, {1.43, -0.98, 0}}, Point(-0.05, 0.2, 0));
   const Block solid = block(4, 2, 2);
   Simplices tetrahedra;
   for(const auto& t : solid.tetrahedra)

@@ -853,6 +853,7 @@ void test_statuses()
     Status::solver_failed, Status::non_finite_energy};
   for(std::size_t k = 0; k < std::size(all); ++k)
     CHECK(all[k] == static_cast<Status>(k));
+  CHECK(to_string(static_cast<Status>(std::size(all))) == std::string("unknown"));
   std::set<std::string> names, sentences;
   for(Status status : all)
   {

@@ -5,7 +5,8 @@
 # NAME.def
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../../.." && pwd)
-package=$(cd "$1" && pwd) meshes=${2:+$(cd "$2" && pwd)}
+package=$(cd "$1" && pwd)
+meshes=${2:+$(cd "$2" && pwd)}
 work=$root/build/live/empty
 rm -rf "$work"
 mkdir -p "$work"

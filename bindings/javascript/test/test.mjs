@@ -143,6 +143,17 @@ const refuses = (f, kind, pattern, status) =>
   });
 for (const f of [() => session.preprocess(), () => session.deform()])
   refuses(f, ArapError, /vertex 0 is free/, 'no_fixed_vertex');
+{
+  const moved = Float64Array.from(points, (x, i) => x + (i === 8 ? 0.5 : 0));
+  session.setPoints(moved);
+  assert.deepEqual(session.points(), moved);
+  assert.deepEqual(session.restPoints(), Float64Array.from(points));
+  refuses(() => session.setPoints(points.slice(3)), ArapError, /4 vertices, but 3 points/, 'misuse');
+  const broken = [...points.slice(0, 3), NaN, ...points.slice(4)];
+  refuses(() => session.setPoints(broken), ArapError, /vertex 1 is not finite/, 'non_finite_point');
+  assert.deepEqual(session.points(), moved);
+  session.setPoints(points);
+}
 refuses(() => session.insertHandles([4]), ArapError, /no vertex 4/, 'misuse');
 refuses(() => session.insertHandles([-1]), ArapError, /no vertex -1/, 'misuse');
 refuses(() => session.insertHandles([0.5]), TypeError, /0\.5/);

@@ -23,6 +23,10 @@ const points: Float32Array = session.points(new Float32Array(9));
 session.setOptions({ cells: 'rims' });
 // @ts-expect-error there is no such option
 session.setOption('itarations', 5);
+// @ts-expect-error cells are named
+session.setOption('cells', 5);
+// @ts-expect-error a session is no state
+session.restore(session);
 // @ts-expect-error indices are numbers
 session.insertHandles('all');
 export { status, end, points, length, momentum, ArapError };

@@ -81,6 +81,38 @@ def test_a_bend_and_its_report():
     assert d.quality().largest_angle_change == d.quality_at_vertices("angle_change").max() > 1
 
 
+def test_positions_that_are_set():
+    d = bent()
+    view = d.vertices
+    d.deform()
+    other = bent()
+    start, targets = other.vertices.copy(), [other.target(h) for h in other.handles]
+    other.vertices = d.vertices
+    assert np.array_equal(other.vertices, d.vertices)
+    assert np.array_equal([other.target(h) for h in other.handles], targets)
+    assert np.array_equal(other.rest_vertices, d.rest_vertices)
+    report = other.deform(0, 0)
+    assert report.energy[0] == pytest.approx(d.energy, rel=1e-9)
+    other.vertices = start
+    assert np.array_equal(other.vertices, start)
+    for wrong, error, match in ((start[1:], ValueError, "vertices, but"),
+                                (start * np.nan, arap.DeformationError, "vertex 0 is not finite"),
+                                (start[:, :2], ValueError, "must have the shape")):
+        with pytest.raises(error, match=match):
+            other.vertices = wrong
+    assert np.array_equal(other.vertices, start)
+    assert view.base is not None and np.array_equal(view, d.vertices)  # the same memory
+
+
+def test_one_handle_alone():
+    d = arap.Deformation(*SHAPES["bar"])
+    d.insert_handles(3)
+    d.set_targets(3, [1, 2, 3])
+    assert np.array_equal(d.target(3), [1, 2, 3])
+    d.set_velocities(5, [0, 0, 1])
+    assert np.array_equal(d.velocities()[5], [0, 0, 1])
+
+
 def test_the_energy_is_that_of_its_formula():
     d = bent("cactus")
     d.deform(7, 0)

@@ -91,11 +91,13 @@ const operations = {
     newSession({ simplices, corners, volume }, points, weights);
   },
   weights({ weights, handles, options, stiffness }) {
-    const kept = status;
+    const kept = status,
+      present = session.points();
     newSession(shape, session.restPoints(), weights, () => {
       session.setOptions(options);
       session.setStiffness(stiffness);
       hold(kept, handles);
+      session.setPoints(present);
     });
   },
   options({ options }) {

@@ -136,12 +136,18 @@ def _indices(name: str, value: Any) -> NDArray[Any]:
     return _integers(name, [value] if np.ndim(value) == 0 else value, None)
 
 
+def _pair(what: str, indices: Any, name: str, points: Any) -> Tuple[NDArray[Any], Floats]:
+    """Indices with (k, 3) numbers, or one index with (3,)."""
+    rows = [points] if np.ndim(indices) == 0 and np.ndim(points) == 1 else points
+    return _indices(what, indices), _floats(name, rows, None, 3)
+
+
 def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
     if isinstance(targets, Mapping):
         targets = (list(targets.keys()), list(targets.values()))
     elif not isinstance(targets, (tuple, list)) or len(targets) != 2:
         raise ValueError("targets must be a dict of points by handles, or a pair of both")
-    return _indices("handles of targets", targets[0]), _floats("targets", targets[1], None, 3)
+    return _pair("handles of targets", targets[0], "targets", targets[1])
 
 
 def _text(value: Any) -> str:
@@ -170,7 +176,8 @@ class Deformation:
     initial_guess = _option("initial_guess", str,
                             "'automatic', 'previous', 'rotations' or 'laplacian'")
     iterations = _option("iterations", int, "the maximum number of iterations of a run")
-    tolerance = _option("tolerance", float, "the estimated relative gap that ends a run")
+    tolerance = _option("tolerance", float, "the estimated relative gap that ends a run; 0: none, "
+                        "and an automatic minimizer is local_global")
     verify_minimum = _option("verify_minimum", "true".__eq__, "whether saddle points are left")
     coarse_metric = _option("coarse_metric", "true".__eq__, "whether large shapes have one")
     threads = _option("threads", int, "the maximum number of threads; 0 for all")
@@ -189,13 +196,18 @@ class Deformation:
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError("a Deformation cannot be copied or pickled; construct another one from its "
-                        "rest_vertices, or use state() and restore()")
+                        "rest_vertices and set its vertices, or use state() and restore()")
 
     @property
     def vertices(self) -> Floats:
         """(n, 3): where the vertices are, a view without a copy. It changes when a call succeeds,
-        also one of another thread."""
+        also one of another thread. Set it to have the next run start from other positions, and
+        what is fixed be there; the rest shape and the targets stay."""
         return self._session.points()
+
+    @vertices.setter
+    def vertices(self, points: ArrayLike) -> None:
+        self._session.set_points(_floats("vertices", points, None, 3))
 
     @property
     def rest_vertices(self) -> Floats:
@@ -204,7 +216,8 @@ class Deformation:
 
     @property
     def region(self) -> NDArray[np.int32]:
-        """The vertices that may move: the region of interest. At first it has all."""
+        """The vertices that may move: the region of interest. At first it has all. Setting it erases
+        the handles that are not in it."""
         return self._session.region()
 
     @region.setter
@@ -217,7 +230,8 @@ class Deformation:
         return self._session.handles()
 
     def insert_handles(self, vertices: ArrayLike) -> None:
-        """Makes control vertices, which stay where they are until they get other targets."""
+        """Makes control vertices, which stay where they are until they get other targets. They enter
+        the region; those that are handles already keep their targets."""
         self._session.insert_handles(_indices("handles", vertices))
 
     def erase_handles(self, handles: ArrayLike) -> None:
@@ -227,15 +241,16 @@ class Deformation:
         self._session.clear_handles()
 
     def locate(self, point: ArrayLike) -> Optional[Place]:
-        """The place in a simplex that is nearest to a point (3,). For a point outside of all
-        tetrahedra the coordinates are those of the point itself: some are negative. None if there is no
-        simplex, or if the point is not finite."""
+        """The place in a simplex that is nearest to a point (3,) where the shape is now. For a point
+        outside of all tetrahedra the coordinates are those of the point itself: some are negative.
+        None if there is no simplex, or if the point is not finite. Each call builds a search
+        tree."""
         found = self._session.locate(_floats("point", point, 3))
         return None if found is None else Place(*found)
 
     def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
         """The handle of a new control point with barycentric coordinates (k,) in a simplex.
-        Messages number control points from 1."""
+        Messages number control points from 1: number k is the handle n + k - 1."""
         number = _integers("simplex", simplex)
         return self._session.insert_point(int(number), _floats("coordinates", coordinates, None))
 
@@ -249,7 +264,8 @@ class Deformation:
 
     def set_targets(self, handles: Union[ArrayLike, Targets],
                     points: Optional[ArrayLike] = None) -> None:
-        """Sets the targets (k, 3) of k handles, or all of a dict of points by handles."""
+        """Sets the targets (k, 3) of k handles, that (3,) of one, or all of a dict of points by
+        handles."""
         self._session.set_targets(*_targets(handles if points is None else (handles, points)))
 
     def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
@@ -289,7 +305,8 @@ class Deformation:
 
     def preprocess(self) -> str:
         """Prepares what the next call of deform() needs, which it else does itself. Returns a
-        sentence, which tells also what unconstrained components there are."""
+        sentence, which tells also what unconstrained components there are. Not for time steps,
+        which need another factorization."""
         return str(self._session.preprocess())
 
     def deform(self, iterations: Optional[int] = None, tolerance: Optional[float] = None,
@@ -318,9 +335,8 @@ class Deformation:
         return self._session.velocities().reshape(-1, 3)
 
     def set_velocities(self, vertices: ArrayLike, velocities: ArrayLike) -> None:
-        """Sets the velocities (k, 3) of k vertices of the region."""
-        self._session.set_velocities(_indices("vertices", vertices),
-                                     _floats("velocities", velocities, None, 3))
+        """Sets the velocities (k, 3) of k vertices of the region, or that (3,) of one."""
+        self._session.set_velocities(*_pair("vertices", vertices, "velocities", velocities))
 
     def reset(self) -> None:
         """Moves all vertices and targets back to the rest shape. Keeps the weights of the targets,

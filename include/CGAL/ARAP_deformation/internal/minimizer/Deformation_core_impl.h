@@ -415,9 +415,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     m_state->energy.clear_others(rotations);
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
   Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
-  // where cells depend on others that are far away, a part is not all that its energy depends on
-  const bool is_certain = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
-                          m_energy_model.cells.rings() == 0 && targets.frames.empty();
+  // where cells depend on others that are far away, a part is not all that its energy depends on;
+  // and where a cell may have a negative energy, zero is not the least
+  const bool is_local = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
+                        m_energy_model.cells.rings() == 0 && targets.frames.empty();
+  const bool is_certain = is_local && m_state->system.laplacian().is_sum_of_squares;
   Array<Coordinates> unplaced;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
@@ -505,7 +507,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   }
   // where the guess is rejected, as where the last run ended with a spike, there is no reason to
   // begin again
-  if((is_tried || m_is_coarse) && start == Start::taken && is_certain && is_quasi_newton &&
+  if((is_tried || m_is_coarse) && start == Start::taken && is_local && is_quasi_newton &&
      can_have_coarse_start(options) && !are_all_placed(is_placed))
   {
     Array<Matrix_3x3> rotations_of_vertices = [&] {

@@ -246,7 +246,7 @@ private:
     m_run.distrust_gap();
     const std::optional<Status> status = m_run.next_iterate(start - m_run.value());
     if(status == Status::converged) // without another look: the energy is next to zero
-      m_run.report.end = End::minimum;
+      m_run.report.end = m_run.is_zero_least() ? End::minimum : End::undecided;
     return status;
   }
 

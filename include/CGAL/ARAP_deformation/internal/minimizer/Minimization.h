@@ -223,7 +223,7 @@ public:
     constexpr std::size_t least_vertices = 30000;
     if(!options.coarse_metric ||
        number_of_vertices - m_fixed_vertices.size() < least_vertices ||
-       !has_second_derivative() || !m_system.laplacian().is_sum_of_squares ||
+       !has_second_derivative() || !is_zero_least() ||
        !m_system.hard_rows().is_empty())
       return nullptr;
     const Sparse_matrix& laplacian = m_system.laplacian().matrix;
@@ -326,11 +326,15 @@ public:
     m_trust *= 0.25;
   }
 
+  // whether no energy is below zero
+  bool is_zero_least() const { return m_system.laplacian().is_sum_of_squares; }
+
   // whether there is nothing to be gained, or no more than strains of a millionth give
   bool is_at_zero() const
   {
     return is_nothing_free() ||
-           std::abs(m_value) <= (std::max)(negligible_energy(report), 1e-12 * m_energy.scale());
+           (is_zero_least() &&
+            std::abs(m_value) <= (std::max)(negligible_energy(report), 1e-12 * m_energy.scale()));
   }
 
   // what may be left to be gained where a run ends

@@ -138,7 +138,6 @@ public:
 
 protected:
   using Base::domain;
-  using Base::is_taking_points;
   using Base::m_are_points_written;
   using Base::m_energy;
   using Base::m_is_in_a_run;
@@ -277,12 +276,11 @@ private:
     const bool has_region = m_prepared.has_region();
     for(auto& [k, point] : changed) // one after the other: a copy that throws leaves the others
     {
-      const Coordinates position = Domain::coordinates(point);
       if(mend(m_vertices.entries()[k], point))
         region_changed();
-      std::swap(m_vertices.present_points()[k], point);
       if(has_region)
-        m_prepared.set_position(k, position);
+        m_prepared.set_position(k, Domain::coordinates(point));
+      m_vertices.present_points()[k] = std::move(point);
     }
     return has_region ? m_prepared.read_surroundings(m_vertices) : outcome(Status::success);
   }
@@ -293,7 +291,7 @@ private:
     const auto write = [this](const auto& vertex, const Point& point) {
       domain().set_point(vertex, point);
     };
-    const bool are_all_there = m_are_points_written || !is_taking_points();
+    const bool are_all_there = m_are_points_written || m_rules.are_erased_put_back;
     set_points([&] {
       for_each_written_vertex(points, write);
       if(!are_all_there) // what has left the region since may be where a failed call put it

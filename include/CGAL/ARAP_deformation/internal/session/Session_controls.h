@@ -312,14 +312,13 @@ protected:
     m_are_points_written = true;
   }
 
-  // Whether points are looked at that others may have moved. CGAL's class does not look at them.
-  bool is_taking_points() const
+  // Whether points are looked at that others may have moved. CGAL's class does not look at them,
+  // and after a call that failed in writing, some may be its own.
+  bool takes_points() const
   {
-    return m_rules.order == Minimization_order::local_first && domain().is_in_place();
+    return m_rules.order == Minimization_order::local_first && domain().is_in_place() &&
+           m_are_points_written;
   }
-
-  // The same at present: after a call that failed in writing, some may be its own.
-  bool takes_points() const { return is_taking_points() && m_are_points_written; }
 
   std::shared_ptr<const char> m_identity = std::make_shared<char>(); // of this session
   Vertices m_vertices;
