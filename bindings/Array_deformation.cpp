@@ -90,13 +90,15 @@ public:
             "there are " + std::to_string(number_of_vertices()) + " vertices, but " +
             std::to_string(points.rows) + " points of " + std::to_string(points.columns) +
             " coordinates");
-    for(std::size_t v = 0; v < points.rows; ++v)
-      require(std::all_of(points[v], points[v + 1], [](double x) { return std::isfinite(x); })
-                ? Outcome(Status::success, "")
-                : Outcome(Status::non_finite_point,
-                          "the point of vertex " + std::to_string(v) + " is not finite"));
     const Points copy = points_of(points);
+    for(std::size_t v = 0; v < copy.size(); ++v)
+      if(!is_finite(copy[v]))
+        throw Deformation_error(Outcome(Status::non_finite_point, "the point of vertex " +
+                                        std::to_string(v) + " is not finite"));
     std::copy(copy.begin(), copy.end(), m_points.begin());
+    for(std::size_t v = 0; v < copy.size(); ++v)
+      if(!is_finite(m_rest[v])) // the session mends it, too
+        m_rest[v] = copy[v];
   }
 
   Options options_with(const Named_options& values) const override
@@ -366,6 +368,10 @@ private:
 
   const Domain& domain() const { return m_deformation.domain(); }
   static Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
+  static bool is_finite(const Point& p)
+  {
+    return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+  }
 
   static Points points_of(Numbers rows)
   {

@@ -80,7 +80,8 @@ public:
 
   // n x 3: where the vertices are. The memory stays the same as long as this object lives.
   virtual const double* points() const = 0;
-  // where the next run starts, and what is fixed is
+  // The next run starts there, and fixed vertices that are no handles stay there. Where a point of
+  // the rest shape is not finite it becomes the new one.
   virtual void set_points(Numbers points) = 0;
   // n x 3: the rest shape
   virtual const double* rest_points() const = 0;

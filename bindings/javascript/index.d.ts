@@ -10,8 +10,8 @@ export type Numbers = Float64Array | Float32Array | readonly number[];
 export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
 
 /**
- * `misuse` is a wrong index, name or shape of an array, and `out_of_memory` is that of the engine;
- * the others are those of the C++ library.
+ * `misuse` is a wrong index, name or shape of an array; `out_of_memory`: the engine has no memory
+ * left; the others are those of the C++ library.
  */
 export type Status =
   | 'success'
@@ -201,7 +201,8 @@ export interface Session {
   /** a copy of where the vertices are, n x 3, or into an array of that length, which is returned */
   points(): Float64Array;
   points<T extends Float64Array | Float32Array>(out: T): T;
-  /** where the next run starts, and what is fixed is; the rest shape and the targets stay */
+  /** The next run starts from these positions, and fixed vertices that are no handles stay there.
+   *  The rest shape and the targets do not change. */
   setPoints(points: Numbers): void;
   restPoints(): Float64Array;
   restPoints<T extends Float64Array | Float32Array>(out: T): T;

@@ -372,9 +372,10 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
   line.is_sequence = values.count("frames") || (keys > 1 && line.animation.empty());
   if(line.frames < keys || line.frames > 9999)
     throw Usage_error(
-      "--frames " + std::to_string(line.frames) +
-      (values.count("frames") || line.animation.empty() ? "" : " (24 for each --transform)") +
-      ": there is at least one for each --transform, and at most 9999");
+      (values.count("frames") ? "--frames " + std::to_string(line.frames)
+                              : std::to_string(keys) + " times --transform gives " +
+                                std::to_string(line.frames) + " frames") +
+      ": there is at least one for each --transform, and at most 9999; --frames sets their number");
   if(line.is_sequence && is_written_directly(line.output))
     throw Usage_error("--output " + line.output + ": frames need a file each");
   if(values.count("view"))

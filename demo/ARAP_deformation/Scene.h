@@ -300,10 +300,13 @@ struct Temporary_folder
 inline bool run_program(const Temporary_folder& folder, const std::string& call, int interrupted)
 {
   const std::string path = escaped(folder.path.generic_string(), "\\\"$`");
-  const int status = std::system(("cd \"" + path + "\" && " + call + " > messages 2>&1").c_str());
+  const int status =
+    std::system(("cd \"" + path + "\" || exit 1; " + call + " > messages 2>&1").c_str());
 #if defined(__unix__) || defined(__APPLE__)
   // meanwhile this program ignores an interrupt from the keyboard, which ends the other one, or the
   // shell
+  if(status == -1)
+    return false;
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if(code == interrupted || code == 128 + SIGINT)
     throw std::runtime_error("interrupted");

@@ -54,6 +54,25 @@ void compare(const Result& a, const Result& b, double diameter, double tolerance
   compare(a, b, diameter, tolerance, tolerance);
 }
 
+Shape sheet_of_polygons(int n, int m, Polygons& polygons)
+{
+  Shape shape{"polygons", {}, {}};
+  for(int i = 0; i <= n; ++i)
+    for(int j = 0; j <= m; ++j)
+      shape.points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j,
+                                0.1 * std::sin(i) * std::cos(0.7 * j));
+  const auto vertex = [=](int i, int j) { return std::size_t(i * (m + 1) + j); };
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < m; ++j)
+      if(j % 3 == 2)
+        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                            vertex(i, j + 1)});
+      else if(j % 3 == 0 && j + 2 <= m)
+        polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                            vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});
+  return shape;
+}
+
 Shape tube(Polygons& polygons)
 {
   const std::size_t around = 14, along = 12;

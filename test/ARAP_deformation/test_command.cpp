@@ -1026,6 +1026,13 @@ void test_gltf()
   CHECK(run("apart/out.gltf" + stay + "apart.off").exit_code == 0);
   CHECK(read_points("apart.off").size() == 4);
 
+  test_case() = "too many frames";
+  std::string transforms;
+  for(int k = 0; k < 417; ++k)
+    transforms += " --transform in.def";
+  check_refused("in.off --selection in.sel -o out.off --animation film.glb" + transforms, 2,
+                "417 times --transform gives 10008 frames: ");
+
   test_case() = "numbers that are too large for single precision";
   for(const std::string file : {"large.glb", "large.gltf", "large.stl"})
     check_refused("in.off --fix z:..1 --handle z:4.. --move 1e39,0,0 -o " + file, 1,
@@ -1843,14 +1850,6 @@ void test_text()
   write("SELF.MESH", odd.substr(0, odd.size() - end.size()));
   CHECK(run("SELF.MESH --selection all.sel -o SELF.MESH --transform shift.def").exit_code == 0);
   CHECK(content(folder / "SELF.MESH") + end == moved);
-}
-
-// `good` with the first `from` replaced by `to`
-std::string replaced(const std::string& good, const std::string& from, const std::string& to)
-{
-  const std::size_t place = good.find(from);
-  CHECK(place != std::string::npos);
-  return std::string(good).replace((std::min)(place, good.size()), from.size(), to);
 }
 
 // The same tetrahedra in the formats of Gmsh and VTK, with all that may be around them.

@@ -16,6 +16,7 @@
 #include "include/command.h"
 
 #ifdef __linux__
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #endif
@@ -733,13 +734,6 @@ void check_kept(const std::string& name, const std::string& extension, const std
   fs::remove(folder / ("new." + extension));
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to)
-{
-  const std::size_t place = text.find(from);
-  CHECK(place != std::string::npos);
-  return text.replace((std::min)(place, text.size()), from.size(), to);
-}
-
 void refuse(const std::string& extension, const std::string& text, const std::string& phrase)
 {
   write("bad." + extension, text);
@@ -1022,7 +1016,9 @@ void test_meshes_in_pipes()
 #ifdef __linux__
   int ends[2]; // of a socket, as some programs give those that they run for a standard output
   CHECK(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
-  CHECK(dup2(ends[0], 9) == 9); // the shell takes one digit
+  for(int& end : ends) // away from the descriptor 9: the shell takes one digit
+    close(std::exchange(end, fcntl(end, F_DUPFD, 10)));
+  CHECK(dup2(ends[0], 9) == 9);
   const std::string to_socket = " 1>&9";
   done = run_arap("arap in.off " + arguments + "/dev/stdout" + to_socket);
   CHECK(done.exit_code == 0 && done.err.find("written: /dev/stdout") != std::string::npos);

@@ -104,10 +104,7 @@ inline Held_shape<2> triangles()
   const Shape shape = grid("sheet", 7, 5, [](double u, double v) {
     return Eigen::Vector3d(2 * u, v, 0.2 * std::sin(5 * u) * v);
   });
-  Held_shape<2> held{"triangles", shape.points, {}, scenario(shape, 0.5)};
-  for(const auto& t : shape.triangles)
-    held.simplices.emplace_back(t.begin(), t.end());
-  return held;
+  return {"triangles", shape.points, as_polygons(shape.triangles), scenario(shape, 0.5)};
 }
 
 inline Held_shape<2> quads()
@@ -130,10 +127,7 @@ inline Held_shape<2> quads()
 inline Held_shape<3> tetrahedra()
 {
   const Block solid = block(4, 2, 2);
-  Held_shape<3> held{"tetrahedra", solid.points, {}, scenario(solid, 0.5)};
-  for(const auto& t : solid.tetrahedra)
-    held.simplices.emplace_back(t.begin(), t.end());
-  return held;
+  return {"tetrahedra", solid.points, as_polygons(solid.tetrahedra), scenario(solid, 0.5)};
 }
 
 template <int Dimension>
@@ -771,9 +765,7 @@ void test_stages()
   const Shape sheet = grid("sheet", 40, 40, [](double u, double v) {
     return Eigen::Vector3d(u, v, 0.1 * std::sin(5 * u * v));
   });
-  Held_shape<2> shape{"", sheet.points, {}, {}};
-  for(const auto& t : sheet.triangles)
-    shape.simplices.emplace_back(t.begin(), t.end());
+  const Held_shape<2> shape{"", sheet.points, as_polygons(sheet.triangles), {}};
   Subject<2> s(shape, false);
   auto& d = s.deformation;
   for(std::size_t v = 0; v < s.points.size(); ++v)

@@ -256,7 +256,7 @@ void test_rigid_motion()
 // minimum. Weak pulls take longest: the whole has to turn, which costs nothing but iterations.
 void test_tolerance()
 {
-  Every_nth is_run(9);
+  Every_nth is_run(11);
   for(const Shape& shape : shapes())
     for(double weight : {1e-3, 1e-2, 1.0, 1e2})
     {
@@ -1339,7 +1339,7 @@ void test_bridge(const std::string& solver)
   using Tetrahedra = std::vector<std::array<int, 4>>;
   using Domain = CGAL::ARAP::Tetrahedron_soup_domain<std::vector<Point>, Tetrahedra>;
   const Tetrahedra tetrahedra = {{0, 1, 2, 3}, {4, 5, 6, 7}, {3, 4, 8, 9}};
-  Every_nth is_run(9);
+  Every_nth is_run(11);
   for(double height : {0.0, 1.0})
     for(double size = 1e-4; size > 1e-16; size /= 5)
       for_all_options([&](const Options& options) {
@@ -1379,7 +1379,7 @@ void test_bridge(const std::string& solver)
 // the sheet follows them to where no rigid motion takes it; else a rigid motion places it.
 void test_pulls()
 {
-  Every_nth is_run(9);
+  Every_nth is_run(11);
   for(double height : {0.0, 0.3})
     for(double weight = 1; weight > 1e-30; weight /= 30)
       for_all_options([&](const Options& options) {

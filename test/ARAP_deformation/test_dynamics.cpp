@@ -54,24 +54,18 @@ struct Model
 template <int Dimension>
 Model make_model()
 {
-  Model model;
   if constexpr(Dimension == 3)
   {
     const Block solid = block(3, 1, 2);
-    model.points = solid.points;
-    for(const auto& t : solid.tetrahedra)
-      model.simplices.emplace_back(t.begin(), t.end());
+    return {solid.points, as_polygons(solid.tetrahedra)};
   }
   else
   {
     const Shape sheet = grid("sheet", 5, 4, [](double u, double v) {
       return Vector3d(2 * u, 1.5 * v, 0.3 * std::sin(3 * u) * v);
     });
-    model.points = sheet.points;
-    for(const auto& t : sheet.triangles)
-      model.simplices.emplace_back(t.begin(), t.end());
+    return {sheet.points, as_polygons(sheet.triangles)};
   }
-  return model;
 }
 
 // the shares of the vertices in area or volume
@@ -550,9 +544,7 @@ void falling_meshes()
   CHECK_AT_MOST(largest_distance(one, ldlt), 1e-7);
 
   std::vector<Point> points = points_of(shape.points);
-  Simplices triangles;
-  for(const auto& t : shape.triangles)
-    triangles.emplace_back(t.begin(), t.end());
+  const Simplices triangles = as_polygons(shape.triangles);
   Deformation<2> deformation(Soup<2>(points, triangles));
   CGAL::ARAP::Options o;
   o.tolerance = 1e-10;

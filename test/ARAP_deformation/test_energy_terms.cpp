@@ -307,26 +307,9 @@ std::vector<Model> surfaces()
   for(const Shape& shape : shapes())
     // not those with a component whose handles move rigidly: it would start at its minimum
     if(shape.points.size() <= 130 && shape.points.size() > 20 && shape.name.find("two of") != 0)
-    {
-      models.push_back({shape.name, shape.points, {}});
-      for(const auto& t : shape.triangles)
-        models.back().simplices.emplace_back(t.begin(), t.end());
-    }
-  Model polygons = {"polygons", {}, {}}; // quads and hexagons, not flat
-  const int n = 6, m = 5;
-  for(int i = 0; i <= n; ++i)
-    for(int j = 0; j <= m; ++j)
-      polygons.points.emplace_back(0.3 * i + 0.05 * (j % 2), 0.25 * j,
-                                   0.1 * std::sin(i) * std::cos(0.7 * j));
-  const auto vertex = [=](int i, int j) { return std::size_t(i * (m + 1) + j); };
-  for(int i = 0; i < n; ++i)
-    for(int j = 0; j < m; ++j)
-      if(j % 3 == 2)
-        polygons.simplices.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
-                                      vertex(i, j + 1)});
-      else if(j % 3 == 0 && j + 2 <= m)
-        polygons.simplices.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
-                                      vertex(i + 1, j + 2), vertex(i, j + 2), vertex(i, j + 1)});
+      models.push_back({shape.name, shape.points, as_polygons(shape.triangles)});
+  Model polygons = {"polygons", {}, {}};
+  polygons.points = sheet_of_polygons(6, 5, polygons.simplices).points;
   models.push_back(polygons);
   return models;
 }
@@ -334,10 +317,7 @@ std::vector<Model> surfaces()
 Model solid()
 {
   const Block shape = block(4, 3, 3);
-  Model model = {"tetrahedra", shape.points, {}};
-  for(const auto& t : shape.tetrahedra)
-    model.simplices.emplace_back(t.begin(), t.end());
-  return model;
+  return {"tetrahedra", shape.points, as_polygons(shape.tetrahedra)};
 }
 
 void test_all()
@@ -1495,9 +1475,6 @@ void test_all()
     if(shape.points.size() > 180 || shape.points.size() < 20 || shape.name.find("two of") == 0)
       continue;
     test_case() = shape.name + ", initial guess";
-    Simplices triangles;
-    for(const auto& t : shape.triangles)
-      triangles.emplace_back(t.begin(), t.end());
     for(const bool is_far : {false, true})
     {
       Scenario s = scenario(shape, 1.2);
@@ -1507,8 +1484,8 @@ void test_all()
       std::vector<Point> points, rotated, before;
       const Report rotations =
         run(shape, s, Initial_guess::rotations, Cell_scheme::spokes(), 0, rotated);
-      Dense_reference reference(shape.points, triangles, 2, s.selection, Dense_reference::SPOKES,
-                                Dense_reference::SAFE);
+      Dense_reference reference(shape.points, as_polygons(shape.triangles), 2, s.selection,
+                                Dense_reference::SPOKES, Dense_reference::SAFE);
       std::vector<Eigen::Vector3d> x = s.targets, vectors(x.size(), Eigen::Vector3d::Zero());
       std::vector<Eigen::Vector3d> handle, place; // its rotation, from two directions of its motion
       for(std::size_t v = 0; v < x.size(); ++v)
@@ -1572,23 +1549,11 @@ struct Pulled
 Pulled square(int quads)
 {
   Pulled pulled;
-  auto& [name, points, triangles] = pulled.model;
-  for(int i = 0; i <= quads; ++i)
-    for(int j = 0; j <= quads; ++j)
-      points.emplace_back(double(i) / quads, double(j) / quads, 0);
+  const Shape shape = grid("square", quads, quads, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0);
+  });
+  pulled.model = {shape.name, shape.points, as_polygons(shape.triangles)};
   const auto vertex = [=](int i, int j) { return std::size_t(i * (quads + 1) + j); };
-  for(int i = 0; i < quads; ++i)
-    for(int j = 0; j < quads; ++j)
-      if((i + j) % 2 == 0)
-      {
-        triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-        triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-      }
-      else
-      {
-        triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
-        triangles.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-      }
   pulled.middle = vertex(quads / 2, quads / 2);
   for(int k : {0, 1, 2, 3, 4, 6}) // distances of 0, .05, ... .3
     pulled.places.push_back(vertex(quads / 2 + k * quads / 20, quads / 2));
@@ -1601,8 +1566,7 @@ Pulled cube(int edges)
   const Block cubes = unit_cubes(edges, edges, edges);
   for(const auto& p : cubes.points)
     pulled.model.points.push_back(p / edges);
-  for(const auto& t : cubes.tetrahedra)
-    pulled.model.simplices.emplace_back(t.begin(), t.end());
+  pulled.model.simplices = as_polygons(cubes.tetrahedra);
   const auto vertex = [=](int x, int y, int z) {
     return std::size_t((x * (edges + 1) + y) * (edges + 1) + z);
   };

@@ -198,12 +198,7 @@ void test_terms_of(const std::string& name)
     });
   };
   for(const Shape& shape : {shapes()[6], shapes()[10]})
-  {
-    Polygons triangles;
-    for(const auto& t : shape.triangles)
-      triangles.emplace_back(t.begin(), t.end());
-    test(shape, triangles);
-  }
+    test(shape, as_polygons(shape.triangles));
   Polygons polygons;
   const Shape shape = tube(polygons);
   test(shape, polygons);

@@ -83,9 +83,9 @@ def test_a_bend_and_its_report():
 
 def test_positions_that_are_set():
     d = bent()
-    view = d.vertices
     d.deform()
     other = bent()
+    view = other.vertices
     start, targets = other.vertices.copy(), [other.target(h) for h in other.handles]
     other.vertices = d.vertices
     assert np.array_equal(other.vertices, d.vertices)
@@ -101,7 +101,22 @@ def test_positions_that_are_set():
         with pytest.raises(error, match=match):
             other.vertices = wrong
     assert np.array_equal(other.vertices, start)
-    assert view.base is not None and np.array_equal(view, d.vertices)  # the same memory
+    assert np.array_equal(view, start)  # the same memory
+
+    state = other.state()
+    other.region = np.flatnonzero(start[:, 0] >= 6)
+    moved_too = start + [0, 0, 0.5] * (start[:, :1] < 3)
+    other.vertices = moved_too
+    assert other.deform()
+    assert np.array_equal(other.vertices[start[:, 0] < 6], moved_too[start[:, 0] < 6])
+    other.restore(state)
+    assert np.array_equal(other.vertices, start)
+
+    broken = start.copy()
+    broken[7] = np.nan
+    mended = arap.Deformation(broken, SHAPES["bar"][1])
+    mended.vertices = start
+    assert np.array_equal(mended.rest_vertices, start)
 
 
 def test_one_handle_alone():

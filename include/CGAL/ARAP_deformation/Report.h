@@ -44,7 +44,8 @@ enum class End
 {
   unknown, ///< nothing: the run did not converge, or did not look, or a solver failed as it looked
   minimum, ///< a local minimum: no direction of negative curvature was found, and the gap is within
-           ///< the tolerance by the second derivative, too; or the energy is next to zero
+           ///< the tolerance by the second derivative, too; or the energy is next to zero, and the
+           ///< weights allow none below
   flat,    ///< there is a direction of negative curvature, but following the last ones gained less
            ///< than a hundredth of what the tolerance allows, or nothing, or ten moves were made
   undecided ///< the gap is within the tolerance as far as is known, but the look was too short to

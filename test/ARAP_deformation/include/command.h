@@ -22,6 +22,8 @@
 #include <sys/wait.h>
 #endif
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -47,6 +49,14 @@ inline std::string content(const fs::path& file)
 inline void write(const std::string& name, const std::string& text)
 {
   std::ofstream(folder / name, std::ios::binary) << text;
+}
+
+// the text with the first `from` replaced by `to`
+inline std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t place = text.find(from);
+  CHECK(place != std::string::npos);
+  return text.replace((std::min)(place, text.size()), from.size(), to);
 }
 
 struct Run

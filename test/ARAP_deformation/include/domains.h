@@ -145,8 +145,20 @@ void compare(const Result& a, const Result& b, double diameter, double tolerance
 
 using Polygons = std::vector<std::vector<std::size_t>>;
 
+template <typename Simplices>
+Polygons as_polygons(const Simplices& simplices)
+{
+  Polygons polygons;
+  for(const auto& corners : simplices)
+    polygons.emplace_back(corners.begin(), corners.end());
+  return polygons;
+}
+
 // a tube of quads, closed by two polygons with many corners
 Shape tube(Polygons& polygons);
+
+// a sheet of quads and hexagons, not flat
+Shape sheet_of_polygons(int n, int m, Polygons& polygons);
 
 // A block of n x m x k cubes with a rounded side, each cut in five tetrahedra.
 struct Block

@@ -201,8 +201,8 @@ class Deformation:
     @property
     def vertices(self) -> Floats:
         """(n, 3): where the vertices are, a view without a copy. It changes when a call succeeds,
-        also one of another thread. Set it to have the next run start from other positions, and
-        what is fixed be there; the rest shape and the targets stay."""
+        also one of another thread. Set it, and the next run starts from these positions; fixed
+        vertices that are no handles stay there. The rest shape and the targets do not change."""
         return self._session.points()
 
     @vertices.setter
@@ -264,8 +264,8 @@ class Deformation:
 
     def set_targets(self, handles: Union[ArrayLike, Targets],
                     points: Optional[ArrayLike] = None) -> None:
-        """Sets the targets (k, 3) of k handles, that (3,) of one, or all of a dict of points by
-        handles."""
+        """Sets the targets (k, 3) of k handles, the target (3,) of one handle, or all of a dict of
+        points by handles."""
         self._session.set_targets(*_targets(handles if points is None else (handles, points)))
 
     def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
@@ -335,7 +335,7 @@ class Deformation:
         return self._session.velocities().reshape(-1, 3)
 
     def set_velocities(self, vertices: ArrayLike, velocities: ArrayLike) -> None:
-        """Sets the velocities (k, 3) of k vertices of the region, or that (3,) of one."""
+        """Sets the velocities (k, 3) of k vertices of the region, or the velocity (3,) of one."""
         self._session.set_velocities(*_pair("vertices", vertices, "velocities", velocities))
 
     def reset(self) -> None:

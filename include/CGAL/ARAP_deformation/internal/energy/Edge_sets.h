@@ -31,6 +31,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
+// a share of the largest weight of an edge set: what is below zero by less is a rounding error
+constexpr double negligible_weight = 1e-9;
+
 // The edge sets that are stars: the neighbors of each center, in the order of their numbers, and
 // the weights of the edges to them.
 struct Stars
@@ -50,10 +53,18 @@ struct Stars
     return static_cast<int>(found - neighbors.items.begin());
   }
 
-  // whether no star has a negative energy
+  // whether no star has a negative energy, up to rounding
   bool are_sums_of_squares() const
   {
-    return std::all_of(weights.begin(), weights.end(), [](double w) { return w >= 0; });
+    for(int i = 0; i < size(); ++i)
+      if(neighbors.begin[i] < neighbors.begin[i + 1])
+      {
+        const auto [least, largest] = std::minmax_element(
+          weights.begin() + neighbors.begin[i], weights.begin() + neighbors.begin[i + 1]);
+        if(*least < -negligible_weight * *largest)
+          return false;
+      }
+    return true;
   }
 
   // calls f(i, j, w) for each edge (i, j) of the star of i with its weight w
@@ -136,7 +147,7 @@ private:
         largest = (std::max)(largest, std::abs(*w));
       }
     for(int a = 0; a < n; ++a)
-      matrix[a * n + a] += 1e-9 * largest;
+      matrix[a * n + a] += negligible_weight * largest;
     for(int k = 0; k < n; ++k)
     {
       const double pivot = matrix[k * n + k];
