@@ -163,7 +163,7 @@ private:
     const std::size_t n = supernodes.size();
     for(int b : block_of)
       ++m_blocks[b].supernodes_end;
-    Array<int> next; // free number in each block
+    Array<int> next; // the next free number in each block
     int end = 0;
     for(Block& b : m_blocks)
     {
