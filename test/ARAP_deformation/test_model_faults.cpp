@@ -41,6 +41,18 @@ void throw_if_hit(Faults& faults)
     throw Fault();
 }
 
+// whether a call throws where only the fault number `first` is injected
+template <typename Function>
+bool throws(Faults& faults, std::size_t first, const Function& call)
+{
+  bool has_thrown = false;
+  faults.arm(first, false);
+  try { call(); }
+  catch(const Fault&) { has_thrown = true; }
+  faults.disarm();
+  return has_thrown;
+}
+
 enum class Failure { returns_false, throws_before, throws_after };
 Failure failure_of_solver = Failure::returns_false;
 
@@ -336,11 +348,7 @@ void test_undo_after_failed_insertion()
     const std::size_t inserted[] = {8, 9};
     for(std::size_t v : inserted)
       solid.points[v] = Copied_point(10 + double(v), 0, 0);
-    has_thrown = false;
-    point_faults.arm(first, false);
-    try { d.insert_roi_vertex(inserted[0]); }
-    catch(const Fault&) { has_thrown = true; }
-    point_faults.disarm();
+    has_thrown = throws(point_faults, first, [&] { d.insert_roi_vertex(inserted[0]); });
     CHECK(has_thrown || first > 3);
     CHECK(d.insert_roi_vertex(inserted[1]));
     CHECK(d.restore(state));
@@ -369,11 +377,7 @@ void test_points_of_others_after_faults()
     const std::size_t moved[] = {8, 9};
     for(std::size_t v : moved)
       solid.points[v] = Point_(10 + double(v), 0, 0);
-    has_thrown = false;
-    point_faults.arm(first, false);
-    try { static_cast<void>(d.deform(0, 0)); }
-    catch(const Fault&) { has_thrown = true; }
-    point_faults.disarm();
+    has_thrown = throws(point_faults, first, [&] { static_cast<void>(d.deform(0, 0)); });
     CHECK(has_thrown || first > 3);
     CHECK(d.deform(0, 0));
     for(std::size_t v : moved)
@@ -441,12 +445,7 @@ void test_points_after_faults()
   CHECK(d.set_options(options));
   const std::vector<Point> before = points_of(mesh);
   const auto check_fault = [&](const auto& call) {
-    bool has_thrown = false;
-    put_faults.arm(30, false);
-    try { call(); }
-    catch(const Fault&) { has_thrown = true; }
-    put_faults.disarm();
-    CHECK(has_thrown && points_of(mesh) != before);
+    CHECK(throws(put_faults, 30, call) && points_of(mesh) != before);
   };
   const auto restore = [&] { CHECK(d.restore(state)); };
   const auto reset = [&] { d.reset(); };
