@@ -43,18 +43,47 @@ void require(bool condition, const std::string& sentence)
     throw std::invalid_argument(sentence);
 }
 
-// simplices of the same number of corners, as a range of ranges
+Points points_of(Numbers rows)
+{
+  require(rows.columns == 3, "points need three coordinates, not " + std::to_string(rows.columns));
+  Points points(rows.rows);
+  for(std::size_t v = 0; v < rows.rows; ++v)
+    std::copy(rows[v], rows[v + 1], points[v].begin());
+  return points;
+}
+
+bool is_finite(const Point& p)
+{
+  return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+}
+
+double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
+// a * p + b * q
+Point combined(double a, const Point& p, double b, const Point& q)
+{
+  return {a * p[0] + b * q[0], a * p[1] + b * q[1], a * p[2] + b * q[2]};
+}
+
+// simplices as a range of ranges
 class Simplices
 {
 public:
-  explicit Simplices(Indices rows)
-    : m_corners(rows.data, rows[rows.rows]), m_columns(rows.columns)
-  {}
+  Simplices(Indices rows, bool is_volume) : m_columns(rows.columns)
+  {
+    require(is_volume ? rows.columns == 4 : rows.columns >= 3,
+            (is_volume ? "tetrahedra have four corners, not "
+                       : "faces have at least three corners, not ") + std::to_string(rows.columns));
+    m_corners.assign(rows.data, rows[rows.rows]);
+  }
   std::size_t size() const { return m_corners.size() / m_columns; }
   auto operator[](std::size_t s) const
   {
-    const std::int32_t* corners = m_corners.data() + s * m_columns;
-    return boost::make_iterator_range(corners, corners + m_columns);
+    const std::int32_t* const begin = m_corners.data() + s * m_columns;
+    const std::int32_t* end = begin + m_columns;
+    while(end != begin && end[-1] == -1)
+      --end;
+    return boost::make_iterator_range(begin, end);
   }
 
 private:
@@ -63,11 +92,52 @@ private:
 };
 
 template <int Dimension>
+using Soup = Simplex_soup_domain<Dimension, Points, Simplices>;
+
+// a surface that targets are pulled to
+class Target_surface
+{
+public:
+  Target_surface(Numbers points, Indices polygons)
+    : m_points(points_of(points)), m_polygons(polygons, false), m_domain(m_points, m_polygons),
+      m_locator(m_domain)
+  {
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      for(std::int32_t v : m_polygons[f])
+        if(v < 0 || static_cast<std::size_t>(v) >= m_points.size())
+          throw std::out_of_range("face " + std::to_string(f) + " of the surface has the vertex " +
+                                  std::to_string(v) + ", which does not exist");
+    require(m_locator.locate({0, 0, 0}).has_value(), "the surface has no face with an area");
+  }
+  Target_surface(const Target_surface&) = delete; // the domain refers to the points
+  Target_surface& operator=(const Target_surface&) = delete;
+
+  Point projection(const Point& p) const
+  {
+    const auto place = m_locator.locate(p);
+    if(!place) // the run finds that p is too far away
+      return p;
+    Point result = {0, 0, 0};
+    const auto corners = m_polygons[place->simplex];
+    for(std::size_t k = 0; k < place->coordinates.size(); ++k)
+      result = combined(1, result, place->coordinates[k],
+                        m_points[static_cast<std::size_t>(corners[k])]);
+    return result;
+  }
+
+private:
+  Points m_points;
+  Simplices m_polygons;
+  Soup<2> m_domain;
+  Locator<Soup<2>> m_locator;
+};
+
+template <int Dimension>
 class Array_deformation_of final : public Array_deformation
 {
 public:
   Array_deformation_of(Numbers points, Indices simplices, const std::string& weights)
-    : m_points(points_of(points)), m_rest(m_points), m_simplices(simplices),
+    : m_points(points_of(points)), m_rest(m_points), m_simplices(simplices, Dimension == 3),
       m_deformation(Domain(m_points, m_simplices), Traits({}, Chosen_edge_weight(weights)))
   {
     m_deformation.insert_roi_vertices(domain().vertices());
@@ -163,12 +233,17 @@ public:
     return result;
   }
 
-  std::optional<Place> locate(const double* point) const override
+  std::vector<std::optional<Place>> locate(Numbers points) const override
   {
-    const auto found = ARAP::locate(domain(), point_at(point));
-    if(!found)
-      return std::nullopt;
-    return Place{found->simplex, found->coordinates, found->distance};
+    const Locator<Domain> locator(domain());
+    std::vector<std::optional<Place>> places;
+    for(const Point& point : points_of(points))
+    {
+      places.emplace_back();
+      if(const auto found = locator.locate(point))
+        places.back() = Place{found->simplex, found->coordinates, found->distance};
+    }
+    return places;
   }
   std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) override
   {
@@ -195,6 +270,25 @@ public:
     for_each(handles, [&](auto handle) {
       return m_deformation.set_target_position(handle, point_at(targets[row++]));
     });
+  }
+  void set_target_plane(Indices handles, Numbers plane) override
+  {
+    const auto [origin, normal] = point_and_direction(plane, "normal");
+    set_target_sets(handles, [origin = origin, normal = normal](const Point& p) {
+      return combined(1, p, dot(combined(1, origin, -1, p), normal), normal);
+    });
+  }
+  void set_target_line(Indices handles, Numbers line) override
+  {
+    const auto [origin, direction] = point_and_direction(line, "direction");
+    set_target_sets(handles, [origin = origin, direction = direction](const Point& p) {
+      return combined(1, origin, dot(combined(1, p, -1, origin), direction), direction);
+    });
+  }
+  void set_target_surface(Indices handles, Numbers points, Indices polygons) override
+  {
+    const auto surface = std::make_shared<const Target_surface>(points, polygons);
+    set_target_sets(handles, [surface](const Point& p) { return surface->projection(p); });
   }
   void target(std::int32_t handle, double* point) const override
   {
@@ -347,13 +441,21 @@ public:
     return result;
   }
   Quality quality() const override { return ARAP::quality(domain(), m_rest); }
-  std::vector<double> quality_at_vertices(Vertex_measure measure) const override
+  std::vector<double> quality_at_vertices(const std::string& measure) const override
   {
-    return ARAP::quality_at_vertices(domain(), measure, m_rest);
+    using M = Vertex_measure;
+    for(const auto& [name, known] : {std::pair("edge_length_error", M::edge_length_error),
+                                     std::pair("size_change", M::size_change),
+                                     std::pair("angle_change", M::angle_change),
+                                     std::pair("spike", M::spike)})
+      if(measure == name)
+        return ARAP::quality_at_vertices(domain(), known, m_rest);
+    throw std::invalid_argument("the measure '" + measure + "' is not known; use one of "
+                                "edge_length_error, size_change, angle_change, spike");
   }
 
 private:
-  using Domain = Simplex_soup_domain<Dimension, Points, Simplices>;
+  using Domain = Soup<Dimension>;
   using Traits = ARAP_deformation_traits<Default, Chosen_edge_weight>;
   using Deformation = ARAP_deformation<Domain, Traits>;
 
@@ -368,18 +470,6 @@ private:
 
   const Domain& domain() const { return m_deformation.domain(); }
   static Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
-  static bool is_finite(const Point& p)
-  {
-    return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-  }
-
-  static Points points_of(Numbers rows)
-  {
-    Points points(rows.rows);
-    for(std::size_t v = 0; v < rows.rows; ++v)
-      points[v] = point_at(rows[v]);
-    return points;
-  }
   static std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& vertices)
   {
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
@@ -453,6 +543,31 @@ private:
       visit_handle(*handles[k], [&](auto handle) { require(f(handle)); });
   }
 
+  // a finite point, and a direction of length 1
+  static std::pair<Point, Point> point_and_direction(Numbers rows, const char* what)
+  {
+    const Points points = points_of(rows);
+    require(points.size() == 2 && is_finite(points[0]), "the point must have finite coordinates");
+    const Point& d = points[1];
+    const double length = std::hypot(d[0], d[1], d[2]);
+    require(std::isfinite(length) && length > 0,
+            std::string("the ") + what + " must be finite, and not zero");
+    return {points[0], {d[0] / length, d[1] / length, d[2] / length}};
+  }
+
+  template <typename Projection>
+  void set_target_sets(Indices handles, const Projection& projection)
+  {
+    for(std::size_t k = 0; k < handles.rows; ++k) // all, before the first one is changed
+      if(std::isinf(weight(*handles[k])))
+        throw Deformation_error(Outcome(Status::invalid_weight, name(*handles[k]) +
+                                        " has a hard target, which cannot be a set: give it a "
+                                        "finite weight first"));
+    for_each(handles, [&](auto handle) {
+      return m_deformation.set_target_set(handle, projection);
+    });
+  }
+
   // calls f with a map of vertices, or of simplices, whichever have cells
   template <typename Number, typename Function>
   void with_cell_map(Rows<Number> values, const Function& f) const
@@ -498,12 +613,6 @@ std::unique_ptr<Array_deformation> make_array_deformation(Numbers points, Indice
                                                           bool is_volume,
                                                           const std::string& weights)
 {
-  require(points.columns == 3, "points need three coordinates, not " +
-                               std::to_string(points.columns));
-  require(is_volume ? simplices.columns == 4 : simplices.columns >= 3,
-          is_volume ? "tetrahedra have four corners, not " + std::to_string(simplices.columns)
-                    : "faces have at least three corners, not " +
-                      std::to_string(simplices.columns));
   if(is_volume)
     return std::make_unique<Array_deformation_of<3>>(points, simplices, weights);
   return std::make_unique<Array_deformation_of<2>>(points, simplices, weights);

@@ -102,13 +102,18 @@ public:
   virtual void clear_handles() = 0;
   virtual std::vector<std::int32_t> handles() const = 0;
 
-  // the place nearest to a point where the shape is now, if there is any; builds a search tree
-  virtual std::optional<Place> locate(const double* point) const = 0;
+  // the places nearest to k points where the shape is now, if there are any; builds a search tree
+  virtual std::vector<std::optional<Place>> locate(Numbers points) const = 0;
   // returns the handle of a new control point
   virtual std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) = 0;
   virtual void point_position(std::int32_t handle, double* point) const = 0;
 
   virtual void set_targets(Indices handles, Numbers targets) = 0; // k x 3
+  // Soft targets become sets: a plane or a line, given by two rows, a point and a normal or a
+  // direction; or a surface, given by points and polygons, which are copied.
+  virtual void set_target_plane(Indices handles, Numbers plane) = 0;
+  virtual void set_target_line(Indices handles, Numbers line) = 0;
+  virtual void set_target_surface(Indices handles, Numbers points, Indices polygons) = 0;
   virtual void target(std::int32_t handle, double* point) const = 0;
   virtual double weight(std::int32_t handle) const = 0; // infinite: hard
   // targets p to A p, with a 3 x 4 or 4 x 4 matrix; of the rest shape or of the present targets
@@ -139,11 +144,12 @@ public:
   virtual double energy() const = 0;
   virtual std::vector<double> rotations() const = 0; // 3 x 3 for each cell
   virtual Quality quality() const = 0;
-  virtual std::vector<double> quality_at_vertices(Vertex_measure measure) const = 0;
+  virtual std::vector<double> quality_at_vertices(const std::string& measure) const = 0;
 };
 
-// points: n x 3; simplices: m x k. A volume has tetrahedra, k = 4; else they are faces of k
-// corners. All is copied. weights: see CGAL::ARAP::Chosen_edge_weight.
+// points: n x 3; simplices: m x k. A volume has tetrahedra, k = 4; else they are polygons of up to
+// k corners, and -1 fills the rows of those that have fewer. All is copied. weights: see
+// CGAL::ARAP::Chosen_edge_weight.
 std::unique_ptr<Array_deformation> make_array_deformation(Numbers points, Indices simplices,
                                                           bool is_volume,
                                                           const std::string& weights);

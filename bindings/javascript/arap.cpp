@@ -211,16 +211,19 @@ ARAP_EXPORT bool arap_handles(const Array_deformation* d)
   return answer_of([&] { add(d->handles()); });
 }
 
-// simplex, distance, coordinates; no numbers if there is no place
-ARAP_EXPORT bool arap_locate(const Array_deformation* d, double x, double y, double z)
+// for each point the number of coordinates, 0 if there is no place; simplex, distance, coordinates
+ARAP_EXPORT bool arap_locate(const Array_deformation* d, const double* points, std::size_t rows)
 {
   return answer_of([&] {
-    const double point[3] = {x, y, z};
-    if(const auto place = d->locate(point))
-    {
-      add(std::vector<double>{double(place->simplex), place->distance});
-      add(place->coordinates);
-    }
+    for(const auto& place : d->locate({points, rows, 3}))
+      if(place)
+      {
+        add(std::vector<double>{double(place->coordinates.size()), double(place->simplex),
+                                place->distance});
+        add(place->coordinates);
+      }
+      else
+        add(std::vector<double>{0});
   });
 }
 ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::int32_t simplex,
@@ -243,6 +246,25 @@ ARAP_EXPORT bool arap_set_targets(Array_deformation* d, const std::int32_t* hand
                                   const double* targets, std::size_t rows)
 {
   return answer_of([&] { d->set_targets({handles, n}, {targets, rows, 3}); });
+}
+// six numbers: a point and a direction
+ARAP_EXPORT bool arap_set_target_plane(Array_deformation* d, const std::int32_t* handles,
+                                       std::size_t n, const double* plane)
+{
+  return answer_of([&] { d->set_target_plane({handles, n}, {plane, 2, 3}); });
+}
+ARAP_EXPORT bool arap_set_target_line(Array_deformation* d, const std::int32_t* handles,
+                                      std::size_t n, const double* line)
+{
+  return answer_of([&] { d->set_target_line({handles, n}, {line, 2, 3}); });
+}
+ARAP_EXPORT bool arap_set_target_surface(Array_deformation* d, const std::int32_t* handles,
+                                         std::size_t n, const double* points, std::size_t rows,
+                                         const std::int32_t* polygons, std::size_t m, std::size_t k)
+{
+  return answer_of([&] {
+    d->set_target_surface({handles, n}, {points, rows, 3}, {polygons, m, k});
+  });
 }
 ARAP_EXPORT bool arap_target(const Array_deformation* d, std::int32_t handle)
 {
@@ -365,10 +387,9 @@ ARAP_EXPORT bool arap_quality(const Array_deformation* d)
                             double(q.inverted_simplices)});
   });
 }
-// measure: the number of an enumerator of Vertex_measure
-ARAP_EXPORT bool arap_quality_at_vertices(const Array_deformation* d, int measure)
+ARAP_EXPORT bool arap_quality_at_vertices(const Array_deformation* d, const char* measure)
 {
-  return answer_of([&] { add(d->quality_at_vertices(static_cast<Vertex_measure>(measure))); });
+  return answer_of([&] { add(d->quality_at_vertices(measure)); });
 }
 
 } // extern "C"

@@ -74,8 +74,8 @@ export interface Options {
 }
 
 export interface Shape {
-  /** of each simplex: 3 or more on a surface (default 3), 4 in a volume */
-  corners?: number;
+  /** of each simplex: 3 or more on a surface (default 3), 4 in a volume; or the numbers of all */
+  corners?: number | Indices;
   /** whether the simplices are tetrahedra; default false */
   volume?: boolean;
   weights?: 'safe_cotangent' | 'cotangent' | 'clamped_cotangent' | 'uniform';
@@ -222,14 +222,31 @@ export interface Session {
   clearHandles(): void;
   handles(): Int32Array;
 
-  /** the place nearest to a point where the shape is now; each call builds a search tree */
+  /** the place nearest to a point where the shape is now; each call builds a search tree: for more
+   *  than one point use `locateAll()` */
   locate(point: Numbers): Place | null;
+  /** the place of each of k x 3 points */
+  locateAll(points: Numbers): (Place | null)[];
   /** a new control point; returns its handle. Messages number control points from 1: number k is
    *  the handle n + k - 1. */
   insertPoint(simplex: number, coordinates: Numbers): number;
   pointPosition(handle: number): Float64Array;
 
   setTargets(handles: Indices | number, targets: Numbers): void;
+  /** Pulls handles, whose weights are finite, toward a plane, along which they can glide. It is
+   *  their target until they get another one. */
+  setTargetPlane(handles: Indices | number, point: Numbers, normal: Numbers): void;
+  /** the same, toward a line */
+  setTargetLine(handles: Indices | number, point: Numbers, direction: Numbers): void;
+  /** the same, toward the nearest points of a surface, as a registration does; each energy takes a
+   *  search for each handle */
+  setTargetSurface(
+    handles: Indices | number,
+    points: Numbers,
+    faces: Indices,
+    options?: { corners?: number | Indices },
+  ): void;
+  /** of a target set the point nearest to the handle */
   target(handle: number): Float64Array;
   /**
    * moves targets by a matrix of 3 x 4 or 4 x 4: by default the matrix is applied to the present

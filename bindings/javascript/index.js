@@ -10,7 +10,6 @@ export class ArapError extends Error {
   }
 }
 
-const measures = ['edge_length_error', 'size_change', 'angle_change', 'spike'];
 const ends = ['unknown', 'minimum', 'flat', 'undecided'];
 
 async function machineCode() {
@@ -90,6 +89,33 @@ function rowsOf(array, columns, what) {
   if (array.length % columns !== 0)
     throw new RangeError(`${what}: ${array.length} numbers are no rows of ${columns}`);
   return array.length / columns;
+}
+
+// The corners of simplices as rows: those of polygons of different numbers of corners end with -1.
+function simplexRows(simplices, corners, what) {
+  const s = numbersOf(simplices, what, Int32Array);
+  const isCount = (k) => Number.isInteger(k) && k > 0;
+  if (typeof corners === 'number') {
+    if (!isCount(corners)) throw new TypeError('corners must be a positive integer');
+    return { rows: s, m: rowsOf(s, corners, what), k: corners };
+  }
+  const counts = numbersOf(corners, 'corners', Int32Array);
+  if (!counts.every(isCount)) throw new TypeError('corners must be positive integers');
+  const sum = counts.reduce((a, b) => a + b, 0),
+    m = counts.length,
+    k = counts.reduce((a, b) => Math.max(a, b), 3);
+  if (sum !== s.length)
+    throw new RangeError(`${what}: ${s.length} numbers, but ${sum} corners of ${m} faces`);
+  const rows = new Int32Array(m * k).fill(-1);
+  for (let i = 0, begin = 0; i < m; begin += counts[i++])
+    rows.set(s.subarray(begin, begin + counts[i]), i * k);
+  return { rows, m, k };
+}
+
+function vectorOf(values, what) {
+  const v = numbersOf(values, what, Float64Array);
+  if (v.length !== 3) throw new RangeError(`${what} has 3 coordinates, not ${v.length}`);
+  return v;
 }
 
 const forgotten = new FinalizationRegistry((free) => free());
@@ -210,15 +236,12 @@ export async function load({ wasmBinary } = {}) {
     ) {
       booleanOf(volume, 'volume');
       corners ??= volume ? 4 : 3;
-      const p = numbersOf(points, 'points', Float64Array),
-        s = numbersOf(simplices, 'simplices', Int32Array);
+      const p = numbersOf(points, 'points', Float64Array);
       const n = rowsOf(p, 3, 'points');
-      if (!(Number.isInteger(corners) && corners > 0))
-        throw new TypeError('corners must be a positive integer');
-      const m = rowsOf(s, corners, 'simplices');
+      const { rows, m, k } = simplexRows(simplices, corners, 'simplices');
       this.#pointer =
-        withCopies([p, s], (pp, sp) =>
-          withText([weights], (wp) => module._arap_create(pp, n, sp, m, corners, volume, wp)),
+        withCopies([p, rows], (pp, sp) =>
+          withText([weights], (wp) => module._arap_create(pp, n, sp, m, k, volume, wp)),
         ) || fail();
       this.numberOfVertices = n;
       this.numberOfSimplices = m;
@@ -326,10 +349,23 @@ export async function load({ wasmBinary } = {}) {
     }
 
     locate(point) {
-      const p = numbersOf(point, 'the point', Float64Array);
-      if (p.length !== 3) throw new RangeError(`a point has 3 coordinates, not ${p.length}`);
-      const [simplex, distance, ...coordinates] = this.#call('locate', ...p);
-      return simplex === undefined ? null : { simplex, distance, coordinates };
+      return this.locateAll(vectorOf(point, 'the point'))[0];
+    }
+    locateAll(points) {
+      const p = numbersOf(points, 'points', Float64Array);
+      const rows = rowsOf(p, 3, 'points');
+      const a = withCopies([p], (pointer) => this.#call('locate', pointer, rows));
+      const places = [];
+      for (let i = 0; places.length < rows; ) {
+        const size = a[i++];
+        if (!size) {
+          places.push(null);
+          continue;
+        }
+        const [simplex, distance, ...coordinates] = a.subarray(i, (i += 2 + size));
+        places.push({ simplex, distance, coordinates });
+      }
+      return places;
     }
     insertPoint(simplex, coordinates) {
       const s = indexOf(simplex, 'the simplex'),
@@ -342,6 +378,25 @@ export async function load({ wasmBinary } = {}) {
 
     setTargets(handles, targets) {
       this.#callWithRows('set_targets', 'handles', handles, 'targets', targets);
+    }
+    #setTargetSet(name, handles, point, direction, what) {
+      const set = Float64Array.of(...vectorOf(point, 'the point'), ...vectorOf(direction, what));
+      withCopies([set], (pointer) => this.#callWithIndices(name, 'handles', handles, pointer));
+    }
+    setTargetPlane(handles, point, normal) {
+      this.#setTargetSet('set_target_plane', handles, point, normal, 'the normal');
+    }
+    setTargetLine(handles, point, direction) {
+      this.#setTargetSet('set_target_line', handles, point, direction, 'the direction');
+    }
+    setTargetSurface(handles, points, faces, { corners = 3, ...rest } = {}) {
+      refuseUnknown(rest, 'setTargetSurface()');
+      const p = numbersOf(points, 'points', Float64Array);
+      const n = rowsOf(p, 3, 'points');
+      const { rows, m, k } = simplexRows(faces, corners, 'faces');
+      withCopies([p, rows], (pp, fp) =>
+        this.#callWithIndices('set_target_surface', 'handles', handles, pp, n, fp, m, k),
+      );
     }
     target(handle) {
       return this.#call('target', indexOf(handle, 'the handle'));
@@ -406,9 +461,8 @@ export async function load({ wasmBinary } = {}) {
     } = {}) {
       refuseUnknown(rest, 'advance()');
       const numbers = Object.entries({ timeStep, density, modulus, damping });
-      const a = numbersOf(acceleration, 'acceleration', Float64Array),
+      const a = vectorOf(acceleration, 'the acceleration'),
         f = numbersOf(forces, 'forces', Float64Array);
-      if (a.length !== 3) throw new RangeError('acceleration has 3 coordinates');
       const rows = rowsOf(f, 3, 'forces');
       return withCopies([a, f], (ap, fp) =>
         this.#run(visitor, (visits) =>
@@ -491,11 +545,7 @@ export async function load({ wasmBinary } = {}) {
       };
     }
     qualityAtVertices(measure) {
-      if (!measures.includes(measure))
-        throw new RangeError(
-          `the measure '${measure}' is not known; use one of ${measures.join(', ')}`,
-        );
-      return this.#call('quality_at_vertices', measures.indexOf(measure));
+      return withText([measure], (pointer) => this.#call('quality_at_vertices', pointer));
     }
   }
 

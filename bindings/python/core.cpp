@@ -95,11 +95,15 @@ py::dict result(const Quality& q)
                   "inverted_simplices"_a = q.inverted_simplices);
 }
 
-py::object result(const std::optional<bindings::Place>& place)
+py::list result(const std::vector<std::optional<bindings::Place>>& places)
 {
-  if(!place)
-    return py::none();
-  return py::make_tuple(place->simplex, result(place->coordinates), place->distance);
+  py::list list;
+  for(const auto& place : places)
+    if(place)
+      list.append(py::make_tuple(place->simplex, result(place->coordinates), place->distance));
+    else
+      list.append(py::none());
+  return list;
 }
 
 py::dict result(const Report& r)
@@ -347,6 +351,9 @@ PYBIND11_MODULE(_core, module)
     .def("locate", bound(&D::locate)).def("insert_point", bound(&D::insert_point))
     .def("point_position", bound_point(&D::point_position))
     .def("target", bound_point(&D::target)).def("set_targets", bound(&D::set_targets))
+    .def("set_target_plane", bound(&D::set_target_plane))
+    .def("set_target_line", bound(&D::set_target_line))
+    .def("set_target_surface", bound(&D::set_target_surface))
     .def("transform", bound(&D::transform))
     .def("weight", bound(&D::weight)).def("set_weight", bound(&D::set_weight))
     .def("set_rotation", bound(&D::set_rotation))
@@ -362,9 +369,5 @@ PYBIND11_MODULE(_core, module)
     .def("state", bound(&D::state)).def("restore", bound(&D::restore))
     .def("energy", bound(&D::energy)).def("rotations", bound(&D::rotations))
     .def("quality", bound(&D::quality))
-    .def("quality_at_vertices", [](Session& s, int measure) {
-      return result(s.at_work([&](const D& d) {
-        return d.quality_at_vertices(static_cast<Vertex_measure>(measure));
-      }));
-    });
+    .def("quality_at_vertices", bound(&D::quality_at_vertices));
 }

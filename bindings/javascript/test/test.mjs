@@ -172,7 +172,7 @@ refuses(
 refuses(() => session.setStiffness([1]), ArapError, /1 values/);
 refuses(() => session.transform([], [1, 2, 3]), RangeError, /rows of 4/);
 refuses(() => session.restore({}), TypeError, /state\(\)/);
-refuses(() => session.qualityAtVertices('beauty'), RangeError, /beauty/);
+refuses(() => session.qualityAtVertices('beauty'), ArapError, /'beauty'.* one of edge/, 'misuse');
 for (const iterations of [-1, NaN, 1.5, 2 ** 32])
   refuses(() => session.deform({ iterations }), ArapError, new RegExp(iterations));
 refuses(() => session.deform({ iterations: '1' }), TypeError, /iterations/);
@@ -207,7 +207,11 @@ refuses(() => session.option('colour'), ArapError, /colour/, 'invalid_option');
 refuses(() => arap.session(points, faces, { volume: 'no' }), TypeError, /volume/);
 refuses(() => arap.session(points, faces, { colour: 1 }), ArapError, /colour/, 'invalid_option');
 refuses(() => session.locate([0, 0]), RangeError, /3 coordinates, not 2/);
+refuses(() => session.locateAll([0, 0]), RangeError, /rows of 3/);
 refuses(() => arap.session([1, 2], faces), RangeError, /rows of 3/);
+refuses(() => arap.session(points, faces, { corners: [3, 2] }), RangeError, /5 corners of 2 faces/);
+refuses(() => arap.session(points, faces, { corners: [3, 0] }), TypeError, /positive/);
+refuses(() => arap.session(points, faces, { corners: '3' }), TypeError, /corners must be/);
 refuses(() => arap.session(new BigInt64Array(3), faces), TypeError, /bigint/);
 refuses(() => arap.session(points, faces, { corners: 2 }), ArapError, /three corners/);
 refuses(() => arap.session(points, faces, { weights: 'none' }), ArapError, /weights 'none'/);
@@ -312,6 +316,51 @@ session.setOption('cells', 'spokes');
 session.preprocess();
 assert.equal(session.deform().stages.factor, true);
 assert.equal(session.deform().stages.factor, false);
+
+// faces of different numbers of corners
+{
+  const kite = [...points, 0.5, 1.5, 0],
+    mixed = arap.session(kite, [0, 1, 2, 3, 3, 2, 4], { corners: [4, 3] });
+  assert.equal(mixed.numberOfSimplices, 2);
+  const places = mixed.locateAll([0.5, 1.25, 2, 0.5, 0.25, -1, NaN, 0, 0]);
+  assert.deepEqual(
+    places.map((place) => place && [place.simplex, place.coordinates.length, place.distance]),
+    [[1, 3, 2], [0, 4, 1], null],
+  );
+  assert.deepEqual(mixed.locate([0.5, 0.25, -1]), places[1]);
+  // soft handles that glide: on a plane, a line and a surface
+  const all = [0, 1, 2, 3, 4];
+  mixed.insertHandles(all);
+  refuses(
+    () => mixed.setTargetPlane(all, [0, 0, 1], [0, 0, 1]),
+    ArapError,
+    /handle 0 has a hard/,
+    'invalid_weight',
+  );
+  mixed.setWeight(all, 1);
+  const heights = () => [...mixed.points()].filter((_, i) => i % 3 === 2);
+  const near = (a, b) => assert(Math.abs(a - b) < 1e-3, `${a} is not ${b}`);
+  mixed.setTargetPlane(all, [5, 5, 1], [0, 0, -3]);
+  mixed.deform({ tolerance: 1e-9 });
+  heights().forEach((z) => near(z, 1));
+  mixed.setTargetSurface(all, [-9, -9, 2, 9, -9, 2, 9, 9, 2, -9, 9, 2], [0, 1, 2, 3], {
+    corners: 4,
+  });
+  mixed.deform({ tolerance: 1e-9 });
+  heights().forEach((z) => near(z, 2));
+  mixed.setTargetLine(0, [7, 3, 4], [2, 0, 0]);
+  assert.deepEqual([...mixed.target(0)].slice(1), [3, 4]);
+  for (const normal of [
+    [0, 0, 0],
+    [NaN, 0, 0],
+  ])
+    refuses(() => mixed.setTargetPlane(all, [0, 0, 0], normal), ArapError, /the normal must/);
+  refuses(() => mixed.setTargetLine(all, [0, 0], [0, 0, 1]), RangeError, /the point has 3/);
+  refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 7]), ArapError, /vertex 7/);
+  refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 0]), ArapError, /no face with an area/);
+  refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 2], { c: 1 }), TypeError, /'c'/);
+  mixed.dispose();
+}
 
 // undo
 const before = session.points(),

@@ -11,6 +11,8 @@ const momentum: number[] = session.advance({ damping: 1 }).momentum;
 session.setOptions({ cells: 'k_ring:2', bending_length: 0.1, verify_minimum: false });
 session.setOption('coarse_metric', true);
 session.transform([0], [], { fromRest: true });
+session.setTargetSurface(0, [], [], { corners: [3, 4] });
+const simplices: (number | undefined)[] = session.locateAll([]).map((place) => place?.simplex);
 const report: Report = session.deform({
   iterations: 3,
   tolerance: 0,
@@ -29,4 +31,4 @@ session.setOption('cells', 5);
 session.restore(session);
 // @ts-expect-error indices are numbers
 session.insertHandles('all');
-export { status, end, points, length, momentum, ArapError };
+export { status, end, simplices, points, length, momentum, ArapError };

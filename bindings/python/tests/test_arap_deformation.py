@@ -320,6 +320,66 @@ def test_region_weights_points_and_frames():
     assert np.abs(d.vertices - moved(TURN, d.rest_vertices)).max() < 1e-6
 
 
+def test_polygons_of_different_numbers_of_corners():
+    vertices, faces = SHAPES["quads"]
+    mixed = [list(f) for f in faces[40:]]
+    for f in faces[:40]:
+        mixed += [f[[0, 1, 2]].tolist(), f[[0, 2, 3]].tolist()]
+    rows = np.full((len(mixed), 5), -1)
+    for row, face in zip(rows, mixed):
+        row[:len(face)] = face
+    fixed, moving = ends(vertices)
+    targets = vertices[moving] + [3, 2, -1]
+    results = [arap.deform(vertices, m, fixed, (moving, targets)) for m in (mixed, rows)]
+    assert np.array_equal(*results)
+    assert not np.array_equal(results[0], arap.deform(vertices, faces, fixed, (moving, targets)))
+    d = arap.Deformation(vertices, mixed, cells="elements")
+    points = [vertices[f].mean(axis=0) for f in mixed]
+    places = d.locate_all([*points, np.full(3, np.nan)])
+    assert places.pop() is None and d.locate_all([]) == []
+    for point, place in zip(points, places):
+        assert len(place.coordinates) == len(mixed[place.simplex])
+        assert place.coordinates @ vertices[mixed[place.simplex]] == pytest.approx(point)
+    assert (d.rotations() == np.eye(3)).all() and len(d.rotations()) == len(mixed)
+    with pytest.raises(IndexError, match="-1 before other corners"):
+        arap.Deformation(vertices, [[0, -1, 2]])
+    with pytest.raises(IndexError, match="number -1"):
+        arap.Deformation(vertices, [[0, 1, 2, -1]], tetrahedra=True)
+
+
+def test_targets_that_are_sets():
+    vertices, faces = SHAPES["bar"]
+    d = arap.Deformation(vertices, faces)
+    every = np.arange(len(vertices))
+    d.insert_handles(every)
+    d.set_weight(every, 1)
+    surface = moved(motion((1, 2, 3), 4, (5, 1, 1), (0.2, -0.1, 0.1)), vertices)
+    d.set_target_surface(every, surface, faces.tolist())
+    for _ in range(20):  # as a registration: a surface has corners, where targets jump
+        report = d.deform(tolerance=1e-6)
+    other = arap.Deformation(surface, faces)
+    distances = [place.distance for place in other.locate_all(d.vertices)]
+    assert max(distances) < 1e-3 and report.energy[-1] < 1e-5
+    assert np.abs(d.vertices - surface).max() < 1e-2
+    state = d.state()
+
+    d = arap.Deformation(vertices, faces)
+    fixed, moving = ends(vertices)
+    d.insert_handles(fixed)
+    d.insert_handles(moving)
+    d.set_weight(moving, 1e4)
+    d.set_target_plane(moving, [0, 0, 5], [0, -1, 2])
+    d.deform()
+    assert np.abs((d.vertices[moving] - [0, 0, 5]) @ [0, -1, 2]).max() < 1e-2
+    d.set_target_line(moving, [0, 4, 4], [3, 0, 0])
+    d.deform()
+    assert np.abs(d.vertices[moving, 1:] - 4).max() < 0.05
+    assert d.target(moving[0]) == pytest.approx([d.vertices[moving[0], 0], 4, 4])
+    d.set_weight(moving[1:], 3)
+    with pytest.raises(arap.DeformationError, match="of another object"):
+        d.restore(state)
+
+
 def test_frames_at_all_vertices():
     d = arap.Deformation([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], smoothing_length=1)
     d.insert_handles([0, 1, 2])
@@ -539,8 +599,8 @@ BAD_SHAPES = [
     ((V, F.astype(float)), ValueError, "simplices must be integers, not float64"),
     ((V, F > 3), ValueError, "integers, not bool"),
     ((V, F[:, :2]), ValueError, "three corners, not 2"),
-    ((V, F.ravel()), ValueError, "shape"), ((V, -F), IndexError, "-.*not from 0"),
-    ((V, MANY), IndexError, "2147483648, which is not from 0"),
+    ((V, F.ravel()), ValueError, "shape"), ((V, -F), IndexError, "-.*not from -1"),
+    ((V, MANY), IndexError, "2147483648, which is not from -1"),
     ((V, [[0, 1, 2**70]]), ValueError, "object"),
 ]
 
@@ -587,6 +647,13 @@ CALLS = [
     (lambda d: d.set_rotation([0], np.ones(9)), ValueError, "shape"),
     (lambda d: d.set_rotation([70]), ValueError, "vertex 70 is not a control vertex"),
     (lambda d: d.locate([0, 0]), ValueError, "shape"),
+    (lambda d: d.locate_all([0, 0, 0]), ValueError, "shape"),
+    (lambda d: d.set_target_plane(0, [0, 0, 0], [0, 0, 1]), arap.DeformationError, "handle 0 has a"),
+    (lambda d: d.set_target_plane([], [0, 0, 0], [0, 0, 0]), ValueError, "the normal must be"),
+    (lambda d: d.set_target_line([], [0, 0, np.nan], [1, 0, 0]), ValueError, "the point must have"),
+    (lambda d: d.set_target_line([], [0, 0], [1, 0, 0]), ValueError, "point must have the shape"),
+    (lambda d: d.set_target_surface([], V, [[0, 1, len(V)]]), IndexError, "face 0 of the surface"),
+    (lambda d: d.set_target_surface([], V, [[0, 1, 0]]), ValueError, "no face with an area"),
     (lambda d: d.insert_point(10**6, [1, 0, 0]), IndexError, "no simplex 1000000"),
     (lambda d: d.insert_point(-1, [1, 0, 0]), IndexError, "number -1"),
     (lambda d: d.insert_point(0, [1, 1, 1]), arap.DeformationError, "coordinates"),

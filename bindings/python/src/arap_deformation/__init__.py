@@ -2,13 +2,14 @@
 
 ``deform()`` is one call; ``Deformation`` is a session, for dragging, undo and time steps. n
 vertices have coordinates of any unit of length, as an array of shape (n, 3); m faces or tetrahedra
-have k corners, as an array of indices of shape (m, k). Arguments may be any arrays of numbers, or
-lists; they are copied. Energies are those of the manual: with cotangent weights their unit is an
+have k corners, as an array of indices of shape (m, k); faces of fewer corners end with -1. Arguments
+may be any arrays of numbers, or lists; they are copied. Energies are those of the manual: with cotangent weights their unit is an
 area for surfaces and a volume for tetrahedra.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
@@ -136,10 +137,25 @@ def _indices(name: str, value: Any) -> NDArray[Any]:
     return _integers(name, [value] if np.ndim(value) == 0 else value, None)
 
 
+def _simplices(name: str, value: Any, corners: Optional[int] = None) -> NDArray[Any]:
+    """Indices of corners; those of polygons may be lists of any lengths, or rows that end with -1."""
+    if isinstance(value, (list, tuple)) and all(hasattr(row, "__len__") for row in value):
+        if len({len(row) for row in value}) > 1:
+            value = list(zip(*itertools.zip_longest(*value, fillvalue=-1)))
+    array = _integers(name, value, None, corners, least=0 if corners else -1)
+    if ((array[:, :-1] == -1) & (array[:, 1:] != -1)).any():
+        raise IndexError(f"{name} has the number -1 before other corners")
+    return array
+
+
 def _pair(what: str, indices: Any, name: str, points: Any) -> Tuple[NDArray[Any], Floats]:
     """Indices with (k, 3) numbers, or one index with (3,)."""
     rows = [points] if np.ndim(indices) == 0 and np.ndim(points) == 1 else points
     return _indices(what, indices), _floats(name, rows, None, 3)
+
+
+def _two(name: str, point: ArrayLike, other_name: str, other: ArrayLike) -> Floats:
+    return np.stack([_floats(name, point, 3), _floats(other_name, other, 3)])
 
 
 def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
@@ -186,11 +202,11 @@ class Deformation:
 
     def __init__(self, vertices: ArrayLike, simplices: ArrayLike, *, tetrahedra: bool = False,
                  weights: str = "safe_cotangent", **options: Any) -> None:
-        """vertices: (n, 3), the rest shape; simplices: (m, k) faces of k corners, or (m, 4)
-        tetrahedra; weights: 'safe_cotangent', 'cotangent', 'clamped_cotangent' or 'uniform';
+        """vertices: (n, 3), the rest shape; simplices: (m, k) faces of k corners, a list of faces of
+        any numbers of corners, or (m, 4) tetrahedra; weights: 'safe_cotangent', 'cotangent', 'clamped_cotangent' or 'uniform';
         options: the properties of those names."""
         self._session = _Session(_floats("vertices", vertices, None, 3),
-                                 _integers("simplices", simplices, None, 4 if tetrahedra else None),
+                                 _simplices("simplices", simplices, 4 if tetrahedra else None),
                                  bool(tetrahedra), str(weights))
         self._session.set_options({name: _text(value) for name, value in options.items()})
 
@@ -243,10 +259,14 @@ class Deformation:
     def locate(self, point: ArrayLike) -> Optional[Place]:
         """The place in a simplex that is nearest to a point (3,) where the shape is now. For a point
         outside of all tetrahedra the coordinates are those of the point itself: some are negative.
-        None if there is no simplex, or if the point is not finite. Each call builds a search
-        tree."""
-        found = self._session.locate(_floats("point", point, 3))
-        return None if found is None else Place(*found)
+        None if there is no simplex, or if the point is not finite. Each call builds a search tree:
+        for more than one point use ``locate_all()``."""
+        return self.locate_all([_floats("point", point, 3)])[0]
+
+    def locate_all(self, points: ArrayLike) -> List[Optional[Place]]:
+        """The place of each point (k, 3), see ``locate()``, by one search tree."""
+        places = self._session.locate(_floats("points", points, None, 3))
+        return [None if place is None else Place(*place) for place in places]
 
     def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
         """The handle of a new control point with barycentric coordinates (k,) in a simplex.
@@ -259,7 +279,7 @@ class Deformation:
         return self._session.point_position(int(_integers("handle", handle)))
 
     def target(self, handle: int) -> Floats:
-        """(3,): the target of a handle."""
+        """(3,): the target of a handle, or of a target set the point nearest to the handle."""
         return self._session.target(int(_integers("handle", handle)))
 
     def set_targets(self, handles: Union[ArrayLike, Targets],
@@ -267,6 +287,24 @@ class Deformation:
         """Sets the targets (k, 3) of k handles, the target (3,) of one handle, or all of a dict of
         points by handles."""
         self._session.set_targets(*_targets(handles if points is None else (handles, points)))
+
+    def set_target_plane(self, handles: ArrayLike, point: ArrayLike, normal: ArrayLike) -> None:
+        """Pulls handles, whose weights are finite, toward a plane, along which they can glide. It is
+        their target until they get another one."""
+        self._session.set_target_plane(_indices("handles", handles),
+                                       _two("point", point, "normal", normal))
+
+    def set_target_line(self, handles: ArrayLike, point: ArrayLike, direction: ArrayLike) -> None:
+        """The same, toward a line."""
+        self._session.set_target_line(_indices("handles", handles),
+                                      _two("point", point, "direction", direction))
+
+    def set_target_surface(self, handles: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> None:
+        """The same, toward the nearest points of a surface with vertices (k, 3) and faces of any
+        numbers of corners, as a registration does. Each energy takes a search for each handle."""
+        self._session.set_target_surface(_indices("handles", handles),
+                                         _floats("vertices", vertices, None, 3),
+                                         _simplices("faces", faces))
 
     def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
         """Applies a (4, 4) or (3, 4) matrix to the targets of handles, or to their rest shape."""
@@ -376,10 +414,7 @@ class Deformation:
 
     def quality_at_vertices(self, name: str) -> Floats:
         """(n,): 'edge_length_error', 'size_change', 'angle_change' in degrees, or 'spike'."""
-        names = ("edge_length_error", "size_change", "angle_change", "spike")
-        if name not in names:
-            raise ValueError(f"quality '{name}' is not known; use one of {', '.join(names)}")
-        return self._session.quality_at_vertices(names.index(name))
+        return self._session.quality_at_vertices(str(name))
 
 
 def deform(vertices: ArrayLike, simplices: ArrayLike, fixed: ArrayLike, targets: Targets, *,
