@@ -251,6 +251,12 @@ Scenario scenario(const Shape& shape, double angle)
   return result;
 }
 
+Scenario in_whole(Scenario s)
+{
+  std::replace(s.selection.begin(), s.selection.end(), 0, 2);
+  return s;
+}
+
 bool same_points(const Mesh& a, const Mesh& b)
 {
   for(auto v : a.vertices())

@@ -226,30 +226,9 @@ void compare(const Held_shape<Dimension>& shape, Cell_scheme cells, Dense_refere
       });
   }
 
-  const unsigned int iterations = 6;
   std::vector<Eigen::Vector3d> x = shape.scenario.targets;
   reference.start(x);
-  std::vector<double> energies = {reference.energy(x)};
-  std::vector<std::vector<Eigen::Vector3d>> all = {x};
-  for(unsigned int k = 0; k < iterations; ++k)
-  {
-    reference.iterate(x);
-    energies.push_back(reference.energy(x));
-    all.push_back(x);
-  }
-  const std::vector<Point> points = s.points;
-  const Report report = d.deform(iterations, 0, [&](const auto& iterate) {
-    std::vector<Point> copy = points;
-    iterate.put_points(boost::make_iterator_property_map(
-      copy.begin(), boost::typed_identity_property_map<std::size_t>()));
-    CHECK_AT_MOST(largest_distance(copy, all[iterate.iteration()]), 1e-10 * shape.diameter());
-    return CGAL::ARAP::Visitor_action::proceed;
-  });
-  CHECK(report.status == Status::iteration_limit);
-  if(!CHECK(report.energy.size() == energies.size()))
-    return;
-  for(std::size_t k = 0; k < energies.size(); ++k)
-    CHECK_AT_MOST(std::abs(report.energy[k] - energies[k]), 1e-10 * energies[k]);
+  compare_iterates(d, s.points, reference, x, 6, shape.diameter());
   CHECK_AT_MOST(s.miss(), 1e-13 * shape.diameter());
 }
 

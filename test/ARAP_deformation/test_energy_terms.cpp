@@ -154,28 +154,7 @@ void compare(const Model& model, const Scenario& s, Cell_scheme cells,
   if(has_rows)
     add_rows(model, s, deformation, reference);
   apply(deformation, cells, terms);
-  std::vector<Eigen::Vector3d> x = s.targets;
-  std::vector<double> energies = {reference.energy(x)};
-  std::vector<std::vector<Eigen::Vector3d>> iterates = {x};
-  for(unsigned int k = 0; k < 6; ++k)
-  {
-    reference.iterate(x);
-    energies.push_back(reference.energy(x));
-    iterates.push_back(x);
-  }
-  const Report report = deformation.deform(6, 0, [&](const auto& iterate) {
-    std::vector<Point> copy = points;
-    iterate.put_points(boost::make_iterator_property_map(
-      copy.begin(), boost::typed_identity_property_map<std::size_t>()));
-    CHECK_AT_MOST(largest_distance(copy, iterates[iterate.iteration()]),
-                  1e-10 * diameter_of(model.points));
-    return CGAL::ARAP::Visitor_action::proceed;
-  });
-  if(!CHECK(report.energy.size() == energies.size()))
-    return;
-  for(std::size_t k = 0; k < energies.size(); ++k)
-    CHECK_AT_MOST(std::abs(report.energy[k] - energies[k]),
-                  1e-10 * std::abs(energies[k]) + 1e-14 * report.energy_scale);
+  compare_iterates(deformation, points, reference, s.targets, 6, diameter_of(model.points));
 }
 
 struct Case
@@ -267,10 +246,6 @@ void compare_all(const Model& model)
 {
   const double diameter = diameter_of(model.points);
   const Scenario part = scenario(Shape{"", model.points, {}}, 0.6);
-  Scenario whole = part; // all but the handles: the region is the whole shape
-  for(int& status : whole.selection)
-    if(status == 0)
-      status = 2;
   Scenario patch = part; // groups, and what has smooth rotations, are cut where it ends
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for(const Eigen::Vector3d& p : model.points)
@@ -283,7 +258,7 @@ void compare_all(const Model& model)
     }
   static Every_nth is_run(7);
   for(const auto& [s, is_patch] :
-      {std::pair(part, false), std::pair(patch, true), std::pair(whole, false)})
+      {std::pair(part, false), std::pair(patch, true), std::pair(in_whole(part), false)})
     for(const Case& c : cases(model, s, diameter))
       for(Dense_reference::Cells cells :
           {Dense_reference::SPOKES, Dense_reference::SPOKES_AND_RIMS, Dense_reference::ELEMENTS})
@@ -350,11 +325,7 @@ struct Run
 
 Scenario whole_scenario(const Model& model)
 {
-  Scenario s = scenario(Shape{"", model.points, {}}, 0.8);
-  for(int& status : s.selection)
-    if(status == 0)
-      status = 2;
-  return s;
+  return in_whole(scenario(Shape{"", model.points, {}}, 0.8));
 }
 
 // with cells at vertices, of all kinds of terms

@@ -730,10 +730,7 @@ void test_all()
   const Shape shape = grid("sheet", 10, 5, [](double u, double v) {
     return Eigen::Vector3d(2 * u, v, 0.2 * u * u);
   });
-  Scenario s = scenario(shape);
-  for(int& status : s.selection) // a function call constrains all that does not move
-    if(status == 0)
-      status = 2;
+  const Scenario s = in_whole(scenario(shape)); // a function call constrains all that does not move
   const Mesh rest = make_mesh<Mesh>(shape);
   std::map<Vertex, bool> is_constrained;
   std::map<Vertex, Point> targets;

@@ -16,8 +16,18 @@
 // cell spelled out from the definition, nothing shared with the package. Slow, for small shapes.
 // It takes long to compile, and so is linked with the tests that need it.
 
+#include "check.h"
+#include "shapes.h"
+
+#include <CGAL/ARAP_deformation/Default_visitor.h>
+#include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/Status.h>
+
+#include <boost/property_map/property_map.hpp>
+
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -174,5 +184,35 @@ private:
   bool m_is_element = false;
   std::vector<Row> m_soft_rows, m_hard_rows;
 };
+
+// Runs local/global from x, and compares each iterate and its energy with those of the reference.
+template <typename Deformation>
+void compare_iterates(Deformation& deformation, const std::vector<Point>& points,
+                      Dense_reference& reference, std::vector<Eigen::Vector3d> x,
+                      unsigned int iterations, double diameter)
+{
+  std::vector<double> energies = {reference.energy(x)};
+  std::vector<std::vector<Eigen::Vector3d>> iterates = {x};
+  for(unsigned int k = 0; k < iterations; ++k)
+  {
+    reference.iterate(x);
+    energies.push_back(reference.energy(x));
+    iterates.push_back(x);
+  }
+  const std::vector<Point> before = points; // they are written at the end
+  const CGAL::ARAP::Report report = deformation.deform(iterations, 0, [&](const auto& iterate) {
+    std::vector<Point> copy = before;
+    iterate.put_points(boost::make_iterator_property_map(
+      copy.begin(), boost::typed_identity_property_map<std::size_t>()));
+    CHECK_AT_MOST(largest_distance(copy, iterates[iterate.iteration()]), 1e-10 * diameter);
+    return CGAL::ARAP::Visitor_action::proceed;
+  });
+  CHECK(report.status == CGAL::ARAP::Status::iteration_limit);
+  if(!CHECK(report.energy.size() == energies.size()))
+    return;
+  for(std::size_t k = 0; k < energies.size(); ++k)
+    CHECK_AT_MOST(std::abs(report.energy[k] - energies[k]),
+                  1e-10 * std::abs(energies[k]) + 1e-14 * report.energy_scale);
+}
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_DENSE_REFERENCE_H

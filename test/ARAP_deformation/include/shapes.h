@@ -140,6 +140,9 @@ Affine_map motion_about(const Eigen::Vector3d& center, const Affine_map& motion)
 
 Scenario scenario(const Shape& shape, double angle = 0.9);
 
+// with all fixed vertices as handles, so that the region is the whole shape
+Scenario in_whole(Scenario s);
+
 // the point of a class with a domain, and of one without
 template <typename Deformation>
 auto point_of(const Eigen::Vector3d& p, int)
