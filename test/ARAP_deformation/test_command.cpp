@@ -157,7 +157,10 @@ void test_success()
   CHECK(CGAL::IO::read_polygon_mesh((folder / "out.off").string(), result));
   CHECK(result.number_of_faces() == mesh.number_of_faces());
   for(auto v : mesh.vertices())
-    CHECK(result.point(v) == mesh.point(v)); // written to the last digit
+    if(status(shape.points[v]) == 1) // another program, and other roundings
+      CHECK_AT_MOST(distance(vector(result.point(v)), vector(mesh.point(v))), 1e-13);
+    else
+      CHECK(result.point(v) == mesh.point(v)); // written to the last digit
 
   const auto json = nlohmann::json::parse(content(folder / "r.json"));
   CHECK(json["status"] == "iteration_limit");
@@ -166,8 +169,12 @@ void test_success()
   CHECK(json["simplices"] == mesh.number_of_faces());
   CHECK(json["free_vertices"] == report.free_vertices);
   CHECK(json["iterations"] == 30);
-  CHECK(json["energy"].get<std::vector<double>>() == report.energy);
-  CHECK(json["estimated_relative_gap"] == report.estimated_relative_gap);
+  const auto energy = json["energy"].get<std::vector<double>>();
+  if(CHECK(energy.size() == report.energy.size()))
+    for(std::size_t k = 0; k < energy.size(); ++k)
+      CHECK_AT_MOST(std::abs(energy[k] / report.energy[k] - 1), 1e-12);
+  CHECK_AT_MOST(std::abs(json["estimated_relative_gap"].get<double>() /
+                         report.estimated_relative_gap - 1), 1e-6);
   CHECK(json["end"] == "unknown" && json["saddles_left"] == 0 && json["plateaus_left"] == 0);
   CHECK_AT_MOST(std::abs(json["edge_length_error"].get<double>() -
                          CGAL::ARAP::quality(mesh, rest.points()).edge_length_error),

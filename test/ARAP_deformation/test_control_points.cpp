@@ -1180,14 +1180,17 @@ void test_polygons()
     {{0, 0}, {2, 1}, {4, 0}, {2, 4}},                                 // an arrow head
     {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},                 // an L
     {{0, 0}, {5, 0}, {5, 3}, {4, 1}, {3, 3}, {2, 1}, {1, 3}, {0, 3}}, // a comb
-    {{0, 0}, {2, 0}, {4, 0}, {4, 4}, {1, 4}, {1, 2}, {2, 2}, {2, 3}, {3, 3}, {3, 1}, {0, 1}}};
+    {{0, 0}, {2, 0}, {4, 0}, {4, 4}, {1, 4}, {1, 2}, {2, 2}, {2, 3}, {3, 3}, {3, 1}, {0, 1}},
+    // with a corner on the diagonal of an ear
+    {{0, 0}, {2, 0}, {2, 2}, {1.5, 4}, {1, 1}, {0.75, 4}, {0.5, 2.5}, {0.25, 4}}};
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 6);
-  const Eigen::Matrix3d turn(
+  const Eigen::Matrix3d turned(
     Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix());
   for(const std::vector<Eigen::Vector2d>& polygon : polygons)
     for(std::size_t first = 0; first < 2 * polygon.size(); ++first)
     {
+      const Eigen::Matrix3d turn = first % 3 == 0 ? Eigen::Matrix3d::Identity() : turned;
       const std::size_t n = polygon.size();
       test_case() = "locate, polygon of " + std::to_string(n) + ", from " + std::to_string(first);
       std::vector<Eigen::Vector2d> corners(n);

@@ -963,6 +963,28 @@ void test_other_regions(const Model& model)
     CHECK_AT_MOST(report.energy[0], 1.01 * energy);
   }
 
+  // points that the program writes back, without the rotations that belong to them
+  for(Cell_scheme cells : all_cell_schemes)
+  {
+    test_case() = model.name + ", smooth rotations of other points";
+    Terms terms;
+    terms.smoothing_length = 0.1 * diameter_of(model.points);
+    Run<Dimension> run(model, s, cells, terms, Minimizer::quasi_newton);
+    auto& d = run.deformation;
+    const double energy = d.deform(2000, 1e-12).final_energy();
+    const std::vector<Point> points = run.points;
+    for(const bool is_other : {true, false})
+    {
+      for(const std::size_t v : d.control_vertices())
+        d.set_target_position(v, is_other ? point(turn(2.5, {1, 2, 3}) * s.targets[v] * 1.5)
+                                          : point(s.targets[v]));
+      if(is_other)
+        CHECK(d.deform(2000, 1e-6));
+    }
+    run.points = points;
+    CHECK_AT_MOST(d.deform(0, 0).energy[0], 1.01 * energy);
+  }
+
   // smoothed from now on, in the region that there is and in a new one
   for(Cell_scheme cells : all_cell_schemes)
   {

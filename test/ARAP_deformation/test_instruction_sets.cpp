@@ -15,8 +15,17 @@
 #include "include/check.h"
 #include "include/instruction_set.h"
 
+#include <CGAL/ARAP_deformation/internal/Array.h>
+
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
+
+// Vectors of C++23 would call allocate_at_least() of the base, without the spare element.
+static_assert(!std::is_base_of_v<
+              std::allocator<CGAL::ARAP::Coordinates>,
+              CGAL::ARAP::internal::Spare_allocator<CGAL::ARAP::Coordinates>>);
 
 void compare(const Findings& a, const Findings& b)
 {

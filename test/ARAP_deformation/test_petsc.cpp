@@ -73,7 +73,10 @@ void test_solvers(const Petsc_environment& petsc)
          std::pair(std::numeric_limits<double>::infinity(), 0.5)})
     {
       const Sparse_matrix wrong = two_by_two(diagonal, off_diagonal), good = two_by_two(1, 0.5);
-      CHECK(!(solver.factorize(wrong) && solves(solver, wrong)));
+      Coordinates x[2] = {{1, 2, 3}, {4, 5, 6}};
+      const bool is_solved = solver.factorize(wrong) && solver.solve(2, x);
+      // in two steps conjugate gradients may solve what is not positive definite
+      CHECK(!is_solved || (method != Petsc_method::cholesky && solves(solver, wrong)));
       CHECK(solver.factorize(good) && solves(solver, good)); // a failure is not the end
     }
     // several, in any order of their lives

@@ -54,6 +54,12 @@ export function placeOf({ simplex, coordinates }, points) {
 
 export const isThere = (handle) => handle.size > 0 || !!handle.point;
 
+// the number of the first handle that is not there
+export const nextHandle = () =>
+  Array.from({ length: 99 }, (_, k) => k).find(
+    (k) => !page.shape.handles[k] || !isThere(page.shape.handles[k]),
+  );
+
 // after painting: which handles there are, and where they turn about
 export function recountHandles(fits) {
   const { shape } = page;
@@ -97,7 +103,7 @@ export function handlesMoved() {
 
 export function choose(k) {
   page.chosen = k;
-  if (k >= 0) page.paints = k + HANDLE;
+  if (k >= 0 && !page.shape.handles[k].point) page.paints = k + HANDLE;
   placeGizmo();
   changed();
 }

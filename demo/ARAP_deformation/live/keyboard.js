@@ -11,7 +11,7 @@ import { commitNow, redo, undo } from './undo.js';
 
 addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  if (!page.shape || event.altKey || event.target.closest?.('input[type=text], select')) return;
+  if (!page.shape || page.dragging || event.altKey || event.target.closest?.('input[type=text], select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
   if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();
   const found = Object.keys(tools).find((id) => tools[id][2] === key);

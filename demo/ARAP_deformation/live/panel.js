@@ -10,7 +10,7 @@ import {
 } from './actions.js';
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
-import { choose, handlesMoved, isThere } from './handles.js';
+import { choose, handlesMoved, isThere, nextHandle } from './handles.js';
 import { closeHelp, say } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
@@ -63,9 +63,7 @@ function showPanel() {
     return b;
   };
   const areas = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
-  const next = Array.from({ length: 99 }, (_, k) => k).find(
-    (k) => !shape.handles[k] || !isThere(shape.handles[k]),
-  );
+  const next = nextHandle();
   $('regions').replaceChildren(
     region(FREE, 'Free'),
     region(FIXED, 'Fixed'),

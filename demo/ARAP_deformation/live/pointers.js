@@ -1,7 +1,7 @@
 // Mouse, pen and fingers in the view.
 import { HANDLE } from './colors.js';
 import { placeGizmo } from './drawing.js';
-import { choose, handlesMoved } from './handles.js';
+import { choose, handlesMoved, nextHandle } from './handles.js';
 import { closeHelp } from './messages.js';
 import { matrixOf, rigidParts } from './motion.js';
 import {
@@ -32,6 +32,7 @@ function pressed(event) {
   if (pointers.size > 1) {
     // two fingers turn the view
     cancelStroke();
+    endDrag(true);
     return;
   }
   view.letTurn(true);
@@ -53,6 +54,7 @@ function pressed(event) {
   if (page.tool !== 'box' && page.tool !== 'lasso' && !screen.isOn(x, y)) return; // the view turns
   view.letTurn(false);
   if (page.tool === 'point') return void placePoint(x, y);
+  if (page.shape.handles[page.paints - HANDLE]?.point) page.paints = nextHandle() + HANDLE;
   page.stroke = {
     screen,
     before: page.shape.status.slice(),
@@ -99,6 +101,7 @@ function grab(event, x, y, k) {
   page.dragging = {
     id: event.pointerId,
     k,
+    before: page.shape.handles[k].matrix,
     hasMoved: false,
     to: (a, b) => {
       const p = hit(a, b);
@@ -109,6 +112,24 @@ function grab(event, x, y, k) {
       handlesMoved();
     },
   };
+}
+
+// The motion is a step that can be undone, unless it is cancelled.
+function endDrag(isCancelled = false) {
+  if (page.dragging?.gizmo) return view.gizmo.pointerUp(null);
+  if (!page.dragging) return;
+  const { k, before, hasMoved } = page.dragging;
+  page.dragging = null;
+  if (isCancelled && hasMoved) {
+    page.shape.handles[k].matrix = before;
+    handlesMoved();
+  }
+  placeGizmo();
+  if (hasMoved && !isCancelled) {
+    closeHelp();
+    commit();
+  }
+  page.isSettled = false;
 }
 
 function movedTo(event) {
@@ -124,18 +145,11 @@ function movedTo(event) {
 
 function released(event) {
   pointers.delete(event.pointerId);
-  if (page.dragging?.to && page.dragging.id === event.pointerId) {
-    const { hasMoved } = page.dragging;
-    page.dragging = null;
-    placeGizmo();
-    if (hasMoved) {
-      closeHelp();
-      commit();
-    }
-    page.isSettled = false;
-  }
+  const isCancelled = event.type === 'pointercancel';
+  if (page.dragging?.to ? page.dragging.id === event.pointerId : isCancelled)
+    endDrag(isCancelled);
   if (!page.stroke || page.stroke.id !== event.pointerId) return;
-  if (event.type === 'pointercancel') return cancelStroke();
+  if (isCancelled) return cancelStroke();
   if (page.stroke.path) paintArea();
   const { hasPainted } = page.stroke;
   page.stroke = null;
@@ -161,15 +175,17 @@ view.gizmo.addEventListener('objectChange', () => {
   if (page.chosen < 0) return;
   const handle = page.shape.handles[page.chosen];
   handle.matrix = matrixOf(handle.pivot, view.proxy.quaternion, view.proxy.position);
+  if (page.dragging) page.dragging.hasMoved = true;
   handlesMoved();
 });
 
 view.gizmo.addEventListener('dragging-changed', ({ value }) => {
+  const hasMoved = page.dragging?.hasMoved;
   view.orbit.enabled = !value;
-  page.dragging = value ? { gizmo: true } : null;
-  if (!value) {
-    closeHelp();
-    page.isSettled = false;
-    commit();
-  }
+  page.dragging = value ? { gizmo: true, hasMoved: false } : null;
+  if (value) return;
+  page.isSettled = false;
+  if (!hasMoved) return;
+  closeHelp();
+  commit();
 });

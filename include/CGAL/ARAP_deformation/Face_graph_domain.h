@@ -258,6 +258,20 @@ Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
   -> Face_graph_domain<PolygonMesh, VertexPointMap, VertexIndexMap, OutputPointMap>;
 #endif
 
+namespace internal {
+
+// A map that is passed may have gaps, which get_initialized_vertex_index_map() refuses in Debug.
+template <typename Graph, typename NamedParameters>
+auto index_map_of(const Graph& mesh, const NamedParameters& np)
+{
+  if constexpr(has_parameter<NamedParameters, internal_np::vertex_index_t>)
+    return parameters::get_parameter(np, internal_np::vertex_index);
+  else
+    return get_initialized_vertex_index_map(mesh, np);
+}
+
+} // namespace internal
+
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface, which may be `const`, whose deformed points are written
 /// to `output_point_map`. Only vertices in the region of interest are written: copy the other
@@ -283,7 +297,7 @@ auto make_face_graph_domain(PolygonMesh& mesh, OutputPointMap output_point_map,
     parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                  get_const_property_map(vertex_point, mesh));
   return Face_graph_domain(mesh, point_map,
-                           get_initialized_vertex_index_map(std::as_const(mesh), np),
+                           internal::index_map_of(std::as_const(mesh), np),
                            output_point_map);
 }
 
@@ -327,7 +341,7 @@ auto make_face_graph_domain(PolygonMesh& mesh,
       parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                    get_property_map(vertex_point, mesh));
     return Face_graph_domain(mesh, point_map,
-                             get_initialized_vertex_index_map(std::as_const(mesh), np));
+                             internal::index_map_of(std::as_const(mesh), np));
   }
   else // there is no second error
     return Face_graph_domain(const_cast<std::remove_const_t<PolygonMesh>&>(mesh));

@@ -301,6 +301,14 @@ const steps = {
     await page.click('#undo');
     await settled();
     assert(largestDifference(before, await positions()) < 1e-5, 'undo');
+    // a click on what turns and moves the handle is no step
+    await page.mouse.move(...(await state()).handles[0].screen);
+    await page.mouse.down();
+    assert(await page.evaluate(() => window.arap.view.gizmo.dragging));
+    await page.keyboard.press('b'); // is ignored meanwhile
+    await page.mouse.up();
+    await settled();
+    assert(await page.evaluate(() => window.arap.view.orbit.enabled));
     await page.keyboard.down('Control');
     await page.keyboard.press('y');
     await page.keyboard.up('Control');
@@ -793,6 +801,16 @@ const steps = {
       b.value = 26;
       b.dispatchEvent(new Event('input'));
     });
+    // what is painted when a point has been placed is another handle
+    await page.keyboard.press('p');
+    await page.mouse.click(...place);
+    await settled();
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    await page.mouse.click(place[0] - 100, place[1]);
+    now = await settled();
+    assert(now.handles[1].point);
+    assert(now.handles[2]?.vertices > 0, 'a handle beside the point');
   },
 
   async volume() {

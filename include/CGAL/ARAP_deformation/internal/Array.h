@@ -25,19 +25,21 @@ namespace ARAP {
 namespace internal {
 
 // Allocates one element more than is asked for, so that what begins at the last one can be loaded
-// into a SIMD vector.
+// into a SIMD vector. It does not inherit: vectors would call allocate_at_least() of a base.
 template <typename T>
-struct Spare_allocator : std::allocator<T>
+struct Spare_allocator
 {
-  template <typename Other>
-  struct rebind { using other = Spare_allocator<Other>; };
+  using value_type = T;
 
   Spare_allocator() = default;
   template <typename Other>
   Spare_allocator(const Spare_allocator<Other>&) {}
 
-  T* allocate(std::size_t n) { return std::allocator<T>::allocate(n + 1); }
-  void deallocate(T* p, std::size_t n) { std::allocator<T>::deallocate(p, n + 1); }
+  T* allocate(std::size_t n) { return std::allocator<T>().allocate(n + 1); }
+  void deallocate(T* p, std::size_t n) { std::allocator<T>().deallocate(p, n + 1); }
+
+  friend bool operator==(const Spare_allocator&, const Spare_allocator&) { return true; }
+  friend bool operator!=(const Spare_allocator&, const Spare_allocator&) { return false; }
 };
 
 template <typename T>

@@ -45,7 +45,8 @@ triangles_of_polygon(const Array<Coordinates>& points)
     left[k] = (static_cast<Index>(first) + k) % left.size();
   const auto is_ear = [&](Index a, Index b, Index c) {
     return area(a, b, c) > 0 && std::none_of(left.begin(), left.end(), [&](Index d) {
-      return area(a, b, d) > 0 && area(b, c, d) > 0 && area(c, a, d) > 0;
+      return points[d] != points[a] && points[d] != points[b] && points[d] != points[c] &&
+             area(a, b, d) >= 0 && area(b, c, d) >= 0 && area(c, a, d) >= 0;
     });
   };
   std::vector<std::array<Index, 3>> triangles;

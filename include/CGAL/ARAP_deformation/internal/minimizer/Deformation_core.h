@@ -116,6 +116,9 @@ public:
     m_are_rotations_complete = are_complete;
   }
 
+  // Positions have changed, to which these rotations do not belong.
+  void outdate_rotations() { m_are_rotations_complete = false; }
+
   // whether a run goes on from the rotations before
   bool are_rotations_state() const;
 

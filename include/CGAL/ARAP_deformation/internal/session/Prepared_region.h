@@ -77,6 +77,7 @@ public:
   void set_position(std::size_t k, const Coordinates& position)
   {
     set_position(k, position, m_prepared->positions);
+    core().outdate_rotations();
   }
 
   // the same in other positions of the vertices of the region

@@ -74,7 +74,9 @@ public:
       is_done = distribute(a) && (m_tolerance > 0 ? set_up_iteration() : set_up_factor());
       if(!(m_tolerance > 0))
         clear_matrix();
-      const bool is_workspace_too_small = mumps_error() == -8 || mumps_error() == -9;
+      const int error = mumps_error(); // -17 and -20: of what is sent and received
+      const bool is_workspace_too_small = error == -8 || error == -9 || error == -17 ||
+                                          error == -20;
       if(is_done || !is_workspace_too_small || m_workspace >= largest_workspace)
         break;
       m_workspace = (std::min)(2 * m_workspace, largest_workspace);
