@@ -222,8 +222,9 @@ export interface Session {
   clearHandles(): void;
   handles(): Int32Array;
 
-  /** the place nearest to a point where the shape is now; each call builds a search tree: for more
-   *  than one point use `locateAll()` */
+  /** The place nearest to a point where the shape is now. For a point outside of all tetrahedra the
+   *  coordinates are those of the point itself: some are negative. Each call builds a search tree:
+   *  for more than one point use `locateAll()`. */
   locate(point: Numbers): Place | null;
   /** the place of each of k x 3 points */
   locateAll(points: Numbers): (Place | null)[];
@@ -263,8 +264,9 @@ export interface Session {
   /** lets them be fitted again */
   eraseRotations(vertices: Indices | number): void;
 
-  /** a value for each vertex, or for each simplex if cells are elements; none clears them, as must
-   * be before cells become elements or are these no longer */
+  /** A value for each vertex, or for each simplex if cells are elements; without an argument 1. The
+   *  values belong to these cells: clear them before the option `cells` changes to elements, or
+   *  from these to others. */
   setStiffness(values?: Numbers): void;
   /** lets cells with the same number from 0 on share a rotation, as rigid parts do; those with a
    *  negative number have their own */
@@ -302,7 +304,8 @@ export interface Session {
 
 export interface Arap {
   session(points: Numbers, simplices: Indices, options?: Shape & Options): Session;
-  /** one deformation, without a session */
+  /** one deformation, without a session; vertices that stay are handles, too, with their own
+   *  positions as targets */
   deform(
     points: Numbers,
     simplices: Indices,

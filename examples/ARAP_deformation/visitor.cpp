@@ -17,7 +17,7 @@ using vertex_descriptor = boost::graph_traits<Mesh>::vertex_descriptor;
 
 int main()
 {
-  // a sheet, one end of which is lifted over the other
+  // a sheet, one end of which is lifted, and moved toward the other
   Mesh mesh;
   CGAL::make_grid(40, 20, mesh, [](std::size_t i, std::size_t j) {
     return Point(i / 20.0, j / 20.0, 0.02 * std::sin(double(i + j)));

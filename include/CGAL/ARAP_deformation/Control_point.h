@@ -35,8 +35,8 @@ template <typename Simplex>
 struct Location
 {
   Simplex simplex;                 ///< the face or tetrahedron.
-  std::vector<double> coordinates; ///< the barycentric coordinates.
-  double distance = 0;             ///< how far from there the point is that was located.
+  std::vector<double> coordinates; ///< the barycentric coordinates; see `Locator::locate()`.
+  double distance = 0;             ///< how far from the simplex the point is that was located.
 };
 
 /// \ingroup PkgARAPDeformationRef

@@ -76,7 +76,9 @@ using Vertex_point_map_or_default = typename Default::Get<
 /// the \f$k\f$ triangulations that are fans, in \f$O(k^2)\f$ time. All its corners are
 /// neighbors, which takes \f$O(k^2)\f$ memory and time per iteration: preprocessing refuses
 /// polygons with more than 2048 corners with `Status::too_many_corners`.
-/// The mesh must outlive the domain, and its connectivity must not change in the meantime.
+/// The mesh must outlive the domain, and its connectivity must not change in the meantime. Where
+/// several fans of faces meet in one vertex, separate them first
+/// (`CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices()`), or deform ranges.
 ///
 /// Without an index map, a linear pass over the mesh checks whether its internal one has the
 /// indices 0, 1, ... Where it has not, as ids of a `Polyhedron_3` with gaps, they are numbered

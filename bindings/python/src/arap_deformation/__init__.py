@@ -332,13 +332,13 @@ class Deformation:
         self._session.erase_rotations(_indices("vertices", vertices))
 
     def set_stiffness(self, values: ArrayLike) -> None:
-        """Sets how stiff cells are, not negative: (n,), or (m,) if cells are elements; []: 1. Clear
-        it before cells become elements, or are these no longer."""
+        """Sets how stiff cells are, not negative: (n,), or (m,) if cells are elements; []: 1.
+        Pass [] before ``cells`` changes to 'elements', or from these to others."""
         self._session.set_stiffness(_floats("stiffness", values, None))
 
     def set_groups(self, groups: ArrayLike) -> None:
-        """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none. Clear
-        them before cells become elements, or are these no longer."""
+        """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none.
+        Pass [] before ``cells`` changes to 'elements', or from these to others."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 
     def preprocess(self) -> str:
