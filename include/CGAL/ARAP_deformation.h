@@ -498,9 +498,10 @@ public:
   ///         `CGAL::Aff_transformation_3`, or an `ARAP::Matrix_3x3`
   ///
   /// The rotation is that from the rest shape; it counts for soft control vertices too. A simplex
-  /// with several frames gets the mean of their rotations, and so does a group (`set_groups()`). A
-  /// new rotation costs no preprocessing. It stays when the target changes, by `rotate()` for
-  /// example; `erase_target_rotation()`, `reset()` and `overwrite_initial_geometry()` erase it.
+  /// with several frames gets the mean of their rotations, and a group (`set_groups()`) the mean of
+  /// those that its cells have. A new rotation costs no preprocessing. It stays when the target
+  /// changes, by `rotate()` for example; `erase_target_rotation()`, `reset()` and
+  /// `overwrite_initial_geometry()` erase it.
   /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or
   /// turns points with two coordinates out of their plane. \pre `is_control_vertex(v)`
   template <typename Rotation>

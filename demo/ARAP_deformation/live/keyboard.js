@@ -11,11 +11,13 @@ import { commitNow, redo, undo } from './undo.js';
 
 addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  if (!page.shape || page.dragging || event.altKey || event.target.closest?.('input[type=text], select')) return;
+  if (!page.shape || page.dragging || event.altKey) return;
+  const isCommand = event.ctrlKey || event.metaKey; // menus take all other keys
+  if (event.target.closest?.(isCommand ? 'input[type=text]' : 'input[type=text], select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
   if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();
   const found = Object.keys(tools).find((id) => tools[id][2] === key);
-  if (event.ctrlKey || event.metaKey) {
+  if (isCommand) {
     if (key === 'z') (event.shiftKey ? redo : undo)();
     else if (key === 'y') redo();
     else return;

@@ -112,6 +112,7 @@ export class View {
     if (target) this.orbit.target.copy(target);
     this.orbit.enableDamping = false;
     this.orbit.touches.TWO = THREE.TOUCH.DOLLY_ROTATE;
+    this.orbit.zoomToCursor = true; // with two fingers there is no other way to what is aside
     this.orbit.addEventListener('change', () => {
       this.isDirty = true;
     });

@@ -82,7 +82,8 @@ using Vertex_point_map_or_default = typename Default::Get<
 ///
 /// Without an index map, a linear pass over the mesh checks whether its internal one has the
 /// indices 0, 1, ... Where it has not, as ids of a `Polyhedron_3` with gaps, they are numbered
-/// anew. An index map that is passed avoids both; it may have gaps.
+/// anew, also by functions that only read the mesh, such as `quality()` and `locate()`. An index
+/// map that is passed avoids both; it may have gaps.
 ///
 /// \tparam PolygonMesh a model of `FaceGraph` and `VertexListGraph`; may be `const` if the points
 ///         are written to an output map

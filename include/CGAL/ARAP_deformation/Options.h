@@ -89,8 +89,8 @@ struct Options
   Minimizer minimizer = Minimizer::automatic;
 
   /// the maximum number of iterations of a run; 0 only moves to the initial guess.
-  /// For the frames of a drag call `deform(3, 0)`: with a positive tolerance the minimizer would be
-  /// the quasi-Newton method, which looks further ahead.
+  /// For the frames of a drag call `deform(3, 0)`: with a positive tolerance
+  /// `Minimizer::automatic` would be the quasi-Newton method.
   unsigned int iterations = 1000;
 
   /// a run stops when `Report::estimated_relative_gap` is at most this; finite and not negative.

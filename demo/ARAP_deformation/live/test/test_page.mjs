@@ -309,6 +309,7 @@ const steps = {
     await page.mouse.up();
     await settled();
     assert(await page.evaluate(() => window.arap.view.orbit.enabled));
+    await page.focus('#cells'); // a menu leaves commands to the page
     await page.keyboard.down('Control');
     await page.keyboard.press('y');
     await page.keyboard.up('Control');
