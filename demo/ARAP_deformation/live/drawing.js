@@ -1,6 +1,6 @@
 // How the shape is shown: colors, measures, marks, and the gizmo of the chosen handle.
 import { FIXED, HANDLE, colorOf, gray, ramp, rampColor, red } from './colors.js';
-import { facesOfInverted } from './files.js';
+import { facesOfInverted } from './faces.js';
 import { complain } from './messages.js';
 import { rigidParts } from './motion.js';
 import { drawPlot } from './plot.js';

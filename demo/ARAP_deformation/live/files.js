@@ -1,19 +1,14 @@
-// Mesh files, and those that arap_deform reads: text or bytes to arrays and back. What is wrong
-// with a file is an Error with a sentence.
+// Mesh files, and the selections and transforms of arap_deform: text or bytes to arrays and back.
+// What is wrong with a file is an Error with a sentence.
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+import { cornersOf } from './faces.js';
+
+export const meshFormats = ['off', 'obj', 'ply', 'stl', 'mesh'];
 
 const fail = (sentence) => {
   throw new Error(sentence);
 };
-
-// of a tetrahedron, seen from outside
-const facesOfTetrahedron = [
-  [1, 2, 3],
-  [0, 3, 2],
-  [0, 1, 3],
-  [0, 2, 1],
-];
 
 // the words of a text without comments
 class Words {
@@ -38,31 +33,24 @@ class Words {
   }
 }
 
-// polygons cut into triangles from their first corner
-function triangulated(polygons, n) {
-  const triangles = [];
-  let cut = 0;
+// The corners of polygons one after the other, and their numbers if they differ from 3.
+function surface(points, polygons) {
+  const n = points.length / 3;
   for (const polygon of polygons) {
     if (polygon.length < 3) fail(`a face has ${polygon.length} corners`);
     for (const v of polygon)
       if (!(Number.isInteger(v) && v >= 0 && v < n))
         fail(`a face has the vertex ${v}, but there are ${n} vertices`);
-    if (polygon.length > 3) ++cut;
-    for (let k = 2; k < polygon.length; ++k) triangles.push(polygon[0], polygon[k - 1], polygon[k]);
   }
-  return { triangles, note: cut ? `${cut} polygons were cut into triangles.` : '' };
-}
-
-const surface = (points, polygons) => {
-  const { triangles, note } = triangulated(polygons, points.length / 3);
   return {
     points: Float64Array.from(points),
-    simplices: Int32Array.from(triangles),
-    corners: 3,
+    simplices: Int32Array.from(polygons.flat()),
+    corners: polygons.every((polygon) => polygon.length === 3)
+      ? 3
+      : Int32Array.from(polygons, (polygon) => polygon.length),
     volume: false,
-    note,
   };
-};
+}
 
 function readOff(text) {
   const words = new Words(text);
@@ -159,7 +147,6 @@ function readMedit(text) {
     simplices: Int32Array.from(simplices, (v) => v - 1),
     corners,
     volume: corners === 4,
-    note: '',
   };
 }
 
@@ -234,9 +221,23 @@ function readStl(bytes) {
   return { ...surface(geometry.attributes.position.array, polygons), note };
 }
 
+export const endingOf = (name) => name.split('.').pop().toLowerCase();
+
+// what `read` returns; else an Error that names the file
+function reading(name, read) {
+  try {
+    return read();
+  } catch (error) {
+    return fail(
+      error instanceof RangeError
+        ? `${name} cannot be read: it ends too early.`
+        : `${name} cannot be read: ${error.message}.`,
+    );
+  }
+}
+
 export function readMesh(name, bytes) {
-  const ending = name.split('.').pop().toLowerCase(),
-    text = () => new TextDecoder().decode(bytes);
+  const text = () => new TextDecoder().decode(bytes);
   const readers = {
     off: () => readOff(text()),
     obj: () => readObj(text()),
@@ -244,17 +245,7 @@ export function readMesh(name, bytes) {
     ply: () => readPly(bytes),
     stl: () => readStl(bytes),
   };
-  if (!readers[ending]) fail(`${name}: only .off, .obj, .ply, .stl and .mesh files are read.`);
-  let mesh;
-  try {
-    mesh = readers[ending]();
-  } catch (error) {
-    fail(
-      error instanceof RangeError
-        ? `${name} cannot be read: it ends too early.`
-        : `${name} cannot be read: ${error.message}.`,
-    );
-  }
+  const mesh = reading(name, readers[endingOf(name)]);
   if (!mesh.simplices.length) fail(`${name} has no faces.`);
   if (!mesh.points.every(Number.isFinite))
     fail(`${name} has a coordinate that is no finite number.`);
@@ -271,75 +262,62 @@ function rows(array, columns, line) {
 // indices that count from 1
 const from1 = (row) => Array.from(row, (v) => v + 1).join(' ');
 
-export function writeMesh(ending, { points, simplices, corners, volume, faces }) {
-  const n = points.length / 3,
-    m = simplices.length / corners;
-  if (ending === 'obj')
-    return (
-      `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n` +
-      `${rows(faces, 3, (f) => `f ${from1(f)}`)}\n`
-    );
-  if (ending === 'mesh')
+// The faces of a surface are as they were read, but .mesh has triangles.
+export function writeMesh(ending, { points, simplices, starts, volume, faces }) {
+  const n = points.length / 3;
+  if (ending === 'mesh') {
+    const [kind, corners, all] = volume ? ['Tetrahedra', 4, simplices] : ['Triangles', 3, faces];
     return (
       `MeshVersionFormatted 2\nDimension 3\nVertices\n${n}\n` +
       `${rows(points, 3, (p) => `${p.join(' ')} 0`)}\n` +
-      `${volume ? 'Tetrahedra' : 'Triangles'}\n${m}\n` +
-      `${rows(simplices, corners, (s) => `${from1(s)} 0`)}\nEnd\n`
+      `${kind}\n${all.length / corners}\n` +
+      `${rows(all, corners, (s) => `${from1(s)} 0`)}\nEnd\n`
     );
-  const corners3 = rows(faces, 3, (f) => `3 ${f.join(' ')}`);
-  return `OFF\n${n} ${faces.length / 3} 0\n${rows(points, 3, (p) => p.join(' '))}\n${corners3}\n`;
-}
-
-// the faces of tetrahedra that belong to one of them only, seen from outside
-export function boundary(tetrahedra, points) {
-  const faces = new Map();
-  for (let t = 0; t < tetrahedra.length; t += 4)
-    for (const [i, j, k] of facesOfTetrahedron) {
-      const face = [tetrahedra[t + i], tetrahedra[t + j], tetrahedra[t + k]];
-      const key = [...face].sort((a, b) => a - b).join();
-      if (!faces.delete(key)) faces.set(key, { face, t });
-    }
-  const result = [];
-  for (const { face, t } of faces.values()) {
-    const flipped = volumeOf(points, tetrahedra, t) < 0;
-    result.push(...(flipped ? face.reverse() : face));
   }
-  return Int32Array.from(result);
+  const m = volume ? faces.length / 3 : starts.length - 1,
+    face = (f) =>
+      volume ? faces.subarray(3 * f, 3 * f + 3) : cornersOf({ simplices, starts }, f),
+    lines = (line) => Array.from({ length: m }, (_, f) => line(face(f))).join('\n');
+  if (ending === 'obj')
+    return (
+      `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n` + `${lines((f) => `f ${from1(f)}`)}\n`
+    );
+  return (
+    `OFF\n${n} ${m} 0\n${rows(points, 3, (p) => p.join(' '))}\n` +
+    `${lines((f) => `${f.length} ${f.join(' ')}`)}\n`
+  );
 }
 
-// six times the volume of the tetrahedron whose corners begin at t
-function volumeOf(p, tetrahedra, t) {
-  const a = 3 * tetrahedra[t],
-    b = 3 * tetrahedra[t + 1],
-    c = 3 * tetrahedra[t + 2],
-    d = 3 * tetrahedra[t + 3];
-  const ux = p[b] - p[a],
-    uy = p[b + 1] - p[a + 1],
-    uz = p[b + 2] - p[a + 2];
-  const vx = p[c] - p[a],
-    vy = p[c + 1] - p[a + 1],
-    vz = p[c + 2] - p[a + 2];
-  const wx = p[d] - p[a],
-    wy = p[d + 1] - p[a + 1],
-    wz = p[d + 2] - p[a + 2];
-  return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
-}
-
-// the corners of all faces of the tetrahedra that are inverted at these positions
-export function facesOfInverted({ points, simplices }, positions) {
-  const corners = [];
-  for (let t = 0; t < simplices.length; t += 4)
-    if (volumeOf(positions, simplices, t) * volumeOf(points, simplices, t) < 0)
-      for (const [i, j, k] of facesOfTetrahedron)
-        for (const c of [i, j, k])
-          for (let x = 0; x < 3; ++x) corners.push(positions[3 * simplices[t + c] + x]);
-  return corners;
-}
+// a status for each of n vertices
+export const readSelection = (name, bytes, n) =>
+  reading(name, () => {
+    const words = new Words(new TextDecoder().decode(bytes)),
+      count = words.words.length;
+    if (count !== n) fail(`it has ${count} statuses, but the shape has ${n} vertices`);
+    return Int32Array.from({ length: n }, (_, v) => {
+      const status = words.count(`the status of vertex ${v}`);
+      return status <= n + 1 ? status : fail(`the status of vertex ${v} is ${status}`);
+    });
+  });
 
 export const writeSelection = (status, comment) =>
   `${comment.replace(/^/gm, '# ')}\n${status.join('\n')}\n`;
 
-// a matrix of four rows for each handle
+// a matrix of four rows for each of n handles
+export const readTransforms = (name, bytes, n) =>
+  reading(name, () => {
+    const words = new Words(new TextDecoder().decode(bytes)),
+      count = words.words.length;
+    if (count !== 16 * n)
+      fail(`it has ${count} numbers, but ${n} handles with vertices need ${16 * n}`);
+    return Array.from({ length: n }, () => {
+      const matrix = Array.from({ length: 16 }, (_, i) => words.number(`the number ${i + 1}`));
+      return matrix.slice(12).join() === '0,0,0,1'
+        ? matrix
+        : fail('the last row of a transform is not 0 0 0 1');
+    });
+  });
+
 export const writeTransforms = (matrices) =>
   matrices
     .map((m) => [0, 4, 8, 12].map((r) => Array.from(m.slice(r, r + 4)).join(' ')).join('\n'))

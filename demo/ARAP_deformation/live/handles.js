@@ -2,6 +2,7 @@
 // from the rest shape.
 import { FIXED, HANDLE } from './colors.js';
 import { drawMarks, placeGizmo } from './drawing.js';
+import { cornersOf } from './faces.js';
 import { center, fittedMotion, identity } from './motion.js';
 import { changed, engine, page, view } from './state.js';
 
@@ -43,16 +44,17 @@ export const hold = () =>
 
 // the place of a point handle when the vertices are at these points
 export function placeOf({ simplex, coordinates }, points) {
-  const { simplices, corners } = page.shape;
+  const corners = cornersOf(page.shape, simplex);
   return [0, 1, 2].map((i) =>
-    coordinates.reduce(
-      (sum, b, k) => sum + b * points[3 * simplices[corners * simplex + k] + i],
-      0,
-    ),
+    coordinates.reduce((sum, b, k) => sum + b * points[3 * corners[k] + i], 0),
   );
 }
 
 export const isThere = (handle) => handle.size > 0 || !!handle.point;
+
+// the numbers of those that files know
+export const handlesWithVertices = () =>
+  [...page.shape.handles.keys()].filter((k) => page.shape.handles[k].size > 0);
 
 // the number of the first handle that is not there
 export const nextHandle = () =>

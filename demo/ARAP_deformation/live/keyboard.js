@@ -15,6 +15,7 @@ addEventListener('keydown', (event) => {
   const isCommand = event.ctrlKey || event.metaKey; // menus take all other keys
   if (event.target.closest?.(isCommand ? 'input[type=text]' : 'input[type=text], select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
+  if (event.repeat && !isCommand && !/^(Arrow|Page)/.test(key)) return;
   if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();
   const found = Object.keys(tools).find((id) => tools[id][2] === key);
   if (isCommand) {
@@ -48,6 +49,7 @@ addEventListener('keydown', (event) => {
         h: actions.more,
         '?': actions.how,
         Delete: removeHandle,
+        Backspace: removeHandle,
       })[key] ??
       (() => {
         event.handled = true;

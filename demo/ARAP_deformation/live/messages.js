@@ -23,13 +23,16 @@ export const complain = (error) => say(sentence(error), true);
 
 let work = 0;
 
-export async function busy(what, f) {
+// `blocks`: f does not let the page draw, which therefore happens before
+export async function busy(what, f, blocks = false) {
   ++work;
   $('busy').textContent = what;
-  const timer = setTimeout(() => {
+  const show = () => {
     $('busy').hidden = false;
-  }, 150);
+  };
+  const timer = setTimeout(show, blocks ? 0 : 150);
   try {
+    if (blocks) await new Promise((done) => setTimeout(done, 50));
     return await f();
   } finally {
     clearTimeout(timer);

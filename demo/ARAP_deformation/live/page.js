@@ -4,7 +4,7 @@ import { pump } from './follow.js';
 import { choose } from './handles.js';
 import { say } from './messages.js';
 import { identity, rigidParts } from './motion.js';
-import { open, openFile, openModel } from './opening.js';
+import { open, openModel } from './opening.js';
 import { setTool } from './painting.js';
 import './keyboard.js';
 import { actions } from './panel.js';
@@ -40,7 +40,7 @@ window.arap = {
     page.shape && {
       name: page.shape.name,
       vertices: page.shape.points.length / 3,
-      simplices: page.shape.simplices.length / page.shape.corners,
+      simplices: page.shape.starts.length - 1,
       volume: page.shape.volume,
       fixed: page.shape.fixed,
       inverted: page.shape.inverted ?? 0,
@@ -90,7 +90,6 @@ window.arap = {
   status: () => page.shape.status.slice(),
   open,
   openModel,
-  openFile,
   setTool,
   choose,
   heap: async () => (await engine.call('heap')).bytes,

@@ -1,6 +1,7 @@
 // The tools: what they paint, and what they draw over the view.
 import { HANDLE, colorOf, css } from './colors.js';
 import { drawColors, placeGizmo } from './drawing.js';
+import { cornersOf } from './faces.js';
 import {
   choose,
   hold,
@@ -130,13 +131,20 @@ export async function placePoint(x, y) {
   view.mesh.geometry.computeBoundingSphere(); // that of the present positions
   const hit = view.ray(x, y).intersectObject(view.mesh)[0];
   if (!hit) return;
-  const corners = [hit.face.a, hit.face.b, hit.face.c].map((v) =>
-    new THREE.Vector3().fromArray(view.positions, 3 * v),
-  );
-  const b = THREE.Triangle.getBarycoord(hit.point, ...corners, new THREE.Vector3());
+  const triangle = [hit.face.a, hit.face.b, hit.face.c],
+    points = triangle.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
+  const b = THREE.Triangle.getBarycoord(hit.point, ...points, new THREE.Vector3());
   await changing(async () => {
-    let place = { simplex: hit.faceIndex, coordinates: b?.toArray() ?? [1, 0, 0] };
-    if (page.shape.volume)
+    const { shape } = page;
+    let place;
+    if (!shape.volume) {
+      const simplex = shape.simplexOf[hit.faceIndex],
+        of = b?.toArray() ?? [1, 0, 0];
+      place = {
+        simplex,
+        coordinates: Array.from(cornersOf(shape, simplex), (v) => of[triangle.indexOf(v)] ?? 0),
+      };
+    } else
       ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
     if (!place) throw new Error('there is no tetrahedron at this place');
     const pivot = placeOf(place, page.shape.points); // in the rest shape

@@ -14,7 +14,7 @@ import { choose, handlesMoved, isThere, nextHandle } from './handles.js';
 import { closeHelp, say } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
-import { openFile, openModel } from './opening.js';
+import { openFiles, openModel } from './opening.js';
 import { setTool } from './painting.js';
 import { addKey, film, play } from './playing.js';
 import { saves } from './saving.js';
@@ -35,41 +35,45 @@ export const tools = {
   stiffness: ['M12 3l8 5v8l-8 5-8-5V8zM12 12l8-4M12 12v9M12 12L4 8', 'Stiff', 's'],
 };
 
-const button = (text, press, title = '') =>
-  Object.assign(document.createElement('button'), { textContent: text, onclick: press, title });
+const button = (text, press) =>
+  Object.assign(document.createElement('button'), { textContent: text, onclick: press });
+
+const mark = (b, isOn) => b.setAttribute('aria-pressed', isOn);
+
+// Shows a list as buttons. Those that are there stay, so that none loses the focus.
+function showButtons(parent, list) {
+  while (parent.children.length > list.length) parent.lastChild.remove();
+  list.forEach(({ content, isOn, ...rest }, k) => {
+    const b = Object.assign(parent.children[k] ?? parent.appendChild(button()), rest);
+    if (b.shown !== content) b.innerHTML = b.shown = content;
+    if (isOn !== undefined) mark(b, isOn);
+  });
+}
 
 function showPanel() {
-  for (const b of $('tools').children) b.classList.toggle('on', b.dataset.tool === page.tool);
+  for (const b of $('tools').children) mark(b, b.dataset.tool === page.tool);
   const { shape } = page;
   if (!shape) return;
-  const region = (status, text) => {
-    const b = button('', () => {
+  const paintsRegions = () => !['grab', 'point', 'stiffness'].includes(page.tool);
+  const region = (status, text) => ({
+    content: `<i style="background:${css(colorOf(status))}"></i>${text}`,
+    isOn: page.paints === status && paintsRegions(),
+    onclick() {
       page.paints = status;
-      if (page.tool === 'grab' || page.tool === 'point' || page.tool === 'stiffness')
-        setTool('brush');
-      if (
-        status >= HANDLE &&
-        page.shape.handles[status - HANDLE] &&
-        isThere(page.shape.handles[status - HANDLE])
-      )
-        choose(status - HANDLE);
+      if (!paintsRegions()) setTool('brush');
+      const painted = page.shape.handles[status - HANDLE];
+      if (painted && isThere(painted)) choose(status - HANDLE);
       showPanel();
-    });
-    b.innerHTML = `<i style="background:${css(colorOf(status))}"></i>${text}`;
-    b.classList.toggle(
-      'on',
-      page.paints === status && !['grab', 'point', 'stiffness'].includes(page.tool),
-    );
-    return b;
-  };
+    },
+  });
   const areas = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
   const next = nextHandle();
-  $('regions').replaceChildren(
+  showButtons($('regions'), [
     region(FREE, 'Free'),
     region(FIXED, 'Fixed'),
     ...areas.filter((k) => k !== next).map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
     region(next + HANDLE, next ? 'New handle' : 'Handle 1'),
-  );
+  ]);
   const handle = shape.handles[page.chosen];
   $('handle').hidden = !handle;
   if (handle) {
@@ -82,14 +86,18 @@ function showPanel() {
     $('frame').checked = handle.turns;
     $('frame').disabled = !!handle.point;
   }
-  $('moves').classList.toggle('on', view.gizmo.mode === 'translate');
-  $('turns').classList.toggle('on', view.gizmo.mode === 'rotate');
+  mark($('moves'), view.gizmo.mode === 'translate');
+  mark($('turns'), view.gizmo.mode === 'rotate');
   $('undo').disabled = steps().undo <= 0;
   $('redo').disabled = steps().redo <= 0;
   $('name').textContent =
     `${shape.name}: ${(shape.points.length / 3).toLocaleString('en')} vertices, ` +
-    `${(shape.simplices.length / shape.corners).toLocaleString('en')} ` +
-    (shape.volume ? 'tetrahedra' : 'triangles');
+    `${(shape.starts.length - 1).toLocaleString('en')} ` +
+    (shape.volume
+      ? 'tetrahedra'
+      : shape.simplices.length === 3 * (shape.starts.length - 1)
+        ? 'triangles'
+        : 'polygons');
   const shown = (id, text) => {
     $(id).parentElement.querySelector('output').textContent = text;
   };
@@ -99,29 +107,29 @@ function showPanel() {
   shown('stiffness', `× ${10 ** $('stiffness').value}`);
   $('bending').disabled = $('cells').value === 'elements';
   $('up').textContent = `Up: ${view.up}`;
-  $('keys').replaceChildren(
-    ...page.keys.map((key, i) =>
-      button(
-        String(i + 1),
-        () => {
-          if (key.length !== page.shape.handles.length)
-            return say('This key frame is of other handles.', true);
-          page.shape.handles.forEach((h, k) => {
-            h.matrix = key[k].slice();
-          });
-          handlesMoved();
-          commit();
-        },
-        'Go there',
-      ),
-    ),
+  showButtons(
+    $('keys'),
+    page.keys.map((key, i) => ({
+      content: String(i + 1),
+      title: 'Go there',
+      onclick() {
+        if (key.length !== page.shape.handles.length)
+          return say('This key frame is of other handles.', true);
+        page.shape.handles.forEach((h, k) => {
+          h.matrix = key[k].slice();
+        });
+        handlesMoved();
+        commit();
+      },
+    })),
   );
   $('play').textContent = page.playing ? 'Stop' : 'Play';
   view.isDirty = true;
 }
 
 for (const [id, [path, text, key]] of Object.entries(tools)) {
-  const b = button('', () => setTool(id), `${text} (${key.toUpperCase()})`);
+  const b = button('', () => setTool(id));
+  b.title = `${text} (${key.toUpperCase()})`;
   b.innerHTML = `${icon(`<path d="${path}" stroke-linejoin="round"/>`)}${text}`;
   b.dataset.tool = id;
   $('tools').append(b);
@@ -175,7 +183,7 @@ export const actions = {
 for (const [id, act] of Object.entries(actions)) $(id).onclick = act;
 $('model').onchange = () => openModel($('model').value);
 $('file').onchange = () => {
-  if ($('file').files[0]) openFile($('file').files[0]);
+  openFiles($('file').files);
   $('file').value = '';
 };
 for (const id of ['cells', 'minimizer', 'bending']) $(id).onchange = optionsChanged;

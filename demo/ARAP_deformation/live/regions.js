@@ -1,19 +1,25 @@
 // Which vertices are meant: by what is connected, and by where they are on the screen.
+import { cornersOf } from './faces.js';
 
 // the neighbors of each vertex in compressed rows
 function neighborLists(shape) {
   if (shape.neighbors) return shape.neighbors;
   const n = shape.status.length,
-    s = shape.simplices,
-    c = shape.corners,
+    m = shape.starts.length - 1,
     starts = new Uint32Array(n + 1);
-  for (const v of s) starts[v + 1] += c - 1;
+  for (let s = 0; s < m; ++s) {
+    const corners = cornersOf(shape, s);
+    for (const v of corners) starts[v + 1] += corners.length - 1;
+  }
   for (let v = 0; v < n; ++v) starts[v + 1] += starts[v];
   const list = new Uint32Array(starts[n]),
     next = starts.slice();
-  for (let i = 0; i < s.length; i += c)
-    for (let a = 0; a < c; ++a)
-      for (let b = 0; b < c; ++b) if (a !== b) list[next[s[i + a]]++] = s[i + b];
+  for (let s = 0; s < m; ++s) {
+    const corners = cornersOf(shape, s);
+    for (let a = 0; a < corners.length; ++a)
+      for (let b = 0; b < corners.length; ++b)
+        if (a !== b) list[next[corners[a]]++] = corners[b];
+  }
   return (shape.neighbors = { starts, list });
 }
 
@@ -73,9 +79,7 @@ export function nearestSeen(screen, x, y, within, accepts = () => true) {
 
 // values at vertices as means in simplices
 export const ofSimplices = (shape, values) =>
-  Float64Array.from({ length: shape.simplices.length / shape.corners }, (_, s) => {
-    let sum = 0;
-    for (let k = 0; k < shape.corners; ++k)
-      sum += values[shape.simplices[s * shape.corners + k]] / shape.corners;
-    return sum;
+  Float64Array.from({ length: shape.starts.length - 1 }, (_, s) => {
+    const corners = cornersOf(shape, s);
+    return corners.reduce((sum, v) => sum + values[v] / corners.length, 0);
   });

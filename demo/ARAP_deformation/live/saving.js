@@ -1,10 +1,11 @@
 // Files that are saved, and the command that does the same with them.
 import { HANDLE } from './colors.js';
 import { writeMesh, writeSelection, writeTransforms } from './files.js';
+import { handlesWithVertices } from './handles.js';
 import { complain, say } from './messages.js';
 import { diagonalOf, identity } from './motion.js';
 import { options } from './options.js';
-import { engine, page, view } from './state.js';
+import { $, engine, page, view } from './state.js';
 
 export function save(name, content) {
   const url = URL.createObjectURL(
@@ -17,10 +18,8 @@ export function save(name, content) {
 
 // the handles of the files, which are numbered without gaps and have vertices
 function filed() {
-  const numbers = page.shape.handles
-    .map((handle, k) => k)
-    .filter((k) => page.shape.handles[k].size > 0);
-  const place = new Map(numbers.map((k, i) => [k + HANDLE, i + HANDLE]));
+  const numbers = handlesWithVertices(),
+    place = new Map(numbers.map((k, i) => [k + HANDLE, i + HANDLE]));
   return { numbers, status: page.shape.status.map((s) => place.get(s) ?? s) };
 }
 
@@ -60,6 +59,7 @@ async function saveMesh(ending, which, suffix) {
       `${shape.name}${suffix}.${ending}`,
       writeMesh(ending, { ...shape, points: answer[which] }),
     );
+    page.isSaved = true;
   } catch (error) {
     complain(error);
   }
@@ -100,3 +100,8 @@ export const saves = {
     view.isDirty = true;
   },
 };
+
+// A model is soon deformed again; work on a file is not.
+addEventListener('beforeunload', (event) => {
+  if (!page.isSaved && !$('model').value) event.preventDefault();
+});

@@ -21,7 +21,8 @@ export const engine = new Engine(...window.arapParts());
 
 export const page = {
   // what is open: points are those of the rest shape
-  // { name, points, simplices, corners, volume, faces, diagonal, status, handles, stiffness }
+  // { name, points, simplices, starts, volume, faces, simplexOf, diagonal, status, handles,
+  //   stiffness }
   shape: null,
   tool: 'grab',
   paints: FIXED,
@@ -29,6 +30,7 @@ export const page = {
   hasNewTargets: false,
   isSettled: true,
   isHeld: false,
+  isSaved: true,
   failed: '',
   keys: [],
   playing: null,

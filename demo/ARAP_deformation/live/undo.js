@@ -4,7 +4,7 @@ import { pump, stopPlaying } from './follow.js';
 import { heldStatus, recountHandles } from './handles.js';
 import { complain } from './messages.js';
 import { cellStiffness, heldStiffness, options, sendOptions, showOptions } from './options.js';
-import { $, changed, engine, page, view } from './state.js';
+import { changed, engine, page, view } from './state.js';
 
 let past = [],
   now = -1,
@@ -32,6 +32,7 @@ export async function commit() {
   timer = 0;
   const { shape } = page;
   if (!shape) return;
+  page.isSaved = false;
   const kept = {
     status: heldStatus().slice(),
     stiffness: heldStiffness()?.slice() ?? null,
@@ -39,7 +40,6 @@ export async function commit() {
     chosen: page.chosen,
     handles: structuredClone(shape.handles),
     options: options(),
-    measure: $('measure').value,
     points: shape.points,
   };
   const dropped = past.splice(now + 1);

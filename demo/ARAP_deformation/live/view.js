@@ -41,7 +41,6 @@ export class View {
   constructor(container) {
     this.container = container;
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('aria-label', 'the shape');
@@ -78,7 +77,6 @@ export class View {
     this.marks = new THREE.Points(
       new THREE.BufferGeometry(),
       new THREE.PointsMaterial({
-        size: 15 * this.renderer.getPixelRatio(),
         sizeAttenuation: false,
         vertexColors: true,
         map: disc(),
@@ -127,7 +125,10 @@ export class View {
   resize() {
     const { clientWidth: w, clientHeight: h } = this.container;
     if (!w || !h) return;
+    const ratio = Math.min(devicePixelRatio, 2); // another one where the page is zoomed
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h);
+    this.marks.material.size = 15 * ratio;
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.isDirty = true;

@@ -106,15 +106,20 @@ async function dragHandle(dx, dy, number = 1) {
   } = (await state()).handles[number - 1];
   await drag([x, y], [x + dx, y + dy]);
 }
+// where points in space are
+const onPage = (points, p = page) =>
+  p.evaluate((list) => {
+    const { view } = window.arap,
+      box = view.canvas.getBoundingClientRect();
+    return list.map((point) => {
+      const [x, y] = view.toScreen(...point);
+      return [x + box.left, y + box.top];
+    });
+  }, points);
+const vertexOnPage = async (v) =>
+  (await onPage([(await positions()).slice(3 * v, 3 * v + 3)]))[0];
 // where the middle of a bar is
-const middle = () =>
-  page.evaluate(() => {
-    const p = window.arap.positions(),
-      box = window.arap.view.canvas.getBoundingClientRect(),
-      n = (p.length / 6) | 0;
-    const [x, y] = window.arap.view.toScreen(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
-    return [x + box.left, y + box.top];
-  });
+const middle = async () => vertexOnPage(((await state()).vertices / 2) | 0);
 async function paintMiddle() {
   const [x, y] = await middle();
   await drag([x - 30, y + 30], [x + 30, y - 30]);
@@ -132,10 +137,26 @@ async function bend(share) {
   );
   return settled();
 }
-async function openFile(path, p = page) {
-  const before = (await state(p)).name;
-  await (await p.$('#file')).uploadFile(path);
-  return before;
+const openFile = async (...paths) => (await page.$('#file')).uploadFile(...paths);
+async function openShape({ points, simplices, status }, name) {
+  await page.evaluate(
+    (p, s, k, as) =>
+      window.arap.open(
+        {
+          points: Float64Array.from(p),
+          simplices: Int32Array.from(s),
+          corners: 3,
+          volume: false,
+          status: Int32Array.from(k),
+        },
+        as,
+      ),
+    [...points],
+    [...simplices],
+    [...status],
+    name,
+  );
+  return settled();
 }
 async function downloaded(path) {
   let last = 0;
@@ -165,6 +186,19 @@ const pointsOf = (text) => {
   const [, n, , , ...numbers] = text.replace(/#.*/g, '').trim().split(/\s+/);
   return numbers.slice(0, 3 * n).map(Number);
 };
+// the points that the command of a selection file makes
+function theCommands(selection) {
+  const [, ...words] = readFileSync(join(files, selection), 'utf8')
+    .split('\n')[0]
+    .replace('# ', '')
+    .split(' ');
+  execFileSync(
+    join(root, 'build/release/demo/ARAP_deformation/arap_deform'),
+    [...words, '--iterations', '20000', '--tolerance', '1e-7', '--quiet'],
+    { cwd: files },
+  );
+  return pointsOf(readFileSync(join(files, 'out.off'), 'utf8'));
+}
 const openModel = async (id) => {
   await page.evaluate((m) => window.arap.openModel(m), id);
   return settled();
@@ -183,16 +217,58 @@ const heaps = (sizes) =>
 
 const steps = {
   async 'without a browser'() {
-    const { boundary, readMesh, writeMesh } = await bundled('files'),
+    const { readMesh, readSelection, readTransforms, writeMesh } = await bundled('files'),
+      { boundary, startsOf, trianglesOf } = await bundled('faces'),
       { fittedMotion } = await bundled('motion');
     const read = (name, text) => readMesh(name, new TextEncoder().encode(text).buffer);
     // comments are no corners, and end with their line
     const vertices = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n';
-    const { simplices, note } = read(
+    const { simplices, corners } = read(
       'a.obj',
       `${vertices}f 1 2 3 # 4\nf 1 2 3 # a triangle\n# to be continued \\\nf 1 3 4\nf 1 \\\n3 4\n`,
     );
-    assert.deepEqual([...simplices, note], [0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 2, 3, '']);
+    assert.deepEqual([...simplices, corners], [0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 2, 3, 3]);
+    // polygons that are not convex, whichever side is seen
+    for (const [outline, area] of [
+      [[0, 0, 2, 0, 0.5, 0.5, 0, 2], 1],
+      [[0, 0, 2, 0, 2, 1, 1, 1, 1, 2, 0, 2], 3],
+      [[0, 0, 1, 0, 2, 0], 0],
+    ])
+      for (const axis of [0, 1, 2])
+        for (const turned of [false, true]) {
+          const n = outline.length / 2,
+            points = new Float64Array(3 * n),
+            polygon = Int32Array.from({ length: n }, (_, k) => (turned ? n - 1 - k : k));
+          outline.forEach((x, i) => {
+            points[3 * (i >> 1) + ((axis + 1 + (i % 2)) % 3)] = x;
+          });
+          const starts = startsOf(polygon, [n]),
+            { faces, simplexOf } = trianglesOf({ points, simplices: polygon, starts });
+          const of = (a, b, c) => {
+            const p = (v, i) => points[3 * v + ((axis + 1 + i) % 3)];
+            return (
+              (p(b, 0) - p(a, 0)) * (p(c, 1) - p(a, 1)) -
+              (p(b, 1) - p(a, 1)) * (p(c, 0) - p(a, 0))
+            );
+          };
+          const areas = simplexOf.map((s, k) => of(...faces.slice(3 * k, 3 * k + 3)) / 2);
+          assert(Math.abs(areas.reduce((a, b) => a + b) - (turned ? -area : area)) < 1e-9);
+          assert(areas.every((a) => (turned ? -a : a) >= 0));
+          assert.equal(faces.length, 3 * (n - 2));
+        }
+    // selections and transforms
+    const bytes = (text) => new TextEncoder().encode(text).buffer;
+    assert.deepEqual([...readSelection('a.sel', bytes('# all\n0\n1\n2 # a handle\n'), 3)], [0, 1, 2]);
+    assert.throws(() => readSelection('a.sel', bytes('0\n1\n'), 3), /a\.sel .* 2 statuses/);
+    assert.throws(() => readSelection('a.sel', bytes('0 -1 2'), 3), /vertex 1 is -1/);
+    assert.throws(() => readSelection('a.sel', bytes('0 1 5'), 3), /vertex 2 is 5/);
+    const lines = '1 0 0 4\n0 1 0 5\n0 0 1 6\n';
+    assert.deepEqual(readTransforms('a.def', bytes(`${lines}0 0 0 1`), 1), [
+      [1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 0, 0, 0, 1],
+    ]);
+    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 1`), 2), /a\.def .* need 32/);
+    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 2`), 1), /last row/);
+    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 x`), 1), /x, which is no number/);
     // polygons of PLY files
     const header = (format) =>
       `ply\nformat ${format} 1.0\ncomment end_header\nelement vertex 5\nproperty float x\n` +
@@ -234,13 +310,17 @@ const steps = {
         [...mesh.points],
         pentagon.flatMap((x, i) => (i % 2 ? [x, 0] : [x])),
       );
-      assert.deepEqual([...mesh.simplices], [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 1, 2]);
-      assert.match(mesh.note, /1 polygons/);
+      assert.deepEqual([...mesh.simplices], faces.flat());
+      assert.deepEqual([...mesh.corners], [5, 3]);
     }
     // tetrahedra of either orientation are seen from outside
     const solid = models.volume[1]();
     for (let t = 0; t < 2; ++t) {
-      const off = writeMesh('off', { ...solid, faces: boundary(solid.simplices, solid.points) }),
+      const off = writeMesh('off', {
+          ...solid,
+          starts: startsOf(solid.simplices, 4),
+          faces: boundary(solid.simplices, solid.points),
+        }),
         { points: p, simplices: s } = read('a.off', off);
       let volume = 0;
       for (let f = 0; f < s.length; f += 3) {
@@ -279,7 +359,13 @@ const steps = {
     await page.reload();
     await page.evaluate(() => window.arap.ready);
     assert(await page.$eval('#help', (help) => help.hidden), 'the help comes once');
-    assert(await page.$('#plot'));
+    // another resolution, as where the page is zoomed
+    const ratio = () => page.evaluate(() => window.arap.view.renderer.getPixelRatio());
+    assert.equal(await ratio(), 1);
+    await page.setViewport({ width: 640, height: 400, deviceScaleFactor: 2 });
+    await page.waitForFunction(() => window.arap.view.renderer.getPixelRatio() === 2);
+    await page.setViewport({ width: 1280, height: 800 });
+    await page.waitForFunction(() => window.arap.view.renderer.getPixelRatio() === 1);
   },
 
   async 'drag, undo, redo'() {
@@ -331,16 +417,10 @@ const steps = {
     assert.equal(now.tool, 'brush');
     assert.equal(now.fixed, 0);
     await rest(100);
-    const ends = await page.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect();
-      return [
-        [0, 0, 0.2],
-        [0, 0, 4.8],
-      ].map((p) => {
-        const [x, y] = window.arap.view.toScreen(...p);
-        return [x + box.left, y + box.top];
-      });
-    });
+    const ends = await onPage([
+      [0, 0, 0.2],
+      [0, 0, 4.8],
+    ]);
     await clickText('Fixed');
     await drag([ends[0][0] - 40, ends[0][1]], [ends[0][0] + 40, ends[0][1]]);
     await shot('04_painting');
@@ -392,6 +472,14 @@ const steps = {
     await page.keyboard.up('Control');
     assert.equal((await settled()).handles.length, 1);
     await page.keyboard.press('g');
+    // work that is not saved is not lost without a question
+    const asked = new Promise((done) => page.once('dialog', done));
+    const leaving = page.goto('about:blank').catch(() => {});
+    const question = await asked;
+    assert.equal(question.type(), 'beforeunload');
+    await question.dismiss();
+    await leaving;
+    assert.equal((await settled()).name, 'my_bar');
   },
 
   async 'saved files, and the command'() {
@@ -416,16 +504,7 @@ const steps = {
       ['.mesh', 'my_bar.mesh'],
     ])
       assert((await saved(press, name)).length > 50, name);
-    const [, ...words] = readFileSync(join(files, 'my_bar.sel'), 'utf8')
-      .split('\n')[0]
-      .replace('# ', '')
-      .split(' ');
-    execFileSync(
-      join(root, 'build/release/demo/ARAP_deformation/arap_deform'),
-      [...words, '--iterations', '20000', '--tolerance', '1e-7', '--quiet'],
-      { cwd: files },
-    );
-    const theirs = pointsOf(readFileSync(join(files, 'out.off'), 'utf8'));
+    const theirs = theCommands('my_bar.sel');
     assert.equal(ours.length, theirs.length);
     const distance = largestDifference(ours, theirs) / 5.2;
     console.log(`  the command's mesh differs by ${distance.toExponential(1)} of the diagonal`);
@@ -613,6 +692,17 @@ const steps = {
     );
     assert(await page.$eval('#handle', (h) => h.hidden), 'no handle is chosen');
     assert.equal(await page.evaluate(() => window.arap.view.canvas.style.cursor), 'grab');
+    // a button keeps the focus, and says that it is pressed
+    await page.focus('#regions button:nth-child(2)');
+    await page.keyboard.press('Enter');
+    assert.deepEqual(
+      await page.evaluate(() => {
+        const b = document.activeElement;
+        return [b.textContent, b.getAttribute('aria-pressed')];
+      }),
+      ['Fixed', 'true'],
+    );
+    await page.keyboard.press('g');
     // all paint is cleared in one step
     await page.click('#clear');
     const cleared = await settled();
@@ -696,22 +786,9 @@ const steps = {
   },
 
   async 'the command line'() {
-    await page.evaluate(
-      (points, simplices, status) =>
-        window.arap.open(
-          {
-            points: Float64Array.from(points),
-            simplices: Int32Array.from(simplices),
-            corners: 3,
-            volume: false,
-            status: Int32Array.from(status),
-          },
-          "it's a bar",
-        ),
-      [...models.bar[1]().points],
-      [...models.bar[1]().simplices],
-      [...models.bar[1]().status].map((s, v) => (s === 2 && v % 2 ? 3 : s)),
-    );
+    const bar = models.bar[1](),
+      status = bar.status.map((s, v) => (s === 2 && v % 2 ? 3 : s));
+    await openShape({ ...bar, status }, "it's a bar");
     const line = () => page.evaluate(() => window.arap.commandLine());
     const soften = async (k) => {
       await page.evaluate((handle) => window.arap.choose(handle), k);
@@ -737,11 +814,7 @@ const steps = {
   async points() {
     await openModel('sheet');
     await page.keyboard.press('p');
-    const place = await page.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect(),
-        [x, y] = window.arap.view.toScreen(0.503, 0.501, 0);
-      return [x + box.left, y + box.top];
-    });
+    const [place] = await onPage([[0.503, 0.501, 0]]);
     await page.mouse.click(...place);
     let now = await settled();
     assert.equal(now.handles.length, 2);
@@ -751,7 +824,7 @@ const steps = {
     now = await settled();
     await shot('10_point_in_a_face');
     assert(now.energy > 0);
-    await page.keyboard.press('Delete');
+    await page.keyboard.press('Backspace');
     now = await settled();
     assert.equal(now.handles.length, 1);
     // beyond where the shape was before
@@ -773,13 +846,7 @@ const steps = {
     });
     await page.keyboard.press('b');
     await page.keyboard.press('3');
-    const [x, y] = await page.evaluate(() => {
-      const p = window.arap.positions(),
-        v = 71 * 53 + 20,
-        box = window.arap.view.canvas.getBoundingClientRect();
-      const at = window.arap.view.toScreen(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
-      return [at[0] + box.left, at[1] + box.top];
-    });
+    const [x, y] = await vertexOnPage(71 * 53 + 20);
     await page.mouse.click(x, y);
     now = await settled();
     assert.equal(now.handles[1].vertices, 1);
@@ -859,7 +926,8 @@ const steps = {
     assert.equal(await page.evaluate(() => window.streams.length), 0);
     await dragHandle(100, 30);
     await page.mouse.up();
-    await page.keyboard.press('k');
+    for (let k = 0; k < 3; ++k) await page.keyboard.down('k'); // held, it adds one
+    await page.keyboard.up('k');
     await dragHandle(-200, 0);
     await page.mouse.up();
     await page.keyboard.press('k');
@@ -881,7 +949,17 @@ const steps = {
     );
     await settled();
     await clickText('Key frames');
-    for (const k of [1, 2]) await downloaded(join(files, `cactus-${k}.def`));
+    const poses = [1, 2].map((k) => join(files, `cactus-${k}.def`));
+    for (const pose of poses) await downloaded(pose);
+    // several files of transforms are key frames
+    await openModel('cactus');
+    await openFile(...poses);
+    await page.waitForFunction(() => window.arap.state().keys === 2);
+    const { handles } = await settled();
+    assert.deepEqual(
+      handles[0].matrix,
+      readFileSync(poses[1], 'utf8').trim().split(/\s+/).map(Number),
+    );
   },
 
   async 'rest shape from now'() {
@@ -965,6 +1043,16 @@ const steps = {
       `endloop\nendfacet`;
     const quads = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3];
     const cube = Array.from({ length: 8 }, (_, v) => `v ${v & 1} ${(v >> 1) & 1} ${v >> 2}`);
+    const binary = new DataView(new ArrayBuffer(84 + (50 * simplices.length) / 3));
+    binary.setUint32(80, simplices.length / 3, true);
+    simplices.forEach((v, i) => {
+      for (let c = 0; c < 3; ++c)
+        binary.setFloat32(
+          84 + 50 * Math.floor(i / 3) + 12 + 12 * (i % 3) + 4 * c,
+          points[3 * v + c],
+          true,
+        );
+    });
     const written = {
       'a.ply': [
         `ply\nformat ascii 1.0\nelement vertex ${n}\n` +
@@ -974,21 +1062,84 @@ const steps = {
           `${rows(points, 3, (p) => p.join(' '))}\n` +
           `${rows(simplices, 3, (f) => `3 ${f.join(' ')}`)}\n`,
         n,
+        simplices.length / 3,
       ],
-      'b.stl': [`solid b\n${rows(simplices, 3, facets)}\nendsolid b\n`, n],
+      'b.stl': [`solid b\n${rows(simplices, 3, facets)}\nendsolid b\n`, n, simplices.length / 3],
+      'e.stl': [binary, n, simplices.length / 3],
       'c.obj': [
         `${cube.join('\n')}\n` +
           `${rows(quads, 4, (f) => `f ${f.map((v) => `${v - 8}//1`).join(' ')}`)}\n`,
         8,
+        6,
       ],
-      'd.off': [`OFF 3 1 0 # a triangle\n0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n`, 3],
+      'd.off': [`OFF 3 1 0 # a triangle\n0 0 0\n\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n`, 3, 1],
     };
-    for (const [name, [text, vertices]] of Object.entries(written)) {
-      writeFileSync(join(files, name), text);
+    const length = (p) => Math.max(...p) - Math.min(...p);
+    for (const [name, [content, vertices, faces]] of Object.entries(written)) {
+      writeFileSync(join(files, name), content);
       await openFile(join(files, name));
       await page.waitForFunction((wanted) => window.arap.state()?.name === wanted, {}, name[0]);
-      assert.equal((await settled()).vertices, vertices, name);
+      const now = await settled();
+      assert.deepEqual([now.vertices, now.simplices], [vertices, faces], name);
+      const wanted = vertices === n ? length(points) : 1;
+      assert(Math.abs(length(await positions()) - wanted) < 1e-6, name);
     }
+  },
+
+  async 'polygons, with a selection and transforms'() {
+    const bar = models.bar[1](),
+      quads = Array.from({ length: bar.simplices.length / 6 }, (_, k) =>
+        [0, 1, 2, 5].map((i) => bar.simplices[6 * k + i]),
+      ),
+      path = (ending) => join(files, `quads.${ending}`),
+      turn = '1 0 0 0.2\n0 0.8 -0.6 2.5\n0 0.6 0.8 0.5\n0 0 0 1\n';
+    const mesh =
+      `OFF\n${bar.points.length / 3} ${quads.length} 0\n` +
+      `${rows(bar.points, 3, (p) => p.join(' '))}\n${quads.map((q) => `4 ${q.join(' ')}`).join('\n')}\n`;
+    writeFileSync(path('off'), mesh);
+    writeFileSync(path('sel'), `# a bar\n${[...bar.status].join('\n')}\n`);
+    writeFileSync(path('def'), turn);
+    await openFile(path('def'), path('off'), path('sel'));
+    await page.waitForFunction(() => window.arap.state()?.name === 'quads');
+    await page.waitForFunction(() => window.arap.state().energy > 1e-3);
+    const now = await settled();
+    assert.equal(now.simplices, quads.length);
+    assert.match(await page.$eval('#name', (e) => e.textContent), /polygons$/);
+    assert.match(now.message, /quads\.def was opened/);
+    assert.deepEqual(now.handles[0].matrix, turn.trim().split(/\s+/).map(Number));
+    assert((await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6);
+    await shot('22_polygons');
+    // what is saved has the polygons, and is what the command makes of these files
+    const ours = pointsOf(String(await saved('Mesh .off', 'quads.off')));
+    assert.equal(
+      String(readFileSync(path('off'))).split('\n').filter((line) => /^4 /.test(line)).length,
+      quads.length,
+    );
+    assert.equal(String(await saved('Rest shape', 'quads_rest.off')), mesh);
+    assert.match(String(await saved('Selection', 'quads.sel')), /quads_rest\.off/);
+    assert.deepEqual(
+      readFileSync(path('sel'), 'utf8').replace(/#.*/g, '').trim().split(/\s+/).map(Number),
+      [...bar.status],
+    );
+    const theirs = theCommands('quads.sel');
+    const distance = largestDifference(ours, theirs) / 5.2;
+    console.log(`  the command's mesh differs by ${distance.toExponential(1)} of the diagonal`);
+    assert(distance < 1e-3);
+    // a point in a polygon
+    await page.keyboard.press('p');
+    await page.mouse.click(...(await middle()));
+    const { handles, energy } = await settled();
+    assert(handles[1].point);
+    assert(Math.abs(energy / now.energy - 1) < 1e-2, 'it stays where it is');
+    await dragHandle(60, 0, 2);
+    await page.mouse.up();
+    assert((await settled()).energy > 1.01 * energy, 'it moves');
+    // a selection of another shape changes nothing
+    writeFileSync(join(files, 'other.sel'), '0\n1\n');
+    await openFile(join(files, 'other.sel'));
+    await page.waitForFunction(() => /2 statuses/.test(window.arap.state().message));
+    assert.equal((await settled()).handles.length, 2);
+    await page.keyboard.press('Escape');
   },
 
   async errors() {
@@ -1029,9 +1180,8 @@ const steps = {
       'nothing is lost',
     );
     // two parts, of which one is held by nothing
-    const a = models.volume[1](),
-      two = sphere(6);
-    const points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))],
+    const two = sphere(6),
+      points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))],
       n = two.points.length / 3;
     writeFileSync(
       join(files, 'two.off'),
@@ -1040,16 +1190,10 @@ const steps = {
     await openFile(join(files, 'two.off'));
     await page.waitForFunction(() => window.arap.state()?.name === 'two');
     await settled();
-    const at = await page.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect();
-      return [
-        [0, 0, -0.7],
-        [0, 0, 0.9],
-      ].map((p) => {
-        const [x, y] = window.arap.view.toScreen(...p);
-        return [x + box.left, y + box.top];
-      });
-    });
+    const at = await onPage([
+      [0, 0, -0.7],
+      [0, 0, 0.9],
+    ]);
     await page.keyboard.press('1');
     await page.mouse.click(...at[0]);
     await settled();
@@ -1061,7 +1205,6 @@ const steps = {
     await page.mouse.up();
     await settled();
     assert.match(await message(), /held by nothing/);
-    assert(a);
   },
 
   async 'a phone'() {
@@ -1099,12 +1242,8 @@ const steps = {
         .find((b) => b.textContent === 'Fixed')
         .click(),
     );
-    const fixed = (await state(phone)).fixed,
-      [a, b] = await phone.evaluate(() => {
-        const box = window.arap.view.canvas.getBoundingClientRect(),
-          [u, v] = window.arap.view.toScreen(0, 0, 0.4);
-        return [u + box.left, v + box.top];
-      });
+    const { fixed } = await state(phone),
+      [[a, b]] = await onPage([[0, 0, 0.4]], phone);
     const stroke = await phone.touchscreen.touchStart(a - 8, b);
     for (let k = 1; k <= 8; ++k) await stroke.move(a - 8 + 2 * k, b);
     await stroke.end();
@@ -1197,23 +1336,32 @@ const steps = {
     const path = join(files, 'large.off');
     writeFileSync(path, off(sphere(200)));
     let time = Date.now();
+    await page.evaluate(() => {
+      window.shown = new Set();
+      const look = () => {
+        const busy = document.getElementById('busy');
+        if (!busy.hidden) window.shown.add(busy.textContent);
+        if (window.shown) requestAnimationFrame(look);
+      };
+      look();
+    });
     await openFile(path);
     await page.waitForFunction(() => window.arap.state()?.name === 'large', { timeout: 120000 });
     await settled();
     const opened = Date.now() - time;
+    const shown = await page.evaluate(() => {
+      const texts = [...window.shown];
+      delete window.shown;
+      return texts;
+    });
+    assert(shown.includes('Reading large.off…'), `it shows ${shown}`);
     const statuses = [...sphere(200).status];
     assert.equal((await state()).vertices, statuses.length);
     // painted by hand: boxes at both ends
-    const at = await page.evaluate(() => {
-      const box = window.arap.view.canvas.getBoundingClientRect();
-      return [
-        [0, 0, -1],
-        [0, 0, 1],
-      ].map((p) => {
-        const [x, y] = window.arap.view.toScreen(...p);
-        return [x + box.left, y + box.top];
-      });
-    });
+    const at = await onPage([
+      [0, 0, -1],
+      [0, 0, 1],
+    ]);
     await page.keyboard.press('x');
     await clickText('Fixed');
     await drag([at[0][0] - 120, at[0][1] + 60], [at[0][0] + 120, at[0][1] - 60], 3);
@@ -1283,24 +1431,7 @@ const steps = {
         name = join(files, `sphere_${f}`);
       writeFileSync(`${name}.off`, off(shape));
       writeFileSync(`${name}.sel`, `${shape.status.join('\n')}\n`);
-      await page.evaluate(
-        async (points, simplices, status) => {
-          await window.arap.open(
-            {
-              points: Float64Array.from(points),
-              simplices: Int32Array.from(simplices),
-              corners: 3,
-              volume: false,
-              status: Int32Array.from(status),
-            },
-            'sphere',
-          );
-        },
-        [...shape.points],
-        [...shape.simplices],
-        [...shape.status],
-      );
-      await settled();
+      await openShape(shape, 'sphere');
       const native = [],
         worker = [];
       for (let round = 0; round < 5; ++round) {
