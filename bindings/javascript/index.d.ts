@@ -43,7 +43,7 @@ export type Status =
   | 'out_of_memory'
   | 'misuse';
 
-/** A call that failed, with a sentence. Nothing was changed. Arrays of other types are a
+/** A call that failed, with a message. Nothing was changed. Arrays of other types are a
  *  TypeError, and those of an impossible length a RangeError; a number of rows that does not match
  *  that of another array is 'misuse'. */
 export class ArapError extends Error {
@@ -274,7 +274,7 @@ export interface Session {
 
   /**
    * does what the next call of `deform()` needs, such as the factorization, before it is made;
-   * returns a sentence, which tells also what unconstrained components there are. Not for time
+   * returns a message, which tells also what unconstrained components there are. Not for time
    * steps, which need another factorization.
    */
   preprocess(): string;

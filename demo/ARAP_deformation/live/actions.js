@@ -86,6 +86,7 @@ export function clearPaint() {
     cancelStroke();
     page.shape.status.fill(FREE);
     page.shape.handles = [];
+    page.keys = [];
     page.chosen = -1;
     page.paints = FIXED;
     setTool('brush');

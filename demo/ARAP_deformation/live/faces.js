@@ -11,7 +11,7 @@ const facesOfTetrahedron = [
   [0, 2, 1],
 ];
 
-// where the simplices begin: all have k corners, or each has its own number of them
+// where the simplices begin; corners is the number that all have, or a list of their numbers
 export function startsOf(simplices, corners) {
   const isList = typeof corners !== 'number',
     starts = new Uint32Array((isList ? corners.length : simplices.length / corners) + 1);
@@ -23,8 +23,8 @@ export function startsOf(simplices, corners) {
 export const cornersOf = ({ simplices, starts }, s) =>
   simplices.subarray(starts[s], starts[s + 1]);
 
-// Cuts a polygon into triangles, in the plane of the coordinates in which it is largest.
-function cut(polygon, points) {
+// the triangles of a polygon, cut in the plane of the coordinates in which it is largest
+export function cut(polygon, points) {
   const at = (v, i) => points[3 * v + i],
     normal = [0, 0, 0];
   polygon.forEach((v, k) => {
@@ -39,12 +39,13 @@ function cut(polygon, points) {
     [a, b] = normal[i] < 0 ? [(i + 2) % 3, (i + 1) % 3] : [(i + 1) % 3, (i + 2) % 3],
     outline = Array.from(polygon, (v) => new Vector2(at(v, a), at(v, b))),
     triangles = ShapeUtils.triangulateShape(outline, []);
-  if (triangles.length) return triangles.map((t) => t.map((k) => polygon[k]));
+  if (triangles.length === polygon.length - 2)
+    return triangles.map((t) => t.map((k) => polygon[k]));
   return Array.from({ length: polygon.length - 2 }, (_, k) => [
     polygon[0],
     polygon[k + 1],
     polygon[k + 2],
-  ]); // its area is zero
+  ]); // its outline crosses itself, or it has no area
 }
 
 // { faces, simplexOf }: the corners of the triangles of polygons, and the polygon of each
@@ -106,4 +107,3 @@ export function facesOfInverted({ points, simplices }, positions) {
           for (let x = 0; x < 3; ++x) corners.push(positions[3 * simplices[t + c] + x]);
   return corners;
 }
-

@@ -2,9 +2,8 @@
 // What is wrong with a file is an Error with a sentence.
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
-import { cornersOf } from './faces.js';
-
-export const meshFormats = ['off', 'obj', 'ply', 'stl', 'mesh'];
+import { cornersOf, cut } from './faces.js';
+import { rigid } from './motion.js';
 
 const fail = (sentence) => {
   throw new Error(sentence);
@@ -33,22 +32,32 @@ class Words {
   }
 }
 
+// memory and time grow with the square of the number of corners
+const mostCorners = 64;
+
 // The corners of polygons one after the other, and their numbers if they differ from 3.
 function surface(points, polygons) {
   const n = points.length / 3;
   for (const polygon of polygons) {
     if (polygon.length < 3) fail(`a face has ${polygon.length} corners`);
-    for (const v of polygon)
+    polygon.forEach((v, k) => {
       if (!(Number.isInteger(v) && v >= 0 && v < n))
         fail(`a face has the vertex ${v}, but there are ${n} vertices`);
+      if (polygon.indexOf(v) < k) fail(`a face has the vertex ${v} twice`);
+    });
   }
+  const large = polygons.filter((polygon) => polygon.length > mostCorners).length,
+    faces = large
+      ? polygons.flatMap((p) => (p.length > mostCorners ? cut(p, points) : [p]))
+      : polygons;
   return {
     points: Float64Array.from(points),
-    simplices: Int32Array.from(polygons.flat()),
-    corners: polygons.every((polygon) => polygon.length === 3)
+    simplices: Int32Array.from(faces.flat()),
+    corners: faces.every((face) => face.length === 3)
       ? 3
-      : Int32Array.from(polygons, (polygon) => polygon.length),
+      : Int32Array.from(faces, (face) => face.length),
     volume: false,
+    note: large ? `Faces with more than ${mostCorners} corners were cut into triangles: ${large}.` : '',
   };
 }
 
@@ -236,16 +245,18 @@ function reading(name, read) {
   }
 }
 
+const textOf = (bytes) => new TextDecoder().decode(bytes);
+const readers = {
+  off: (bytes) => readOff(textOf(bytes)),
+  obj: (bytes) => readObj(textOf(bytes)),
+  ply: readPly,
+  stl: readStl,
+  mesh: (bytes) => readMedit(textOf(bytes)),
+};
+export const meshFormats = Object.keys(readers);
+
 export function readMesh(name, bytes) {
-  const text = () => new TextDecoder().decode(bytes);
-  const readers = {
-    off: () => readOff(text()),
-    obj: () => readObj(text()),
-    mesh: () => readMedit(text()),
-    ply: () => readPly(bytes),
-    stl: () => readStl(bytes),
-  };
-  const mesh = reading(name, readers[endingOf(name)]);
+  const mesh = reading(name, () => readers[endingOf(name)](bytes));
   if (!mesh.simplices.length) fail(`${name} has no faces.`);
   if (!mesh.points.every(Number.isFinite))
     fail(`${name} has a coordinate that is no finite number.`);
@@ -280,7 +291,7 @@ export function writeMesh(ending, { points, simplices, starts, volume, faces }) 
     lines = (line) => Array.from({ length: m }, (_, f) => line(face(f))).join('\n');
   if (ending === 'obj')
     return (
-      `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n` + `${lines((f) => `f ${from1(f)}`)}\n`
+      `${rows(points, 3, (p) => `v ${p.join(' ')}`)}\n${lines((f) => `f ${from1(f)}`)}\n`
     );
   return (
     `OFF\n${n} ${m} 0\n${rows(points, 3, (p) => p.join(' '))}\n` +
@@ -291,7 +302,7 @@ export function writeMesh(ending, { points, simplices, starts, volume, faces }) 
 // a status for each of n vertices
 export const readSelection = (name, bytes, n) =>
   reading(name, () => {
-    const words = new Words(new TextDecoder().decode(bytes)),
+    const words = new Words(textOf(bytes)),
       count = words.words.length;
     if (count !== n) fail(`it has ${count} statuses, but the shape has ${n} vertices`);
     return Int32Array.from({ length: n }, (_, v) => {
@@ -303,21 +314,24 @@ export const readSelection = (name, bytes, n) =>
 export const writeSelection = (status, comment) =>
   `${comment.replace(/^/gm, '# ')}\n${status.join('\n')}\n`;
 
-// a matrix of four rows for each of n handles
+// matrices of four rows for n handles: one for each, or one for all
 export const readTransforms = (name, bytes, n) =>
   reading(name, () => {
-    const words = new Words(new TextDecoder().decode(bytes)),
-      count = words.words.length;
-    if (count !== 16 * n)
-      fail(`it has ${count} numbers, but ${n} handles with vertices need ${16 * n}`);
-    return Array.from({ length: n }, () => {
-      const matrix = Array.from({ length: 16 }, (_, i) => words.number(`the number ${i + 1}`));
-      return matrix.slice(12).join() === '0,0,0,1'
-        ? matrix
-        : fail('the last row of a transform is not 0 0 0 1');
-    });
+    const words = new Words(textOf(bytes)),
+      numbers = Array.from(words.words, () => words.number('an entry')),
+      count = numbers.length / 16;
+    if (!n) fail('there is no handle with vertices');
+    if (count !== 1 && count !== n)
+      fail(`it has ${numbers.length} numbers; handles need 16 each, and there are ${n}`);
+    return Array.from(
+      { length: n },
+      (_, k) =>
+        rigid(count === 1 ? numbers : numbers.slice(16 * k, 16 * k + 16)) ??
+        fail('it has a matrix that is no rigid motion, as this page needs'),
+    );
   });
 
+// a matrix of four rows for each handle
 export const writeTransforms = (matrices) =>
   matrices
     .map((m) => [0, 4, 8, 12].map((r) => Array.from(m.slice(r, r + 4)).join(' ')).join('\n'))

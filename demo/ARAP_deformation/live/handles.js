@@ -52,13 +52,13 @@ export function placeOf({ simplex, coordinates }, points) {
 
 export const isThere = (handle) => handle.size > 0 || !!handle.point;
 
-// the numbers of those that files know
+// the numbers of the handles that have vertices
 export const handlesWithVertices = () =>
   [...page.shape.handles.keys()].filter((k) => page.shape.handles[k].size > 0);
 
 // the number of the first handle that is not there
 export const nextHandle = () =>
-  Array.from({ length: 99 }, (_, k) => k).find(
+  Array.from({ length: page.shape.handles.length + 1 }, (_, k) => k).find(
     (k) => !page.shape.handles[k] || !isThere(page.shape.handles[k]),
   );
 

@@ -23,7 +23,7 @@ export const complain = (error) => say(sentence(error), true);
 
 let work = 0;
 
-// `blocks`: f does not let the page draw, which therefore happens before
+// `blocks`: f keeps the page from drawing, so it is drawn first
 export async function busy(what, f, blocks = false) {
   ++work;
   $('busy').textContent = what;

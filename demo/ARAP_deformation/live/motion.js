@@ -19,6 +19,16 @@ export function matrixOf(pivot, q, place) {
   return m.transpose().toArray(); // row by row
 }
 
+// a matrix without its rounding errors; null if it is no rigid motion
+export function rigid(matrix) {
+  const m = new THREE.Matrix4().set(...matrix),
+    p = new THREE.Vector3(),
+    q = new THREE.Quaternion();
+  m.decompose(p, q, new THREE.Vector3());
+  const motion = matrixOf([0, 0, 0], q.normalize(), p);
+  return motion.every((x, i) => Math.abs(x - matrix[i]) < 1e-3) ? motion : null;
+}
+
 // of the box around points
 export const diagonalOf = (points) =>
   new THREE.Box3().setFromArray(points).getSize(new THREE.Vector3()).length();

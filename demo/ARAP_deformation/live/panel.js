@@ -11,10 +11,11 @@ import {
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
 import { choose, handlesMoved, isThere, nextHandle } from './handles.js';
+import { formats, openFiles } from './importing.js';
 import { closeHelp, say } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
-import { openFiles, openModel } from './opening.js';
+import { openModel } from './opening.js';
 import { setTool } from './painting.js';
 import { addKey, film, play } from './playing.js';
 import { saves } from './saving.js';
@@ -40,12 +41,12 @@ const button = (text, press) =>
 
 const mark = (b, isOn) => b.setAttribute('aria-pressed', isOn);
 
-// Shows a list as buttons. Those that are there stay, so that none loses the focus.
+// Shows a list as buttons. Those that are there stay, and with them the focus.
 function showButtons(parent, list) {
   while (parent.children.length > list.length) parent.lastChild.remove();
   list.forEach(({ content, isOn, ...rest }, k) => {
     const b = Object.assign(parent.children[k] ?? parent.appendChild(button()), rest);
-    if (b.shown !== content) b.innerHTML = b.shown = content;
+    if (b.content !== content) b.innerHTML = b.content = content;
     if (isOn !== undefined) mark(b, isOn);
   });
 }
@@ -182,6 +183,7 @@ export const actions = {
 
 for (const [id, act] of Object.entries(actions)) $(id).onclick = act;
 $('model').onchange = () => openModel($('model').value);
+$('file').accept = formats.map((ending) => `.${ending}`).join();
 $('file').onchange = () => {
   openFiles($('file').files);
   $('file').value = '';

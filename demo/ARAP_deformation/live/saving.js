@@ -5,7 +5,7 @@ import { handlesWithVertices } from './handles.js';
 import { complain, say } from './messages.js';
 import { diagonalOf, identity } from './motion.js';
 import { options } from './options.js';
-import { $, engine, page, view } from './state.js';
+import { engine, page, view } from './state.js';
 
 export function save(name, content) {
   const url = URL.createObjectURL(
@@ -14,6 +14,11 @@ export function save(name, content) {
   Object.assign(document.createElement('a'), { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
   say(`${name} was saved.`);
+}
+
+function saveWork(name, content) {
+  save(name, content);
+  page.isSaved = true;
 }
 
 // the handles of the files, which are numbered without gaps and have vertices
@@ -54,12 +59,12 @@ export function commandLine() {
 async function saveMesh(ending, which, suffix) {
   const { shape } = page; // another one may be opened meanwhile
   try {
-    const answer = await engine.call('points');
-    save(
+    const answer = await engine.call('points'),
+      isWork = which === 'points' && shape === page.shape;
+    (isWork ? saveWork : save)(
       `${shape.name}${suffix}.${ending}`,
       writeMesh(ending, { ...shape, points: answer[which] }),
     );
-    page.isSaved = true;
   } catch (error) {
     complain(error);
   }
@@ -74,7 +79,7 @@ export const saves = {
   Transforms: () => {
     const { numbers } = filed();
     if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
-    save(
+    saveWork(
       `${page.shape.name}.def`,
       writeTransforms(numbers.map((k) => page.shape.handles[k].matrix)),
     );
@@ -84,7 +89,7 @@ export const saves = {
     if (!page.keys.length)
       return say('There is no key frame: move a handle, and choose Add.', true);
     page.keys.forEach((key, i) =>
-      save(
+      saveWork(
         `${page.shape.name}-${i + 1}.def`,
         writeTransforms(numbers.map((k) => key[k] ?? identity())),
       ),
@@ -103,5 +108,5 @@ export const saves = {
 
 // A model is soon deformed again; work on a file is not.
 addEventListener('beforeunload', (event) => {
-  if (!page.isSaved && !$('model').value) event.preventDefault();
+  if (!page.isSaved && !page.shape?.model) event.preventDefault();
 });

@@ -21,8 +21,8 @@ export const engine = new Engine(...window.arapParts());
 
 export const page = {
   // what is open: points are those of the rest shape
-  // { name, points, simplices, starts, volume, faces, simplexOf, diagonal, status, handles,
-  //   stiffness }
+  // { name, model, points, simplices, starts, volume, weights, faces, simplexOf, diagonal, status,
+  //   fixed, handles, stiffness }
   shape: null,
   tool: 'grab',
   paints: FIXED,

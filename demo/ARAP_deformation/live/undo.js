@@ -73,22 +73,23 @@ export async function commitNow() {
   if (timer) await commit();
 }
 
-// Runs what changes the shape, which then follows. What fails is undone.
-export const changing = (f) =>
-  inTurn(async () => {
-    try {
-      await f();
-      page.failed = '';
-      page.isSettled = false;
-      page.hasNewTargets = page.shape.handles.length > 0;
-      draw();
-      await commit();
-      pump();
-    } catch (error) {
-      complain(error);
-      await goTo(now);
-    }
-  });
+// Runs what changes the shape, which then follows. What fails is undone. For what has its turn.
+export async function change(f) {
+  try {
+    await f();
+    page.failed = '';
+    page.isSettled = false;
+    page.hasNewTargets = page.shape.handles.length > 0;
+    draw();
+    await commit();
+    pump();
+  } catch (error) {
+    complain(error);
+    await goTo(now);
+  }
+}
+
+export const changing = (f) => inTurn(() => change(f));
 
 async function goTo(index) {
   if (index < 0 || index >= past.length || page.dragging || page.stroke) return;

@@ -125,7 +125,7 @@ export class View {
   resize() {
     const { clientWidth: w, clientHeight: h } = this.container;
     if (!w || !h) return;
-    const ratio = Math.min(devicePixelRatio, 2); // another one where the page is zoomed
+    const ratio = Math.min(devicePixelRatio, 2); // it changes when the page is zoomed
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h);
     this.marks.material.size = 15 * ratio;

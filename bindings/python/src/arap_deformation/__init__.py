@@ -343,7 +343,7 @@ class Deformation:
 
     def preprocess(self) -> str:
         """Prepares what the next call of deform() needs, which it else does itself. Returns a
-        sentence, which tells also what unconstrained components there are. Not for time steps,
+        message, which tells also what unconstrained components there are. Not for time steps,
         which need another factorization."""
         return str(self._session.preprocess())
 

@@ -232,7 +232,7 @@ const steps = {
     for (const [outline, area] of [
       [[0, 0, 2, 0, 0.5, 0.5, 0, 2], 1],
       [[0, 0, 2, 0, 2, 1, 1, 1, 1, 2, 0, 2], 3],
-      [[0, 0, 1, 0, 2, 0], 0],
+      [[0, 0, 1, 0, 2, 0, 3, 0], 0],
     ])
       for (const axis of [0, 1, 2])
         for (const turned of [false, true]) {
@@ -256,19 +256,41 @@ const steps = {
           assert(areas.every((a) => (turned ? -a : a) >= 0));
           assert.equal(faces.length, 3 * (n - 2));
         }
+    const crossing = Float64Array.of(0, 0, 0, 2, 2, 0, 2, 0, 0, 0, 1, 0),
+      cut = { points: crossing, simplices: Int32Array.of(0, 1, 2, 3), starts: startsOf([0, 0, 0, 0], 4) };
+    assert.equal(trianglesOf(cut).faces.length, 6, 'all of a face that crosses itself');
+    // more corners than are good for the engine; and faces that are none
+    const many = Array.from({ length: 65 }, (_, k) => `v ${Math.cos(k / 11)} ${Math.sin(k / 11)} 0\n`),
+      face = (n) => `f ${Array.from({ length: n }, (_, k) => k + 1).join(' ')}\n`,
+      large = read('a.obj', many.join('') + face(65) + face(64));
+    assert.deepEqual([...large.corners], [...Array(63).fill(3), 64]);
+    assert.match(large.note, /were cut into triangles: 1\./);
+    assert.throws(() => read('a.obj', `${vertices}f 1 2 1`), /a\.obj .* the vertex 0 twice/);
     // selections and transforms
     const bytes = (text) => new TextEncoder().encode(text).buffer;
     assert.deepEqual([...readSelection('a.sel', bytes('# all\n0\n1\n2 # a handle\n'), 3)], [0, 1, 2]);
     assert.throws(() => readSelection('a.sel', bytes('0\n1\n'), 3), /a\.sel .* 2 statuses/);
     assert.throws(() => readSelection('a.sel', bytes('0 -1 2'), 3), /vertex 1 is -1/);
     assert.throws(() => readSelection('a.sel', bytes('0 1 5'), 3), /vertex 2 is 5/);
-    const lines = '1 0 0 4\n0 1 0 5\n0 0 1 6\n';
-    assert.deepEqual(readTransforms('a.def', bytes(`${lines}0 0 0 1`), 1), [
-      [1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 0, 0, 0, 1],
-    ]);
-    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 1`), 2), /a\.def .* need 32/);
-    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 2`), 1), /last row/);
-    assert.throws(() => readTransforms('a.def', bytes(`${lines}0 0 0 x`), 1), /x, which is no number/);
+    const lines = '1 0 0 4\n0 1 0 5\n0 0 1 6\n',
+      shift = [1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 0, 0, 0, 1],
+      transforms = (text, n) => readTransforms('a.def', bytes(text), n);
+    assert.deepEqual(transforms(`${lines}0 0 0 1`, 1), [shift]);
+    assert.deepEqual(transforms(`${lines}0 0 0 1`, 2), [shift, shift], 'one for all');
+    const rounded = '0.6 -0.8 0 0\n0.7999 0.6001 0 0\n0 0 1 0\n0 0 0 1\n',
+      [a, b] = transforms(`${lines}0 0 0 1\n${rounded}`, 2);
+    assert.deepEqual(a, shift);
+    assert(Math.abs(Math.hypot(b[0], b[4]) - 1) < 1e-12, 'a rotation');
+    for (const [text, n, why] of [
+      [`${lines}0 0 0 1`, 0, /a\.def .* no handle/],
+      [`${lines}0 0 0 1\n${rounded}`, 3, /a\.def .* 32 numbers/],
+      [`${lines}0 0 0 2`, 1, /no rigid motion/],
+      ['2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1', 1, /no rigid motion/], // stretches
+      ['-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1', 1, /no rigid motion/], // mirrors
+      ['0 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1', 1, /no rigid motion/], // flattens
+      [`${lines}0 0 0 x`, 1, /x, which is no number/],
+    ])
+      assert.throws(() => transforms(text, n), why);
     // polygons of PLY files
     const header = (format) =>
       `ply\nformat ${format} 1.0\ncomment end_header\nelement vertex 5\nproperty float x\n` +
@@ -475,8 +497,8 @@ const steps = {
     // work that is not saved is not lost without a question
     const asked = new Promise((done) => page.once('dialog', done));
     const leaving = page.goto('about:blank').catch(() => {});
-    const question = await asked;
-    assert.equal(question.type(), 'beforeunload');
+    const question = await Promise.race([asked, leaving]);
+    assert.equal(question?.type(), 'beforeunload');
     await question.dismiss();
     await leaving;
     assert.equal((await settled()).name, 'my_bar');
@@ -953,13 +975,31 @@ const steps = {
     for (const pose of poses) await downloaded(pose);
     // several files of transforms are key frames
     await openModel('cactus');
-    await openFile(...poses);
-    await page.waitForFunction(() => window.arap.state().keys === 2);
-    const { handles } = await settled();
-    assert.deepEqual(
-      handles[0].matrix,
-      readFileSync(poses[1], 'utf8').trim().split(/\s+/).map(Number),
+    writeFileSync(join(files, 'cactus-10.def'), '1 0 0 0\n0 1 0 0\n0 0 1 0.25\n0 0 0 1\n');
+    await openFile(join(files, 'cactus-10.def'), poses[1], poses[0]);
+    await page.waitForFunction(() => window.arap.state().keys === 3);
+    const ofHandle = async () => (await settled()).handles[0].matrix;
+    assert.equal((await ofHandle())[11], 0.25);
+    await page.click('#keys button:nth-child(2)');
+    assert(
+      largestDifference(
+        await ofHandle(),
+        readFileSync(poses[1], 'utf8').trim().split(/\s+/).map(Number),
+      ) < 1e-12,
     );
+    // a selection that is opened while they play
+    const { status } = models.cactus[1]();
+    writeFileSync(join(files, 'cactus.sel'), [...status].map((s, v) => (s === 2 ? 5 + 2 * (v % 2) : s)).join('\n'));
+    await page.click('#play');
+    await rest(300);
+    await openFile(join(files, 'cactus.sel'));
+    await page.waitForFunction(() => window.arap.state().handles.length === 2);
+    const now = await settled();
+    assert.deepEqual([now.keys, now.handles.length], [0, 2], 'numbered without gaps');
+    assert.equal(await page.$eval('#play', (b) => b.textContent), 'Play');
+    await page.click('#undo');
+    const before = await settled();
+    assert.deepEqual([before.keys, before.handles.length], [3, 1]);
   },
 
   async 'rest shape from now'() {
@@ -1101,12 +1141,18 @@ const steps = {
     writeFileSync(path('def'), turn);
     await openFile(path('def'), path('off'), path('sel'));
     await page.waitForFunction(() => window.arap.state()?.name === 'quads');
+    await page.waitForFunction(() => /Opened: quads\.sel, quads\.def\./.test(window.arap.state().message));
     await page.waitForFunction(() => window.arap.state().energy > 1e-3);
     const now = await settled();
     assert.equal(now.simplices, quads.length);
     assert.match(await page.$eval('#name', (e) => e.textContent), /polygons$/);
-    assert.match(now.message, /quads\.def was opened/);
-    assert.deepEqual(now.handles[0].matrix, turn.trim().split(/\s+/).map(Number));
+    assert(
+      largestDifference(now.handles[0].matrix, turn.trim().split(/\s+/).map(Number)) < 1e-12,
+    );
+    assert(
+      await page.evaluate(() => dispatchEvent(new Event('beforeunload', { cancelable: true }))),
+      'nothing is lost yet',
+    );
     assert((await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6);
     await shot('22_polygons');
     // what is saved has the polygons, and is what the command makes of these files
@@ -1134,12 +1180,24 @@ const steps = {
     await dragHandle(60, 0, 2);
     await page.mouse.up();
     assert((await settled()).energy > 1.01 * energy, 'it moves');
-    // a selection of another shape changes nothing
+    // a selection of another shape changes nothing, nor do transforms that come with it
+    const before = await state();
     writeFileSync(join(files, 'other.sel'), '0\n1\n');
-    await openFile(join(files, 'other.sel'));
-    await page.waitForFunction(() => /2 statuses/.test(window.arap.state().message));
-    assert.equal((await settled()).handles.length, 2);
+    await openFile(join(files, 'other.sel'), path('def'));
+    await page.waitForFunction(() => /other\.sel .* 2 statuses/.test(window.arap.state().message));
+    const left = await settled();
+    assert.deepEqual([left.undo, left.handles], [before.undo, before.handles]);
     await page.keyboard.press('Escape');
+    // a selection while a handle is dragged: what was a point is gone
+    await dragHandle(20, 20, 2);
+    await openFile(path('sel'));
+    await page.waitForFunction(() => window.arap.state().handles.length === 1);
+    await page.mouse.move(300, 300);
+    await page.mouse.up();
+    const undone = (await settled()).undo;
+    await page.click('#undo');
+    const again = await settled();
+    assert.deepEqual([again.undo, again.handles.length], [undone - 1, 2]);
   },
 
   async errors() {
