@@ -43,6 +43,16 @@ void require(bool condition, const std::string& sentence)
     throw std::invalid_argument(sentence);
 }
 
+// a property map that writes points row by row
+struct Written_points
+{
+  double* rows;
+  friend void put(const Written_points& map, std::size_t v, const Point& p)
+  {
+    std::copy(p.begin(), p.end(), map.rows + 3 * v);
+  }
+};
+
 Points points_of(Numbers rows)
 {
   require(rows.columns == 3, "points need three coordinates, not " + std::to_string(rows.columns));
@@ -594,10 +604,15 @@ private:
       throw Deformation_error(report);
     return report;
   }
-  static auto visitor_of(const Visitor& visitor)
+  auto visitor_of(const Visitor& visitor) const
   {
-    return [&visitor](const typename Deformation::Iterate& iterate) {
-      return visitor ? visitor(iterate.iteration(), iterate.energy()) : Visitor_action::proceed;
+    return [this, &visitor](const typename Deformation::Iterate& iterate) {
+      const auto put_points = [&](double* points) {
+        std::copy_n(this->points(), 3 * number_of_vertices(), points); // not all are in the region
+        iterate.put_points(Written_points{points});
+      };
+      return visitor ? visitor(iterate.iteration(), iterate.energy(), put_points)
+                     : Visitor_action::proceed;
     };
   }
 

@@ -70,8 +70,10 @@ struct Place // in a face or tetrahedron
 class Array_deformation
 {
 public:
-  // returns what to do next, for the number and the energy of an iterate
-  using Visitor = std::function<Visitor_action(unsigned int, double)>;
+  // returns what to do next, for the number and the energy of an iterate, and a function that
+  // writes its points, n x 3
+  using Put_points = std::function<void(double*)>;
+  using Visitor = std::function<Visitor_action(unsigned int, double, const Put_points&)>;
 
   virtual ~Array_deformation() = default;
 

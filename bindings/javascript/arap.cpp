@@ -21,6 +21,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace CGAL::ARAP;
@@ -130,9 +131,15 @@ EM_JS(int, arap_visit, (unsigned int iteration, double energy), {
 
 namespace {
 
-Visitor_action visit(unsigned int iteration, double energy)
+const Array_deformation::Put_points* put_iterate = nullptr; // for the visitor that is called
+
+Visitor_action visit(unsigned int iteration, double energy,
+                     const Array_deformation::Put_points& put_points)
 {
-  return static_cast<Visitor_action>(arap_visit(iteration, energy));
+  const auto of_outer_run = std::exchange(put_iterate, &put_points);
+  const auto action = static_cast<Visitor_action>(arap_visit(iteration, energy));
+  put_iterate = of_outer_run;
+  return action;
 }
 
 Array_deformation::Visitor visitor(bool visits)
@@ -171,6 +178,15 @@ ARAP_EXPORT bool arap_set_points(Array_deformation* d, const double* points, std
   return answer_of([&] { d->set_points({points, rows, 3}); });
 }
 ARAP_EXPORT const double* arap_rest_points(const Array_deformation* d) { return d->rest_points(); }
+// for the visitor that is called; null if it failed
+ARAP_EXPORT const double* arap_iterate_points(const Array_deformation* d)
+{
+  const bool is_put = answer_of([&] {
+    answer.numbers.resize(3 * d->number_of_vertices());
+    (*put_iterate)(answer.numbers.data());
+  });
+  return is_put ? answer.numbers.data() : nullptr;
+}
 
 // texts: a name, its value, the next name, ...
 ARAP_EXPORT bool arap_set_options(Array_deformation* d, const char* texts, std::size_t n)

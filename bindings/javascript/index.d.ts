@@ -88,13 +88,21 @@ export interface Run {
   visitor?: Visitor;
 }
 
+/** Copies points, n x 3, into an array or a new one. */
+export interface PointsCopy {
+  (): Float64Array;
+  <T extends Float64Array | Float32Array>(out: T): T;
+}
+
 /**
  * Called with the initial guess, as iteration 0, and after each iteration; may end the run, or
- * cancel it, which leaves all as it was. What it throws is thrown.
+ * cancel it, which leaves all as it was. What it throws is thrown. `points` is for a preview; it has the
+ * points of the iterate, and cannot be called later.
  */
 export type Visitor = (
   iteration: number,
   energy: number,
+  points: PointsCopy,
 ) => 'proceed' | 'stop' | 'cancel' | null | void;
 
 /** A time step of implicit Euler, in any consistent units. */

@@ -292,7 +292,8 @@ export async function load({ wasmBinary } = {}) {
       withCopies([i, x], (ip, xp) => this.#call(name, ip, i.length, xp, rows));
     }
     #copy(name, out) {
-      const view = heapNumbers(module[name](this.#this()), 3 * this.numberOfVertices);
+      const pointer = module[name](this.#this()) || fail(),
+        view = heapNumbers(pointer, 3 * this.numberOfVertices);
       if (!out) return view.slice();
       if (!(out instanceof Float64Array || out instanceof Float32Array))
         throw new TypeError('points need a Float64Array or a Float32Array');
@@ -483,15 +484,23 @@ export async function load({ wasmBinary } = {}) {
     // cancels the run, and is thrown.
     #run(visitor, f) {
       let thrown = null;
-      if (visitor)
-        visitors.push((iteration, energy) => {
-          try {
-            return actionOf(visitor(iteration, energy));
-          } catch (error) {
-            thrown = { error };
-            return 2;
-          }
-        });
+      const visit = (iteration, energy) => {
+        let isCalled = true;
+        const points = (out) => {
+          if (!isCalled || visitors.at(-1) !== visit)
+            throw new ArapError('misuse', 'the visitor has returned: its points are gone');
+          return this.#copy('_arap_iterate_points', out);
+        };
+        try {
+          return actionOf(visitor(iteration, energy, points));
+        } catch (error) {
+          thrown = { error };
+          return 2;
+        } finally {
+          isCalled = false;
+        }
+      };
+      if (visitor) visitors.push(visit);
       ++this.#runs;
       let report;
       try {

@@ -183,9 +183,12 @@ private:
 class Python_visitor
 {
 public:
-  explicit Python_visitor(const py::object& function) : m_function(&function) {}
+  Python_visitor(const py::object& function, const Array_deformation& deformation)
+    : m_function(&function), m_deformation(&deformation)
+  {}
 
-  Visitor_action operator()(unsigned int iteration, double energy)
+  Visitor_action operator()(unsigned int iteration, double energy,
+                            const Array_deformation::Put_points& put_points)
   {
     if(Long_work::is_ending())
       return Visitor_action::cancel;
@@ -196,7 +199,10 @@ public:
     const py::gil_scoped_acquire acquire;
     if(PyErr_CheckSignals() != 0)
       throw py::error_already_set();
-    const py::object answer = m_function->is_none() ? py::none() : (*m_function)(iteration, energy);
+    const Iterate_points points(put_points, m_deformation->number_of_vertices());
+    const py::object answer = m_function->is_none()
+                                ? py::none()
+                                : (*m_function)(iteration, energy, points.function());
     const std::string name = py::str(answer);
     if(answer.is_none() || name == "proceed")
       return Visitor_action::proceed;
@@ -207,7 +213,35 @@ public:
   }
 
 private:
+  // a function that returns the points of an iterate, as long as this object lives
+  class Iterate_points
+  {
+  public:
+    Iterate_points(const Array_deformation::Put_points& put, std::size_t n)
+      : m_put(std::make_shared<const Array_deformation::Put_points*>(&put)), m_n(n)
+    {}
+    ~Iterate_points() { *m_put = nullptr; }
+    Iterate_points(const Iterate_points&) = delete;
+    Iterate_points& operator=(const Iterate_points&) = delete;
+
+    py::cpp_function function() const
+    {
+      return {[put = m_put, n = py::ssize_t(m_n)] {
+        if(*put == nullptr)
+          throw std::invalid_argument("the visitor has returned: its points are gone");
+        py::array_t<double> points({n, py::ssize_t(3)});
+        (**put)(points.mutable_data());
+        return points;
+      }};
+    }
+
+  private:
+    std::shared_ptr<const Array_deformation::Put_points*> m_put;
+    std::size_t m_n;
+  };
+
   const py::object* m_function;
+  const Array_deformation* m_deformation;
   std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
 };
 
@@ -301,7 +335,7 @@ py::dict deform(Session& session, const Array_deformation::Named_options& values
 {
   return result(session.at_work([&](Array_deformation& d) {
     const Options options = d.options_with(values);
-    return d.deform(options.iterations, options.tolerance, Python_visitor(visitor));
+    return d.deform(options.iterations, options.tolerance, Python_visitor(visitor, d));
   }, true));
 }
 
@@ -311,7 +345,7 @@ py::dict advance(Session& session, double time_step, double density, double modu
   const Dynamics dynamics{time_step, density, modulus, damping, acceleration};
   const auto f = rows(forces);
   return result(session.at_work([&](Array_deformation& d) {
-    return d.advance(dynamics, f, Python_visitor(visitor));
+    return d.advance(dynamics, f, Python_visitor(visitor, d));
   }, true));
 }
 

@@ -270,6 +270,38 @@ let firstIterate = NaN;
 const stopped = session.deform({ tolerance: 0, visitor: (k) => ((firstIterate = k), 'stop') });
 assert.deepEqual([stopped.status, firstIterate], ['stopped', 0]);
 assert.equal(session.deform({ tolerance: 0, visitor: () => 'cancel' }).status, 'cancelled');
+// the points of iterates, of a part of a shape, and in a run within a run
+const sheet = models.sheet[1](),
+  part = arap.session(sheet.points, sheet.simplices);
+part.setRegion([...sheet.status.keys()].filter((v) => v % 71 < 60));
+const lifted = [...sheet.status.keys()].filter((v) => sheet.status[v] === 2);
+part.insertHandles(lifted);
+part.transform(lifted, [1, 0, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0.3]);
+const iterates = [];
+part.deform({
+  iterations: 4,
+  tolerance: 0,
+  visitor(iteration, energy, ofOuter) {
+    iterates.push([ofOuter(), ofOuter(new Float32Array(sheet.points.length)), ofOuter]);
+    refuses(() => ofOuter([0]), TypeError, /Float64Array/);
+    refuses(() => ofOuter(new Float64Array(4)), RangeError, /typed array of/);
+    session.deform({
+      iterations: 0,
+      visitor(k, e, ofInner) {
+        assert.deepEqual(ofInner(), session.points());
+        refuses(ofOuter, ArapError, /points are gone/);
+      },
+    });
+    assert.deepEqual(ofOuter(), iterates.at(-1)[0]);
+  },
+});
+assert.equal(iterates.length, 5);
+assert.deepEqual(iterates.at(-1)[0], part.points());
+assert.deepEqual(iterates.at(-1)[1], Float32Array.from(part.points()));
+assert.notDeepEqual(iterates[1][0], part.points());
+assert.deepEqual(iterates[1][0].slice(-3), sheet.points.slice(-3)); // outside the region
+refuses(iterates[0][2], ArapError, /points are gone/);
+part.dispose();
 
 // a run has the options of the session, unless it is given others
 session.setOptions({ iterations: 2, tolerance: 0, verify_minimum: false, cells: undefined });

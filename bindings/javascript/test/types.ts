@@ -16,7 +16,8 @@ const simplices: (number | undefined)[] = session.locateAll([]).map((place) => p
 const report: Report = session.deform({
   iterations: 3,
   tolerance: 0,
-  visitor: (_, energy) => (energy > 1 ? 'stop' : undefined),
+  visitor: (_, energy, points) =>
+    energy > 1 || points(new Float32Array(9))[0] > points()[0] ? 'stop' : undefined,
 });
 const status: Status = report.status;
 const end: 'unknown' | 'minimum' | 'flat' | 'undecided' = report.end;

@@ -478,13 +478,18 @@ def test_velocities():
 def test_visitors():
     d = bent()
     before, seen = d.vertices.copy(), []
-    report = d.deform(visitor=lambda k, energy: seen.append((k, energy)))
-    assert [e for _, e in seen] == list(report.energy)
-    assert [k for k, _ in seen] == list(range(report.iterations + 1))
+    report = d.deform(visitor=lambda k, energy, points: seen.append((k, energy, points(), points)))
+    assert [e for _, e, *_ in seen] == list(report.energy)
+    assert [k for k, *_ in seen] == list(range(report.iterations + 1))
+    *_, last, ask_later = seen[-1]
+    assert np.array_equal(last, d.vertices) and last.flags.owndata
+    assert not np.array_equal(seen[0][2], before) and not np.array_equal(seen[0][2], last)
+    with pytest.raises(ValueError, match="the visitor has returned"):
+        ask_later()
     d = bent()
-    assert not d.deform(visitor=lambda k, _: "cancel" if k == 3 else None)
+    assert not d.deform(visitor=lambda k, *_: "cancel" if k == 3 else None)
 
-    def fails(k, _):
+    def fails(k, *_):
         if k == 2:
             raise KeyError("from the visitor")
     for visitor, error, match in ((fails, KeyError, "from the visitor"), (3, TypeError, "callable"),
@@ -494,7 +499,7 @@ def test_visitors():
         with pytest.raises(error, match=match):
             d.deform(visitor=visitor)
         assert np.array_equal(d.vertices, before)
-    report = d.deform(visitor=lambda k, _: "stop" if k == 3 else "proceed")
+    report = d.deform(visitor=lambda k, *_: "stop" if k == 3 else "proceed")
     assert report and report.status == "stopped" and report.iterations == 3
 
 
@@ -514,7 +519,7 @@ def test_two_threads_on_one_object():
     d, alone = bent(minimizer="local_global"), bent(minimizer="local_global")
     go_on, reports = threading.Event(), []
     thread = threading.Thread(daemon=True, target=lambda: reports.append(
-        d.deform(20, 0, lambda k, _: None if k < 10 or go_on.wait() else None)))
+        d.deform(20, 0, lambda k, *_: None if k < 10 or go_on.wait() else None)))
     thread.start()
     try:
         assert wait_until_at_work(d)
@@ -546,7 +551,7 @@ threading.Thread(target=work, args=(%s,), daemon=True).start()
 begun.wait(%s)
 print("the end")
 """
-    for visitor, seconds in (("lambda k, _: begun.set()", 60), ("None", 0.3)):
+    for visitor, seconds in (("lambda *_: begun.set()", 60), ("None", 0.3)):
         run = subprocess.run([sys.executable, "-c", script % (visitor, seconds)], timeout=120,
                              capture_output=True, text=True)
         assert (run.returncode, run.stdout) == (0, "the end\n"), run.stderr

@@ -21,7 +21,7 @@ __all__ = ["deform", "Deformation", "DeformationError", "Place", "Quality", "Rep
            "StepReport"]
 
 Floats = NDArray[np.float64]
-Visitor = Callable[[int, float], Optional[str]]
+Visitor = Callable[[int, float, Callable[[], Floats]], Optional[str]]
 Targets = Union[Mapping[int, ArrayLike], Tuple[ArrayLike, ArrayLike]]
 
 
@@ -350,8 +350,9 @@ class Deformation:
     def deform(self, iterations: Optional[int] = None, tolerance: Optional[float] = None,
                visitor: Optional[Visitor] = None) -> Report:
         """Moves the handles to their targets, and the rest with them. The visitor is called with
-        the number and the energy of each iterate; it may return 'stop', to keep it, or 'cancel'.
-        If it raises an exception, or is interrupted, nothing has changed."""
+        the number and the energy of each iterate, and a function that returns a copy of its
+        vertices (n, 3), for a preview; it may return 'stop', to keep the iterate, or 'cancel'. If
+        it raises an exception, or is interrupted, nothing has changed."""
         options = {"iterations": iterations, "tolerance": tolerance}
         given = {name: _text(number) for name, number in options.items() if number is not None}
         return Report(**self._session.deform(given, visitor))
