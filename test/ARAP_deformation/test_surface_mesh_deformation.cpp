@@ -289,6 +289,8 @@ public:
   {
     while(m_ours->roi_vertices().empty() || !m_ours->preprocess())
     {
+      CHECK(m_ours->roi_vertices().empty() ||
+            m_ours->outcome().status == CGAL::ARAP::Status::no_fixed_vertex);
       const std::size_t k = below(m_size);
       same([k](auto& side) { return side->insert_control_vertex(side.vertex(k)); });
     }
@@ -523,6 +525,25 @@ void test_iterates()
         CHECK_AT_MOST((pair.ours().point(v) - many_runs.ours().point(v)).norm(),
                       1e-12 * pair.diameter());
     }
+    many_runs.deform(2, std::nan("")); // is no tolerance
+    many_runs.both([](auto& side) { side->set_sre_arap_alpha(3); });
+    many_runs.deform(2, 0);
+    many_runs.same([](auto& side) { return side->iterations(); });
+    many_runs.same([](auto& side) { return side->tolerance(); });
+    for(bool are_set : {false, true})
+    {
+      Pair pair(shape);
+      prepare_both(pair, shape);
+      pair.both([&](auto& side) {
+        if(are_set)
+        {
+          side->set_iterations(7);
+          side->set_tolerance(0.02);
+        }
+        side->deform();
+      });
+      pair.compare();
+    }
   }
 }
 
@@ -549,6 +570,38 @@ void test_returns()
   }
 }
 
+// A new rest shape leaves the solution alone: targets that no run has reached, and what others have
+// not moved.
+template <typename Pair>
+void test_overwritten()
+{
+  for(const Shape& shape : shapes())
+  {
+    test_case() = "overwritten, " + shape.name;
+    const Scenario s = scenario(shape, 0.8);
+    Pair pair(shape);
+    pair.both([&](auto& side) { prepare(*side.operator->(), s, side.all_vertices()); });
+    pair.deform(3, 0);
+    const std::vector<std::size_t> controls = pair.controls();
+    const std::size_t erased = controls.front();
+    const std::size_t moved = static_cast<std::size_t>(
+      std::find(s.selection.begin(), s.selection.end(), 1) - s.selection.begin());
+    const Eigen::Vector3d p = random_vector(pair.diameter()), q = random_vector(pair.diameter());
+    pair.both([&](auto& side) {
+      side.set_target(erased, p);
+      side->erase_control_vertex(side.vertex(erased));
+      side.set_point(moved, q);
+      side->overwrite_initial_geometry();
+    });
+    pair.deform(0, 0);
+    CHECK_AT_MOST((pair.ours().point(erased) - p).norm(), 0.0);
+    CHECK((pair.ours().point(moved) - q).norm() > 0);
+    pair.both([&](auto& side) { side->insert_control_vertex(side.vertex(erased)); });
+    pair.deform(2, 0);
+    CHECK_AT_MOST((pair.ours().point(erased) - p).norm(), 0.0);
+  }
+}
+
 // The rest shape is that of the first use of a vertex.
 template <typename Pair>
 void test_moved_points()
@@ -568,6 +621,7 @@ void test_moved_points()
       for(std::size_t k = 0; k < shape.points.size(); ++k)
         side.set_point(k, Eigen::Vector3d(1.5 * shape.points[k] + Eigen::Vector3d(1, 2, 3)));
     });
+    pair.compare(); // targets, too
     pair.tie();
     const std::vector<std::size_t> controls = pair.controls();
     for(std::size_t k : std::set<std::size_t>{controls.front(), controls.back()})
@@ -588,10 +642,20 @@ double uniform_weight(Mesh::Halfedge_index, Mesh&, Mesh::Property_map<Mesh::Vert
   return 1;
 }
 
-void test_function_as_weight()
+// a function object that indexes the point map
+struct Length_weight
+{
+  template <typename Points>
+  double operator()(Mesh::Halfedge_index h, Mesh& mesh, const Points& points) const
+  {
+    return CGAL::squared_distance(points[mesh.source(h)], points[mesh.target(h)]);
+  }
+};
+
+template <typename Weight>
+void test_function_as_weight(const Weight& weight)
 {
   test_case() = "function as weight";
-  using Weight = decltype(&uniform_weight);
   Mesh mesh = make_mesh<Mesh>(shapes()[0]), other = mesh;
   const auto deformed = [](auto& deformation, Mesh& m) {
     prepare(deformation, scenario(shapes()[0], 0.8), all_vertices(m));
@@ -600,10 +664,10 @@ void test_function_as_weight()
   };
   Our_class<Mesh, CGAL::ORIGINAL_ARAP, Weight> ours(
     mesh, get(boost::vertex_index, mesh), get(boost::halfedge_index, mesh),
-    get(CGAL::vertex_point, mesh), &uniform_weight);
+    get(CGAL::vertex_point, mesh), weight);
   Cgal_class<Mesh, CGAL::ORIGINAL_ARAP, Weight> cgals(
     other, get(boost::vertex_index, other), get(boost::halfedge_index, other),
-    get(CGAL::vertex_point, other), &uniform_weight);
+    get(CGAL::vertex_point, other), weight);
   CHECK_AT_MOST(largest_distance(deformed(ours, mesh), deformed(cgals, other)),
                 bound * shapes()[0].diameter());
 }
@@ -853,9 +917,12 @@ void test_all(unsigned int first_seed)
     Smoothed::alpha = alpha;
     test_iterates<Smoothed_pair>();
   }
+  test_iterates<Pair_of<Mesh, CGAL::SRE_ARAP>>(); // the default
   test_returns<Pair_of<Mesh, CGAL::ORIGINAL_ARAP>>();
+  test_overwritten<Pair_of<Mesh, CGAL::ORIGINAL_ARAP>>();
   test_moved_points<Pair_of<Mesh, CGAL::SPOKES_AND_RIMS>>();
-  test_function_as_weight();
+  test_function_as_weight(&uniform_weight);
+  test_function_as_weight(Length_weight());
   test_models();
   test_indices();
   test_failures();

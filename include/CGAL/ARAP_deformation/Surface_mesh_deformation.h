@@ -66,25 +66,28 @@ namespace ARAP {
 ///
 /// - *Failure.* `preprocess()` returns `false`, and `outcome()` tells why and names the vertex.
 ///   `deform()` returns a `CGAL::ARAP::Report`. If one of them fails, the mesh and the object are
-///   as they were. Functions that set a target return an `Outcome`; those that take a range set
-///   all targets that they can.
+///   as they were. No warning is printed. Functions that set a target return an `Outcome`; those
+///   that take a range set all targets that they can.
 /// - *Targets.* All functions, not only `set_target_position()`, ignore vertices that are not
 ///   control vertices; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
 ///   \cgal. The defaults are those of `CGAL::ARAP_deformation_traits`. A Cholesky factorization
-///   needs a positive definite matrix, which the weights of \cgal give; where negative weights
-///   make it indefinite, `preprocess()` fails.
+///   needs a positive definite matrix. The weights of \cgal give one, as long as all are of the
+///   same shape: with `SPOKES_AND_RIMS` those of faces at the border of the region of interest no
+///   longer are if it grows after `overwrite_initial_geometry()`. Where negative weights make the
+///   matrix indefinite, `preprocess()` fails; with another solver, where a diagonal entry is not
+///   positive.
 /// - *Unconstrained components.* If a component of the region of interest is not connected to any
-///   fixed vertex, `preprocess()` always fails, independently of rounding.
+///   fixed vertex, `preprocess()` always fails, independently of rounding. So it does if no vertex
+///   of the region of interest has a face.
 /// - *Points.* A run computes in `double`, and rounds to the type of the points once, at the end.
 ///   `CGAL::to_double()` must accept the coordinates of the points. Outside the region of interest
-///   only points of vertices that leave it are written.
-///   `overwrite_initial_geometry()` takes points of the region of interest that others have moved
-///   for the present ones, too.
+///   only points of vertices that leave it are written. Points around it are read when it is
+///   prepared; if others move them afterwards, and they enter, they enter where they are then.
 /// - *Index maps.* The halfedge index map may number the halfedges in any order.
 /// - *Copies.* The class cannot be copied, whatever its template arguments.
 /// - *Cost.* `erase_roi_vertex()` takes amortized constant time. `roi_vertices()` takes linear
-///   time, and only its next call brings what it returned up to date. Functions that only read are
+///   time, and only later calls bring what it returned up to date. Functions that only read are
 ///   `const`; `target_position()` returns a copy, and does not move back vertices that have left
 ///   the region of interest.
 ///   Another `set_sre_arap_alpha()` costs a numeric factorization.
@@ -300,9 +303,8 @@ public:
   /// `Report::estimated_relative_gap` is not computed.
   Report deform(unsigned int iterations, double tolerance)
   {
-    if(!internal::is_nan(tolerance)) // which the session refuses
-      tolerance = (std::max)(0.0, (std::min)(tolerance, (std::numeric_limits<double>::max)()));
-    return m_session.deform(iterations, tolerance);
+    const double largest = (std::numeric_limits<double>::max)();
+    return m_session.deform(iterations, tolerance > 0 ? (std::min)(tolerance, largest) : 0);
   }
 
   /// moves the region of interest, targets included, back to the rest shape.

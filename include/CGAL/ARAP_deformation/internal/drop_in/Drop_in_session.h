@@ -71,6 +71,12 @@ public:
     Base::clear_control();
   }
 
+  Point target(vertex_descriptor v) const
+  {
+    const Entry* const entry = m_vertices.find(v);
+    return entry && has_just_entered(*entry) ? this->domain().point(v) : Base::target(v);
+  }
+
   template <typename Function>
   Outcome change_target(vertex_descriptor v, const Function& f)
   {
@@ -102,7 +108,9 @@ public:
   void overwrite_initial_geometry()
   {
     put_back_erased();
+    auto present = m_vertices.present_points(); // CGAL's class leaves its solution as it is
     Base::overwrite_initial_geometry();
+    m_vertices.present_points().swap(present);
   }
 
   // moves what has left the region of interest back to the rest shape, and forgets its rotations
@@ -152,12 +160,14 @@ private:
   }
 
   // What has entered the region of interest is where the mesh has it when that is next used.
+  bool has_just_entered(const Entry& entry) const
+  {
+    return !this->is_region_written() && !m_prepared.has_region() && entry.is_roi && !entry.was_roi;
+  }
   void read_entered()
   {
-    if(this->is_region_written() || m_prepared.has_region())
-      return;
     for(Entry& entry : m_vertices.entries())
-      if(entry.is_roi && !entry.was_roi)
+      if(has_just_entered(entry))
       {
         const Point point = this->domain().point(entry.vertex);
         entry.rest = point;

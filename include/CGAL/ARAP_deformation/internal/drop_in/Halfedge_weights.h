@@ -45,7 +45,9 @@ struct Double_point_map
 
   VertexPointMap points;
 
-  operator const VertexPointMap&() const { return points; } // what a function of a user may take
+  // what functions of users may do with a map
+  operator const VertexPointMap&() const { return points; }
+  decltype(auto) operator[](const key_type& v) const { return points[v]; }
 
   friend value_type get(const Double_point_map& map, const key_type& v)
   {
@@ -88,20 +90,16 @@ public:
     }
   }
 
-  // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices: those
-  // of its halfedges. Zero where a face of more corners has no such halfedge.
+  // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices in the
+  // order of its face: those of its halfedges. Stars, of which faces may have more corners, do
+  // without.
   std::array<double, 3> weights_of_halfedges(const std::array<std::size_t, 3>& indices) const
   {
-    for(const auto& [a, b, c] : {indices, {indices[1], indices[0], indices[2]}})
-      for(const halfedge_descriptor h : halfedges_to(b))
-        if(source(h, m_state->mesh) == m_state->vertices[a] && !is_border(h, m_state->mesh) &&
-           target(next(h, m_state->mesh), m_state->mesh) == m_state->vertices[c])
-        {
-          const double ab = weight(h), ca = weight(prev(h, m_state->mesh)),
-                       bc = weight(next(h, m_state->mesh));
-          return a == indices[0] ? std::array<double, 3>{ab, ca, bc}
-                                 : std::array<double, 3>{ab, bc, ca};
-        }
+    const auto& [a, b, c] = indices;
+    for(const halfedge_descriptor h : halfedges_to(b))
+      if(source(h, m_state->mesh) == m_state->vertices[a] && !is_border(h, m_state->mesh) &&
+         target(next(h, m_state->mesh), m_state->mesh) == m_state->vertices[c])
+        return {weight(h), weight(prev(h, m_state->mesh)), weight(next(h, m_state->mesh))};
     return {0, 0, 0};
   }
 
