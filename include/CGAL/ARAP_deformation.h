@@ -347,7 +347,8 @@ public:
   /// erases all control points.
   void clear_control_points() { m_session.clear_points(); }
 
-  /// returns whether `point` is a control point of this object.
+  /// returns whether `point` is a control point of this object; control points of another one may
+  /// be equal to its own.
   bool is_control_point(ARAP::Control_point point) const
   {
     return m_session.vertices().is_control(point);

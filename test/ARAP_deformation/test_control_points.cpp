@@ -591,7 +591,7 @@ void test_input()
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for(const std::vector<double>& b :
       {std::vector<double>{0.2, 0.3, 0.4}, {1e6, -1e6, 1.0001}, {0.5, 0.5},
-       {0.25, 0.25, 0.25, 0.25}, {nan, 0.5, 0.5},
+       {1e200, -1e200, 1}, {0.25, 0.25, 0.25, 0.25}, {nan, 0.5, 0.5},
        {infinite, -infinite, 1}, {}})
   {
     const auto refused = d.insert_control_point(f, b);
@@ -1130,11 +1130,12 @@ void test(const Held_shape<Dimension>& shape)
     return;
   CHECK(found->coordinates.size() == shape.simplices[found->simplex].size());
   const double distance = (place(domain, *found) - vector(outside)).norm();
+  CHECK(found->distance > 0);
+  for(const auto& p : shape.points)
+    CHECK(found->distance <= (p - vector(outside)).norm() + 1e-13);
   if(Dimension == 2)
   {
     CHECK_AT_MOST(std::abs(distance - found->distance), 1e-13);
-    for(const auto& p : shape.points)
-      CHECK(found->distance <= (p - vector(outside)).norm() + 1e-13);
     for(double c : found->coordinates)
       CHECK(c >= 0);
   }
@@ -1190,6 +1191,7 @@ void test_polygons()
   for(const std::vector<Eigen::Vector2d>& polygon : polygons)
     for(std::size_t first = 0; first < 2 * polygon.size(); ++first)
     {
+      const double scale = first % 4 == 1 ? 1e-90 : 1;
       const Eigen::Matrix3d turn = first % 3 == 0 ? Eigen::Matrix3d::Identity() : turned;
       const std::size_t n = polygon.size();
       test_case() = "locate, polygon of " + std::to_string(n) + ", from " + std::to_string(first);
@@ -1201,7 +1203,7 @@ void test_polygons()
       for(const auto& c : corners)
       {
         face.push_back(points.size());
-        points.push_back(point(turn * Eigen::Vector3d(c.x(), c.y(), 1)));
+        points.push_back(point(scale * (turn * Eigen::Vector3d(c.x(), c.y(), 1))));
       }
       const std::vector<std::vector<std::size_t>> faces = {face};
       const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, faces);
@@ -1222,12 +1224,12 @@ void test_polygons()
         }
         if(is_inside)
           distance = 0;
-        const Eigen::Vector3d q = turn * Eigen::Vector3d(p.x(), p.y(), 1);
+        const Eigen::Vector3d q = scale * (turn * Eigen::Vector3d(p.x(), p.y(), 1));
         const auto found = locator.locate(point(q));
         if(!CHECK(found && found->coordinates.size() == n))
           return;
-        CHECK_AT_MOST(std::abs(found->distance - distance), 1e-13);
-        CHECK_AT_MOST(std::abs((place(domain, *found) - q).norm() - distance), 1e-13);
+        CHECK_AT_MOST(std::abs(found->distance / scale - distance), 1e-13);
+        CHECK_AT_MOST(std::abs(((place(domain, *found) - q) / scale).norm() - distance), 1e-13);
       }
     }
   test_case() = "locate, polygons that are not simple";
@@ -1248,6 +1250,21 @@ void test_polygons()
     if(found)
       CHECK_AT_MOST(std::abs((place(domain, *found) -
                               Eigen::Vector3d(0.9, 0.2, 0.5)).norm() - found->distance), 1e-13);
+  }
+}
+
+// A triangle without area is ignored, however far away its corners are.
+void test_far_flat_triangle()
+{
+  test_case() = "locate, beside a triangle without area";
+  for(double x : {1e13, 1e20, 1e300})
+  {
+    std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, 0, 0}};
+    const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, 2}, {0, 1, 3}};
+    const auto found = CGAL::ARAP::locate(CGAL::ARAP::make_polygon_soup_domain(points, triangles),
+                                          Point(0.2, 0.3, 0.5));
+    if(CHECK(found && found->simplex == 0))
+      CHECK_AT_MOST(std::abs(found->coordinates[1] - 0.2) + std::abs(found->distance - 0.5), 1e-14);
   }
 }
 
@@ -1448,6 +1465,7 @@ int main()
   sets::test_frames_of_sets();
   locations::test_turned_halfedges();
   locations::test_polygons();
+  locations::test_far_flat_triangle();
   locations::test_folded_quad();
   locations::test_cell_of_other_size();
   locations::test_function();

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/Embedding.h>
 #include <CGAL/ARAP_deformation/Triangulation_domain.h>
+#include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -301,7 +302,19 @@ void test_ranges()
   for(std::size_t k = 0; k < ties.size(); ++k)
     CHECK_AT_MOST(std::abs(ties.distance(k) - distances[k]), 1e-14);
 
-  // far from the origin, huge and tiny
+  test_case() = "far from the origin";
+  const Vector3d far(5e6, 5e6, 5e6), middle(1.0 / 3, 1.0 / 3, 0);
+  std::vector<Point> thin_points;
+  for(const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0),
+                           Vector3d(middle + Vector3d(0, 0, 1e-5))})
+    thin_points.push_back(point(far + p));
+  const std::vector<std::array<std::size_t, 4>> one = {{0, 1, 2, 3}};
+  const Vector3d below = far + middle - Vector3d(0, 0, 0.5);
+  const auto thin = CGAL::ARAP::make_tetrahedron_soup_domain(thin_points, one);
+  const CGAL::ARAP::Embedding<std::decay_t<decltype(thin)>> far_away(
+    thin, std::vector<Point>{point(below)});
+  CHECK_AT_MOST((vector(far_away.position(0)) - below).norm(), 1e-8);
+
   test_case() = "scales";
   for(double scale : {1e-200, 1e-20, 1e20, 1e200})
   {
@@ -321,6 +334,27 @@ void test_ranges()
       CHECK_AT_MOST((vector(c.position(k)) / scale - probes[k]).norm(), 1e-12);
     }
   }
+}
+
+// A flat tetrahedron is ignored, however far away its corners are; one that is too large for the
+// numbers has no place.
+void test_far_flat_tetrahedra()
+{
+  test_case() = "flat tetrahedra that reach far";
+  std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1e13, 0, 0},
+                               {1e308, 0, 0}, {1e308, 1e306, 0}, {1e308, 0, 1e306},
+                               {0.9e308, 0, 0}, {-1e308, 0, 0}, {-1e308, 1e306, 0},
+                               {-1e308, 0, 1e306}, {-0.9e308, 0, 0}};
+  using Tetrahedra = std::vector<std::array<std::size_t, 4>>;
+  const Tetrahedra tetrahedra = {{0, 1, 2, 3}, {0, 1, 2, 4}};
+  const Tetrahedra huge = {{5, 6, 7, 8}, {9, 10, 11, 12}};
+  const std::vector<Point> queries = {{0.3, 0.3, 5}};
+  const auto domain = CGAL::ARAP::make_tetrahedron_soup_domain(points, tetrahedra);
+  const CGAL::ARAP::Embedding<std::decay_t<decltype(domain)>> embedding(domain, queries);
+  CHECK(embedding.outcome());
+  CHECK_AT_MOST(std::abs(embedding.distance(0) - std::sqrt(16 + 2 * 0.01)), 0.1);
+  const auto too_large = CGAL::ARAP::make_tetrahedron_soup_domain(points, huge);
+  CHECK(!CGAL::ARAP::locate(too_large, queries[0]));
 }
 
 // Tetrahedra in planes, inside, on the boundary and away from all others, hold no points.
@@ -511,6 +545,7 @@ int main()
 {
   test_ranges();
   test_flat_tetrahedra();
+  test_far_flat_tetrahedra();
   test_triangulations();
   test_deformation();
   test_failures();

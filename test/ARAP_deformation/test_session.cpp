@@ -316,11 +316,14 @@ void test_options_by_name()
   struct Comma : std::numpunct<char>
   {
     char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
   };
   const std::locale global = std::locale::global(std::locale(std::locale::classic(), new Comma));
   CHECK(option_value(options, "smoothing_length") == "7");
   CHECK(set_option(options, "tolerance", "0.25"));
   CHECK(option_value(options, "tolerance") == "0.25");
+  CHECK(!set_option(options, "iterations", "1.000"));
   std::locale::global(global);
   CHECK(option_value(options, "color").empty());
 
@@ -335,6 +338,7 @@ void test_options_by_name()
     {"threads", "4294967296", "threads '4294967296' is not"}, {"tolerance", "1e-3x", "'1e-3x'"},
     {"verify_minimum", "1", "verify_minimum '1' is not known; use one of true, false"},
     {"tolerance", "nan", "'nan' is not a number"}, {"smoothing_length", "-1", "smoothing_length"},
+    {"tolerance", "-1e-9", "the option tolerance must be finite and not negative"},
     {"Cells", "spokes", "the option 'Cells' is not known; use one of cells, minimizer"}};
   for(const auto& [name, value, sentence] : invalid)
   {

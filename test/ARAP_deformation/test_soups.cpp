@@ -1168,6 +1168,22 @@ void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>
                     measure == Vertex_measure::angle_change ? 1e-4 : 1e-10);
   }
 
+  for(const double scale : {1e-100, 1e100})
+  {
+    Points scaled_rest, scaled;
+    for(std::size_t v = 0; v < rest.size(); ++v)
+    {
+      scaled_rest.push_back(scale * rest[v]);
+      scaled.push_back(scale * now[v]);
+    }
+    compare(quality(Domain(scaled, simplices), scaled_rest), quality(domain, rest));
+  }
+  Points inverted = now;
+  inverted[rest.size() / 2] += Eigen::Vector3d(4, 5, 6); // through what is opposite
+  const Quality of_inverted = quality(Domain(inverted, simplices), rest);
+  CHECK((of_inverted.inverted_simplices > 0) == (N == 4));
+  compare(of_inverted, slow_quality(simplices, rest, inverted));
+
   Points broken = now;
   broken[0].y() = std::nan("");
   const Quality of_broken = quality(domain, rest, broken);
@@ -1230,6 +1246,17 @@ void test_flat()
   const auto domain = CGAL::ARAP::make_polygon_soup_domain(inflated, faces);
   CHECK(std::isnan(quality(domain, flat).volume_change));
   CHECK_AT_MOST(std::abs(quality(domain, inflated).volume_change), 1e-14);
+  test_case() = "quality of a flat tetrahedron";
+  Points plane = {{0, 0, 0}, {.1, .2, .3}, {.3, .1, .2}, {.4, .3, .5}};
+  const Points before = plane;
+  for(auto& p : plane)
+    p += Eigen::Vector3d(1, 2, 3);
+  const std::vector<std::array<std::size_t, 4>> one = {{0, 1, 2, 3}};
+  const auto tetrahedron = CGAL::ARAP::make_tetrahedron_soup_domain(plane, one);
+  CHECK(quality(tetrahedron, before).inverted_simplices == 0);
+  CHECK(std::isnan(quality(tetrahedron, before).volume_change));
+  for(double change : quality_at_vertices(tetrahedron, Vertex_measure::size_change, before))
+    CHECK(change == 0);
   flat[3].x() = std::nan("");
   CHECK(std::isnan(quality(domain, flat).area_change));
 }

@@ -123,8 +123,8 @@ public:
   /// @{
 
   /// returns the corners of `s`: a range whose iterators have the value type `vertex_descriptor`,
-  /// also where it is `const`, valid until the next call. The corners of a polygon are in cyclic order, starting anywhere and
-  /// in either direction; those of a tetrahedron are in any order.
+  /// also where it is `const`, valid until the next call. The corners of a polygon are in cyclic
+  /// order, starting anywhere and in either direction; those of a tetrahedron are in any order.
   unspecified_type simplex_vertices(simplex_descriptor s) const;
 
   /// returns whether `s` is a simplex of the mesh; a control point in one that is not is refused.

@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
@@ -109,10 +110,14 @@ public:
   /// \pre `k < size()`
   Coordinates position(std::size_t k) const
   {
-    Coordinates result = {0, 0, 0};
-    for(std::size_t corner = 0; corner < 4; ++corner)
-      internal::add(result, binding(k).coordinates[corner],
-                    Domain::coordinates(m_domain.point(binding(k).vertices[corner])));
+    const Binding& bound = binding(k);
+    const auto corner = [&](std::size_t i) {
+      return Domain::coordinates(m_domain.point(bound.vertices[i]));
+    };
+    const Coordinates first = corner(0);
+    Coordinates result = first;
+    for(std::size_t i = 1; i < 4; ++i) // differences keep digits where coordinates are large
+      internal::add(result, bound.coordinates[i], internal::difference(corner(i), first));
     return result;
   }
 
@@ -185,10 +190,10 @@ private:
       return m_domain.index(v) == m_domain.index(w);
     };
     Outcome outcome = internal::outcome(Status::success);
+    std::vector<vertex_descriptor> corners;
     for(vertex_descriptor v : m_domain.vertices())
       m_domain.for_each_incident_simplex(v, [&](const auto&, const auto& simplex_vertices) {
-        std::vector<vertex_descriptor> corners(std::begin(simplex_vertices),
-                                               std::end(simplex_vertices));
+        corners.assign(std::begin(simplex_vertices), std::end(simplex_vertices));
         std::sort(corners.begin(), corners.end(), is_before);
         if(corners.size() != 4 ||
            std::adjacent_find(corners.begin(), corners.end(), is_same) != corners.end())

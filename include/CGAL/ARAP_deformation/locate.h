@@ -16,10 +16,13 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/for_each_simplex.h>
 #include <CGAL/ARAP_deformation/internal/domain/make_simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <array>
@@ -115,7 +118,7 @@ private:
       for(const auto& triangle : internal::triangles_of_polygon(points))
         append_part(triangle);
     }
-    else if(points.size() == 4)
+    else
       append_part(std::array<std::size_t, 4>{0, 1, 2, 3});
   }
 

@@ -40,12 +40,13 @@ struct Quality
   double edge_length_error = 0;
 
   /// \f$\sum A' / \sum A - 1\f$ over all faces of a surface, or of the boundary of tetrahedra. The
-  /// area of a polygon is the length of its vector area. 0 if the shape had no area.
+  /// area of a polygon is the length of its vector area. 0 if the shape had no area. A tetrahedron
+  /// that is there twice has no face in the boundary.
   double area_change = 0;
 
   /// \f$V' / V - 1\f$, of the volume that a closed and oriented surface encloses, or of all
   /// tetrahedra, where \f$V'\f$ is negative for those that are inverted; not a number for other
-  /// surfaces
+  /// surfaces, and if the volume of the rest shape is zero
   double volume_change = std::numeric_limits<double>::quiet_NaN();
 
   /// the largest \f$|\alpha' - \alpha|\f$ of a corner of a face or of a face of a tetrahedron, in

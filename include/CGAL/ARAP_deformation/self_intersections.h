@@ -16,9 +16,11 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
 #include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -50,7 +52,8 @@ std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>
   Array<Coordinates> corners;
   for(std::size_t v : polygon)
     corners.push_back({points[v].x(), points[v].y(), points[v].z()});
-  const Coordinates normal = vector_area(n, [&](std::size_t k) { return corners[k]; });
+  const Coordinates normal =
+    without_scale(vector_area(n, [&](std::size_t k) { return corners[k]; }));
   std::vector<std::vector<std::size_t>> most, triangles;
   bool is_folded = false;
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {

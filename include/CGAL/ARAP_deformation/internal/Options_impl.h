@@ -26,12 +26,10 @@ namespace ARAP {
 CGAL_ARAP_INLINE_FUNCTION
 Outcome Options::check() const
 {
-  if(!(tolerance >= 0) || !internal::is_finite(tolerance))
-    return Outcome(Status::invalid_option, "the option tolerance is " +
-                   std::to_string(tolerance) + "; it must be finite and not negative");
-  const auto is_length = [](double x) { return x >= 0 && internal::is_finite(x); };
-  const char* const wrong = !is_length(bending_length)     ? "bending_length"
-                            : !is_length(smoothing_length) ? "smoothing_length" : nullptr;
+  const auto is_valid = [](double x) { return x >= 0 && internal::is_finite(x); };
+  const char* const wrong = !is_valid(tolerance)          ? "tolerance"
+                            : !is_valid(bending_length)   ? "bending_length"
+                            : !is_valid(smoothing_length) ? "smoothing_length" : nullptr;
   if(wrong)
     return Outcome(Status::invalid_option,
                    "the option " + std::string(wrong) + " must be finite and not negative");

@@ -46,29 +46,8 @@ class Tetrahedron_search final : public Simplex_search<4>
 public:
   // Tetrahedra without volume are ignored.
   explicit Tetrahedron_search(const std::vector<Corners>& tetrahedra)
-    : m_tetrahedra(tetrahedra), m_tree(tetrahedra)
-  {
-    for(std::size_t t = 0; t < m_tetrahedra.size(); ++t)
-    {
-      const Corners& c = m_tetrahedra[t];
-      if(barycentric_coordinates(c, c[0]))
-        for(std::size_t k = 0; k < 4; ++k)
-        {
-          std::array<Coordinates, 3> corners = {m_tree.scaled(c[(k + 1) % 4]),
-                                                m_tree.scaled(c[(k + 2) % 4]),
-                                                m_tree.scaled(c[(k + 3) % 4])};
-          std::sort(corners.begin(), corners.end());
-          m_faces.push_back({corners, t});
-        }
-    }
-    std::sort(m_faces.begin(), m_faces.end(), [](const Face& a, const Face& b) {
-      return std::tie(a.corners, a.simplex) < std::tie(b.corners, b.simplex);
-    });
-    for(std::size_t k = 0; k < m_faces.size(); ++k)
-      if(k == 0 || m_faces[k].corners != m_faces[k - 1].corners)
-        m_tree.insert(m_faces[k]);
-    m_tree.build();
-  }
+    : Tetrahedron_search(tetrahedra, simplices_with_content(tetrahedra))
+  {}
 
   // the tree refers to the faces
   Tetrahedron_search(const Tetrahedron_search&) = delete;
@@ -101,6 +80,29 @@ public:
 
 private:
   using Face = Triangle_tree::Triangle; // those with the same corners are given by the first
+
+  Tetrahedron_search(const std::vector<Corners>& tetrahedra,
+                     const std::vector<std::size_t>& numbers)
+    : m_tetrahedra(tetrahedra), m_tree(tetrahedra, numbers)
+  {
+    for(std::size_t t : numbers)
+      for(std::size_t k = 0; k < 4; ++k)
+      {
+        const Corners& c = m_tetrahedra[t];
+        std::array<Coordinates, 3> corners = {m_tree.scaled(c[(k + 1) % 4]),
+                                              m_tree.scaled(c[(k + 2) % 4]),
+                                              m_tree.scaled(c[(k + 3) % 4])};
+        std::sort(corners.begin(), corners.end());
+        m_faces.push_back({corners, t});
+      }
+    std::sort(m_faces.begin(), m_faces.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.corners, a.simplex) < std::tie(b.corners, b.simplex);
+    });
+    for(std::size_t k = 0; k < m_faces.size(); ++k)
+      if(k == 0 || m_faces[k].corners != m_faces[k - 1].corners)
+        m_tree.insert(m_faces[k]);
+    m_tree.build();
+  }
 
   static double smallest_coordinate(const Location& location)
   {

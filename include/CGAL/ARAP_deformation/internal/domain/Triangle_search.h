@@ -34,20 +34,9 @@ class Triangle_search final : public Simplex_search<3>
 {
 public:
   // Triangles without area are ignored.
-  explicit Triangle_search(const std::vector<Corners>& triangles) : m_tree(triangles)
-  {
-    for(std::size_t t = 0; t < triangles.size(); ++t)
-    {
-      const Corners& c = triangles[t];
-      const Triangle_tree::Triangle triangle = {
-        {m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t};
-      if(barycentric_coordinates(triangle.corners, triangle.corners[0]))
-        m_triangles.push_back(triangle);
-    }
-    for(const auto& triangle : m_triangles)
-      m_tree.insert(triangle);
-    m_tree.build();
-  }
+  explicit Triangle_search(const std::vector<Corners>& triangles)
+    : Triangle_search(triangles, simplices_with_content(triangles))
+  {}
 
   // the tree refers to the triangles
   Triangle_search(const Triangle_search&) = delete;
@@ -69,6 +58,19 @@ public:
   }
 
 private:
+  Triangle_search(const std::vector<Corners>& triangles, const std::vector<std::size_t>& numbers)
+    : m_tree(triangles, numbers)
+  {
+    for(std::size_t t : numbers)
+    {
+      const Corners& c = triangles[t];
+      m_triangles.push_back({{m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t});
+    }
+    for(const auto& triangle : m_triangles)
+      m_tree.insert(triangle);
+    m_tree.build();
+  }
+
   Triangle_tree m_tree;
   std::vector<Triangle_tree::Triangle> m_triangles;
 };

@@ -58,19 +58,17 @@ public:
     double distance;
   };
 
-  // an empty tree for triangles of simplices with these corners
+  // an empty tree for triangles of those simplices that have these numbers
   template <typename Simplices>
-  explicit Triangle_tree(const Simplices& simplices)
+  Triangle_tree(const Simplices& simplices, const std::vector<std::size_t>& numbers)
   {
     Bounding_box box;
-    for(const auto& corners : simplices)
-      for(const Coordinates& c : corners)
+    for(std::size_t s : numbers)
+      for(const Coordinates& c : simplices[s])
         box.include(c);
     for(std::size_t k = 0; k < 3; ++k)
-    {
       m_center[k] = 0.5 * box.least()[k] + 0.5 * box.most()[k];
-      m_extent = (std::max)(m_extent, box.most()[k] - box.least()[k]);
-    }
+    m_extent = box.longest_side();
   }
 
   // the longest side of the complex
@@ -87,11 +85,12 @@ public:
   void build() { m_tree.build(); }
   bool is_empty() const { return m_tree.empty(); }
 
-  // None if the point, which is not scaled, is so far away that the computation overflows.
+  // None if the point, which is not scaled, is so far away, or the complex is so large, that the
+  // computation overflows.
   std::optional<Nearest> nearest(const Coordinates& point) const
   {
     const Coordinates c = scaled(point);
-    if(!(std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) < 1e100))
+    if(!(std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) < 1e100) || !is_finite(m_extent))
       return std::nullopt;
     const Point query(c[0], c[1], c[2]);
     const auto [nearest, triangle] = m_tree.closest_point_and_primitive(query);

@@ -22,7 +22,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -52,17 +54,34 @@ barycentric_coordinates(const std::array<Coordinates, 4>& corners, const Coordin
 inline std::optional<std::array<double, 3>>
 barycentric_coordinates(const std::array<Coordinates, 3>& corners, const Coordinates& point)
 {
-  const Coordinates u = difference(corners[1], corners[0]), v = difference(corners[2], corners[0]);
+  Coordinates u = difference(corners[1], corners[0]), v = difference(corners[2], corners[0]),
+              from_first = difference(point, corners[0]);
+  const double size = (std::max)(largest_entry(u), largest_entry(v)); // so that no square overflows
+  for(Coordinates* vector : {&u, &v, &from_first})
+    for(double& x : *vector)
+      x /= size;
   const double length = std::sqrt((std::max)(dot(u, u), dot(v, v)));
   const Coordinates normal = cross(scaled(u, 1 / length), v); // its length is at most that
   const double height = std::sqrt(dot(normal, normal));
   if(!(height > 0))
     return std::nullopt;
   const auto found = barycentric_coordinates(
-    {Coordinates{0, 0, 0}, u, v, scaled(normal, length / height)}, difference(point, corners[0]));
+    {Coordinates{0, 0, 0}, u, v, scaled(normal, length / height)}, from_first);
   if(!found)
     return std::nullopt;
   return std::array<double, 3>{1 - (*found)[1] - (*found)[2], (*found)[1], (*found)[2]};
+}
+
+// the numbers of the simplices that have an area or a volume, up to rounding
+template <std::size_t N>
+std::vector<std::size_t>
+simplices_with_content(const std::vector<std::array<Coordinates, N>>& simplices)
+{
+  std::vector<std::size_t> numbers;
+  for(std::size_t s = 0; s < simplices.size(); ++s)
+    if(barycentric_coordinates(simplices[s], simplices[s][0]))
+      numbers.push_back(s);
+  return numbers;
 }
 
 } // namespace internal

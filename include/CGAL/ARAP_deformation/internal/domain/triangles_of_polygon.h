@@ -35,7 +35,8 @@ inline std::vector<std::array<std::size_t, 3>>
 triangles_of_polygon(const Array<Coordinates>& points)
 {
   using Index = std::size_t;
-  const Coordinates normal = vector_area(points.size(), [&](Index k) { return points[k]; });
+  const Coordinates normal =
+    without_scale(vector_area(points.size(), [&](Index k) { return points[k]; }));
   const auto area = [&](Index a, Index b, Index c) { // up to a factor
     return dot(normal, cross(difference(points[b], points[a]), difference(points[c], points[a])));
   };

@@ -530,15 +530,14 @@ CGAL_ARAP_INLINE_FUNCTION
 std::size_t
 Deformation_core::number_of_inverted_simplices(const Array<Coordinates>& x) const
 {
-  const auto orientation = [this](int s, const Coordinates* points) {
-    const double volume =
-      signed_volume([&](std::size_t k) { return points[m_region.corners_of(s)[k]]; });
-    return (volume > 0) - (volume < 0);
-  };
   std::size_t count = 0;
   if(m_region.dimension == 3)
     for(int s = 0; s < m_region.number_of_simplices(); ++s)
-      count += orientation(s, m_region.rest.data()) * orientation(s, x.data()) < 0;
+    {
+      const auto corners = m_region.corners_of(s);
+      count += is_inverted([&](std::size_t k) { return x[corners[k]]; },
+                           [&](std::size_t k) { return m_region.rest[corners[k]]; });
+    }
   return count;
 }
 

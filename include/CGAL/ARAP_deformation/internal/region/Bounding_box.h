@@ -49,6 +49,15 @@ public:
   const Coordinates& least() const { return m_least; }
   const Coordinates& most() const { return m_most; }
 
+  // negative if the box is empty
+  double longest_side() const
+  {
+    double longest = m_most[0] - m_least[0];
+    for(std::size_t c = 1; c < 3; ++c)
+      longest = (std::max)(longest, m_most[c] - m_least[c]);
+    return longest;
+  }
+
   friend Bounding_box operator+(Bounding_box a, const Bounding_box& b) // of the points of both
   {
     for(std::size_t c = 0; c < 3; ++c)

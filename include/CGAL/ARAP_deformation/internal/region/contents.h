@@ -44,6 +44,28 @@ double signed_volume(const Corner& corner)
   return dot(edge(3), cross(edge(1), edge(2))) / 6;
 }
 
+// the same, but 0 where it is no more than rounding errors
+template <typename Corner>
+double rounded_volume(const Corner& corner)
+{
+  double rounding = 1e-12 / 6;
+  for(std::size_t k = 1; k < 4; ++k)
+  {
+    const Coordinates edge = difference(corner(k), corner(0));
+    rounding *= std::sqrt(dot(edge, edge));
+  }
+  const double volume = signed_volume(corner);
+  return std::abs(volume) <= rounding ? 0 : volume;
+}
+
+// whether one of two tetrahedra is the other one inside out
+template <typename Corner, typename Other>
+bool is_inverted(const Corner& corner, const Other& other)
+{
+  return signed_volume(corner) * signed_volume(other) < 0 && // most are told apart by this
+         rounded_volume(corner) != 0 && rounded_volume(other) != 0;
+}
+
 // the area or volume of simplex s of the rest shape
 inline double content_of(const Region& region, int s)
 {

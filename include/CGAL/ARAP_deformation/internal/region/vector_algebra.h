@@ -18,7 +18,9 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/is_finite.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace CGAL {
@@ -51,6 +53,19 @@ void add(std::array<double, n>& target, double factor, const std::array<double, 
 {
   for(std::size_t k = 0; k < n; ++k)
     target[k] += factor * a[k];
+}
+
+// the largest absolute value
+inline double largest_entry(const Coordinates& a)
+{
+  return (std::max)({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+}
+
+// a divided by its largest entry, so that no product with it underflows; zero stays zero
+inline Coordinates without_scale(const Coordinates& a)
+{
+  const double size = largest_entry(a);
+  return size > 0 ? Coordinates{a[0] / size, a[1] / size, a[2] / size} : a;
 }
 
 inline Coordinates product(const Matrix_3x3& m, const Coordinates& a)

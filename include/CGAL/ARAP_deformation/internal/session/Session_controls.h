@@ -261,7 +261,9 @@ protected:
   static bool complete(std::vector<double>& coordinates)
   {
     const double sum = std::accumulate(coordinates.begin(), coordinates.end(), 0.0);
-    if(coordinates.empty() || !is_finite(sum))
+    const double squares = std::inner_product(coordinates.begin(), coordinates.end(),
+                                              coordinates.begin(), 0.0);
+    if(coordinates.empty() || !is_finite(sum) || !is_finite(squares))
       return false;
     double& largest = *std::max_element(coordinates.begin(), coordinates.end(),
       [](double a, double b) { return std::abs(a) < std::abs(b); });

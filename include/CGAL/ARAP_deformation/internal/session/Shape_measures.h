@@ -17,6 +17,8 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
@@ -43,7 +45,18 @@ public:
   Shape_measures(const Domain& domain, const RestPointMap& rest_points, const PointMap& points)
     : m_list(domain), m_rest(coordinates_of(domain, rest_points)),
       m_points(coordinates_of(domain, points))
-  {}
+  {
+    // no measure has a unit: so that no square of a length overflows or underflows, both shapes
+    // are scaled by a power of two
+    Bounding_box box;
+    for(const Coordinates& p : m_rest)
+      box.include(p);
+    if(const double side = box.longest_side(); side > 0 && is_finite(side))
+      for(Points* all : {&m_rest, &m_points})
+        for(Coordinates& p : *all)
+          for(double& x : p)
+            x = std::ldexp(x, -std::ilogb(side));
+  }
 
   // of the whole shape
 
@@ -101,10 +114,8 @@ public:
     std::size_t result = 0;
     if constexpr(is_volume)
       for(const Simplex& s : m_list.simplices())
-      {
-        const double rest = size(s, m_rest), now = size(s, m_points);
-        result += (rest < 0 && now > 0) || (rest > 0 && now < 0);
-      }
+        result += is_inverted([&](std::size_t k) { return m_points[s[k]]; },
+                              [&](std::size_t k) { return m_rest[s[k]]; });
     return result;
   }
 
@@ -242,7 +253,7 @@ private:
   static double size(const Simplex& s, const Points& p)
   {
     if constexpr(is_volume)
-      return signed_volume([&](std::size_t k) { return p[s[k]]; });
+      return rounded_volume([&](std::size_t k) { return p[s[k]]; });
     else
       return length(vector_area(s, p));
   }

@@ -17,14 +17,14 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Status.h>
 
-#include <boost/lexical_cast/try_lexical_convert.hpp>
-
+#include <charconv>
 #include <initializer_list>
 #include <iomanip>
 #include <limits>
 #include <locale>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -111,12 +111,13 @@ struct Read_option
 
   Outcome operator()(unsigned int& value) const
   {
-    constexpr unsigned int most = (std::numeric_limits<unsigned int>::max)();
-    long long number = -1;
-    if(!boost::conversion::try_lexical_convert(text, number) || number < 0 || number > most)
+    unsigned int number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [place, error] = std::from_chars(text.data(), end, number); // whatever the locale
+    if(error != std::errc() || place != end)
       return Outcome(Status::invalid_option, name + " '" + text + "' is not a whole number from 0 "
-                     "to " + std::to_string(most));
-    value = static_cast<unsigned int>(number);
+                     "to " + std::to_string((std::numeric_limits<unsigned int>::max)()));
+    value = number;
     return Outcome(Status::success, std::string());
   }
 
