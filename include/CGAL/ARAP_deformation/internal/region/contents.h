@@ -62,8 +62,9 @@ double rounded_volume(const Corner& corner)
 template <typename Corner, typename Other>
 bool is_inverted(const Corner& corner, const Other& other)
 {
-  return signed_volume(corner) * signed_volume(other) < 0 && // most are told apart by this
-         rounded_volume(corner) != 0 && rounded_volume(other) != 0;
+  const double a = signed_volume(corner), b = signed_volume(other); // their product may underflow
+  const bool is_suspect = a < 0 ? b > 0 : a > 0 && b < 0;
+  return is_suspect && rounded_volume(corner) != 0 && rounded_volume(other) != 0;
 }
 
 // the area or volume of simplex s of the rest shape
