@@ -96,8 +96,8 @@ export interface PointsCopy {
 
 /**
  * Called with the initial guess, as iteration 0, and after each iteration; may end the run, or
- * cancel it, which leaves all as it was. What it throws is thrown. `points` is for a preview; it has the
- * points of the iterate, and cannot be called later.
+ * cancel it, which leaves all as it was. What it throws is thrown. `points` is for a preview: it has the
+ * points of the iterate, as long as no other visitor is called.
  */
 export type Visitor = (
   iteration: number,

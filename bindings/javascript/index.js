@@ -292,8 +292,10 @@ export async function load({ wasmBinary } = {}) {
       withCopies([i, x], (ip, xp) => this.#call(name, ip, i.length, xp, rows));
     }
     #copy(name, out) {
-      const pointer = module[name](this.#this()) || fail(),
-        view = heapNumbers(pointer, 3 * this.numberOfVertices);
+      return this.#copyOf(module[name](this.#this()), out);
+    }
+    #copyOf(pointer, out) {
+      const view = heapNumbers(pointer, 3 * this.numberOfVertices);
       if (!out) return view.slice();
       if (!(out instanceof Float64Array || out instanceof Float32Array))
         throw new TypeError('points need a Float64Array or a Float32Array');
@@ -488,8 +490,8 @@ export async function load({ wasmBinary } = {}) {
         let isCalled = true;
         const points = (out) => {
           if (!isCalled || visitors.at(-1) !== visit)
-            throw new ArapError('misuse', 'the visitor has returned: its points are gone');
-          return this.#copy('_arap_iterate_points', out);
+            throw new ArapError('misuse', 'points are for the visitor that is called now');
+          return this.#copyOf(module._arap_iterate_points(this.#this()) || fail(), out);
         };
         try {
           return actionOf(visitor(iteration, energy, points));

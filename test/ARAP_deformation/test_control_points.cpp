@@ -1268,6 +1268,18 @@ void test_far_flat_triangle()
   }
 }
 
+// A triangle that is next to nothing beside another one is ignored.
+void test_small_triangle()
+{
+  test_case() = "locate, beside a much larger triangle";
+  std::vector<Point> points = {{0, 0, 0}, {1e-17, 0, 0}, {0, 1e-17, 0}, {1, 0, 0}, {2, 0, 0},
+                               {1, 1, 0}};
+  const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, 2}, {3, 4, 5}};
+  const auto found = CGAL::ARAP::locate(CGAL::ARAP::make_polygon_soup_domain(points, triangles),
+                                        Point(0, 0, 0));
+  CHECK(found && found->simplex == 1 && found->coordinates[0] == 1 && found->distance == 1);
+}
+
 // A quad that is not plane is cut along the same diagonal, whichever of its corners is the first.
 void test_folded_quad()
 {
@@ -1466,6 +1478,7 @@ int main()
   locations::test_turned_halfedges();
   locations::test_polygons();
   locations::test_far_flat_triangle();
+  locations::test_small_triangle();
   locations::test_folded_quad();
   locations::test_cell_of_other_size();
   locations::test_function();

@@ -289,7 +289,7 @@ part.deform({
       iterations: 0,
       visitor(k, e, ofInner) {
         assert.deepEqual(ofInner(), session.points());
-        refuses(ofOuter, ArapError, /points are gone/);
+        refuses(ofOuter, ArapError, /points are for the visitor/);
       },
     });
     assert.deepEqual(ofOuter(), iterates.at(-1)[0]);
@@ -300,7 +300,7 @@ assert.deepEqual(iterates.at(-1)[0], part.points());
 assert.deepEqual(iterates.at(-1)[1], Float32Array.from(part.points()));
 assert.notDeepEqual(iterates[1][0], part.points());
 assert.deepEqual(iterates[1][0].slice(-3), sheet.points.slice(-3)); // outside the region
-refuses(iterates[0][2], ArapError, /points are gone/);
+refuses(iterates[0][2], ArapError, /points are for the visitor/);
 part.dispose();
 
 // a run has the options of the session, unless it is given others

@@ -25,7 +25,7 @@ export const cornersOf = ({ simplices, starts }, s) =>
 
 // the triangles of a polygon, cut in the plane of the coordinates in which it is largest
 export function cut(polygon, points) {
-  const at = (v, i) => points[3 * v + i],
+  const at = (v, i) => points[3 * v + i] - points[3 * polygon[0] + i],
     normal = [0, 0, 0];
   polygon.forEach((v, k) => {
     const w = polygon[(k + 1) % polygon.length];
@@ -48,8 +48,10 @@ export function cut(polygon, points) {
   ]); // its outline crosses itself, or it has no area
 }
 
-// { faces, simplexOf }: the corners of the triangles of polygons, and the polygon of each
+// { faces, simplexOf }: the corners of the triangles of polygons, and the polygon of each; the
+// triangles themselves if there are no others
 export function trianglesOf({ points, simplices, starts }) {
+  if (simplices.length === 3 * (starts.length - 1)) return { faces: simplices };
   const faces = [],
     simplexOf = [];
   for (let s = 0; s + 1 < starts.length; ++s) {
@@ -59,7 +61,7 @@ export function trianglesOf({ points, simplices, starts }) {
       simplexOf.push(s);
     }
   }
-  return { faces: Int32Array.from(faces), simplexOf };
+  return { faces: Int32Array.from(faces), simplexOf: Int32Array.from(simplexOf) };
 }
 
 // the faces of tetrahedra that belong to one of them only, seen from outside

@@ -73,7 +73,8 @@ async function openTogether(mesh, meshName, selection, transforms) {
     if (!mesh && selected) select(selected.status);
     if (keys.length) pose(keys);
     await hold();
-    say(`Opened: ${[selection, ...transforms].map((file) => file?.name).filter(Boolean).join(', ')}.`);
+    const names = [selection, ...transforms].map((file) => file?.name).filter(Boolean);
+    say(`Opened: ${names.join(', ')}. ${mesh?.note ?? ''}`.trim());
   });
   if (mesh) page.isSaved = true;
 }

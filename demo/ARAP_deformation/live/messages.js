@@ -23,16 +23,26 @@ export const complain = (error) => say(sentence(error), true);
 
 let work = 0;
 
-// `blocks`: f keeps the page from drawing, so it is drawn first
+// two frames are drawn, if the page is seen
+const drawn = () =>
+  new Promise((done) => {
+    requestAnimationFrame(() => requestAnimationFrame(done));
+    setTimeout(done, 1000);
+  });
+
+// `blocks`: f keeps the page from drawing, so the message is drawn first
 export async function busy(what, f, blocks = false) {
   ++work;
   $('busy').textContent = what;
   const show = () => {
     $('busy').hidden = false;
   };
-  const timer = setTimeout(show, blocks ? 0 : 150);
+  const timer = setTimeout(show, 150);
   try {
-    if (blocks) await new Promise((done) => setTimeout(done, 50));
+    if (blocks) {
+      show();
+      await drawn();
+    }
     return await f();
   } finally {
     clearTimeout(timer);

@@ -138,7 +138,7 @@ export async function placePoint(x, y) {
     const { shape } = page;
     let place;
     if (!shape.volume) {
-      const simplex = shape.simplexOf[hit.faceIndex],
+      const simplex = shape.simplexOf?.[hit.faceIndex] ?? hit.faceIndex,
         weights = b?.toArray() ?? [1, 0, 0];
       place = {
         simplex,

@@ -16,11 +16,6 @@ export function save(name, content) {
   say(`${name} was saved.`);
 }
 
-function saveWork(name, content) {
-  save(name, content);
-  page.isSaved = true;
-}
-
 // the handles of the files, which are numbered without gaps and have vertices
 function filed() {
   const numbers = handlesWithVertices(),
@@ -59,12 +54,12 @@ export function commandLine() {
 async function saveMesh(ending, which, suffix) {
   const { shape } = page; // another one may be opened meanwhile
   try {
-    const answer = await engine.call('points'),
-      isWork = which === 'points' && shape === page.shape;
-    (isWork ? saveWork : save)(
+    const answer = await engine.call('points');
+    save(
       `${shape.name}${suffix}.${ending}`,
       writeMesh(ending, { ...shape, points: answer[which] }),
     );
+    if (which === 'points' && shape === page.shape) page.isSaved = true;
   } catch (error) {
     complain(error);
   }
@@ -79,7 +74,7 @@ export const saves = {
   Transforms: () => {
     const { numbers } = filed();
     if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
-    saveWork(
+    save(
       `${page.shape.name}.def`,
       writeTransforms(numbers.map((k) => page.shape.handles[k].matrix)),
     );
@@ -89,7 +84,7 @@ export const saves = {
     if (!page.keys.length)
       return say('There is no key frame: move a handle, and choose Add.', true);
     page.keys.forEach((key, i) =>
-      saveWork(
+      save(
         `${page.shape.name}-${i + 1}.def`,
         writeTransforms(numbers.map((k) => key[k] ?? identity())),
       ),

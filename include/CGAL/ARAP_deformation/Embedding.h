@@ -78,7 +78,8 @@ public:
   ///
   /// If this fails, `outcome()` tells why, and the object has no points:
   ///  - `Status::non_finite_point`: a point or a vertex has a coordinate that is infinite or not a
-  ///    number, or a point is so far from the complex that the computation overflows;
+  ///    number, or a point is so far from the complex, or the complex so large, that the
+  ///    computation overflows;
   ///  - `Status::not_a_simplex`: a simplex is not a tetrahedron;
   ///  - `Status::no_tetrahedron`: no tetrahedron has a volume.
   ///
@@ -243,7 +244,8 @@ private:
       const auto location = search->locate(c);
       if(!location)
         return Outcome(Status::non_finite_point,
-                       name + " is too far from the tetrahedra: the computation overflows");
+                       name + " is too far from the tetrahedra, or these are too large: the "
+                              "computation overflows");
       m_bindings.push_back(
         {tetrahedra[location->simplex], location->coordinates, location->distance});
     }

@@ -72,14 +72,14 @@ namespace ARAP {
 ///   control vertices; the outcome is `Status::not_a_control_vertex`.
 /// - *Solver and rotation.* `ST` and `CR` can be models of the concepts of this package or of
 ///   \cgal. The defaults are those of `CGAL::ARAP_deformation_traits`. A Cholesky factorization
-///   needs a positive definite matrix. The weights of \cgal give one, as long as all are of the
-///   same shape: with `SPOKES_AND_RIMS` those of faces at the border of the region of interest no
-///   longer are if it grows after `overwrite_initial_geometry()`. Where negative weights make the
-///   matrix indefinite, `preprocess()` fails; with another solver, where a diagonal entry is not
-///   positive.
+///   needs a positive definite matrix. The weights of \cgal give one, but with
+///   `SPOKES_AND_RIMS` only if all are of one shape: if the region of interest grows after
+///   `overwrite_initial_geometry()`, weights of the former shape stand beside those of the new one.
+///   Where negative weights make the matrix indefinite, `preprocess()` fails; with another solver,
+///   where a diagonal entry is not positive.
 /// - *Unconstrained components.* If a component of the region of interest is not connected to any
-///   fixed vertex, `preprocess()` always fails, independently of rounding. So it does if no vertex
-///   of the region of interest has a face.
+///   fixed vertex, `preprocess()` always fails, independently of rounding. It also fails if no
+///   vertex of the region of interest has a face.
 /// - *Points.* A run computes in `double`, and rounds to the type of the points once, at the end.
 ///   `CGAL::to_double()` must accept the coordinates of the points. Outside the region of interest
 ///   only points of vertices that leave it are written. Points around it are read when it is

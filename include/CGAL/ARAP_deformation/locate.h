@@ -71,8 +71,8 @@ public:
   }
 
   /// \brief returns the place of the nearest simplex that is nearest to `point`, and its
-  /// coordinates; none if there is no simplex, if `point` is not finite, or if it is so far away
-  /// that the computation overflows.
+  /// coordinates; none if there is no simplex, if `point` is not finite, or if it is so far away,
+  /// or the shape so large, that the computation overflows.
   ///
   /// On a surface the coordinates are not negative: those of the nearest point. For a point outside
   /// of all tetrahedra they are those of the point itself, and some are negative.
@@ -136,7 +136,8 @@ private:
 ///        or a model of `ARAPDomain`, which may have others
 /// \param point a point of the shape's type
 /// \returns a `std::optional` of a `Location`; none if there is no simplex, if `point` is not
-///          finite, or if it is so far away that the computation overflows
+///          finite, or if it is so far away, or the shape so large, that the computation
+///          overflows
 template <typename Shape, typename Point>
 auto locate(const Shape& shape, const Point& point)
 {

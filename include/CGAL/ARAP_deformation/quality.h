@@ -56,7 +56,8 @@ struct Quality
   /// the largest spike, see `Vertex_measure::spike`; 0 if it is negative
   double largest_spike = 0;
 
-  /// the number of tetrahedra whose orientation is the opposite one
+  /// the number of tetrahedra whose orientation is the opposite one; here and above, those that are
+  /// flat up to 1e-12 of their size have no volume
   std::size_t inverted_simplices = 0;
 };
 

@@ -33,7 +33,7 @@ namespace internal {
 class Triangle_search final : public Simplex_search<3>
 {
 public:
-  // Triangles without area are ignored.
+  // Triangles without area, also such that have none beside the extent of all, are ignored.
   explicit Triangle_search(const std::vector<Corners>& triangles)
     : Triangle_search(triangles, simplices_with_content(triangles))
   {}
@@ -64,7 +64,10 @@ private:
     for(std::size_t t : numbers)
     {
       const Corners& c = triangles[t];
-      m_triangles.push_back({{m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t});
+      const Triangle_tree::Triangle triangle = {
+        {m_tree.scaled(c[0]), m_tree.scaled(c[1]), m_tree.scaled(c[2])}, t};
+      if(barycentric_coordinates(triangle.corners, triangle.corners[0]))
+        m_triangles.push_back(triangle);
     }
     for(const auto& triangle : m_triangles)
       m_tree.insert(triangle);

@@ -56,7 +56,7 @@ barycentric_coordinates(const std::array<Coordinates, 3>& corners, const Coordin
 {
   Coordinates u = difference(corners[1], corners[0]), v = difference(corners[2], corners[0]),
               from_first = difference(point, corners[0]);
-  const double size = (std::max)(largest_entry(u), largest_entry(v)); // so that no square overflows
+  const double size = (std::max)(largest_absolute_value(u), largest_absolute_value(v));
   for(Coordinates* vector : {&u, &v, &from_first})
     for(double& x : *vector)
       x /= size;

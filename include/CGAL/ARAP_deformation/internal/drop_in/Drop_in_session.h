@@ -164,6 +164,7 @@ private:
   {
     return !this->is_region_written() && !m_prepared.has_region() && entry.is_roi && !entry.was_roi;
   }
+
   void read_entered()
   {
     for(Entry& entry : m_vertices.entries())

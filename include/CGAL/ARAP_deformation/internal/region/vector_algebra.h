@@ -55,16 +55,15 @@ void add(std::array<double, n>& target, double factor, const std::array<double, 
     target[k] += factor * a[k];
 }
 
-// the largest absolute value
-inline double largest_entry(const Coordinates& a)
+inline double largest_absolute_value(const Coordinates& a)
 {
   return (std::max)({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
 }
 
-// a divided by its largest entry, so that no product with it underflows; zero stays zero
+// a divided by its largest entry, so that fewer products underflow; zero stays zero
 inline Coordinates without_scale(const Coordinates& a)
 {
-  const double size = largest_entry(a);
+  const double size = largest_absolute_value(a);
   return size > 0 ? Coordinates{a[0] / size, a[1] / size, a[2] / size} : a;
 }
 

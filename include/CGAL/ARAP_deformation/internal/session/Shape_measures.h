@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_list.h>
-#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/is_finite.h>
+#include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
