@@ -35,8 +35,8 @@
 
 namespace CGAL::ARAP::bindings {
 
-// A call that failed: the message is the sentence of the outcome. What is misuse, such as an index
-// that is out of range, is a std::logic_error with a sentence. Either changes nothing.
+// A call that failed: the message is that of the outcome. What is misuse, such as an index
+// that is out of range, is a std::logic_error with a message. Either changes nothing.
 struct Deformation_error : std::runtime_error
 {
   explicit Deformation_error(const Outcome& outcome)
@@ -130,7 +130,7 @@ public:
   virtual void set_stiffness(Numbers values) = 0;
   virtual void set_groups(Indices groups) = 0;
 
-  // what the next call of deform() needs, before it is made; returns a sentence on what it found
+  // what the next call of deform() needs, before it is made; returns a message on what it found
   virtual std::string preprocess() = 0;
   virtual Report deform(unsigned int iterations, double tolerance, const Visitor& visitor) = 0;
   virtual Step_report advance(const Dynamics& dynamics, Numbers forces, const Visitor& visitor) = 0;

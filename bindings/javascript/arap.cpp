@@ -11,7 +11,7 @@
 
 // The flat interface for JavaScript, by way of WebAssembly: index.js calls these functions and
 // nothing else does. Arrays are pointers into the heap. Each function returns whether it succeeded;
-// then there are numbers, else a sentence.
+// then there are numbers, else a message.
 
 #include "../Array_deformation.h"
 

@@ -23,7 +23,7 @@ async function machineCode() {
   return response.arrayBuffer();
 }
 
-// a typed array of numbers, with a sentence for what is none
+// a typed array of numbers, with a message for what is none
 function numbersOf(values, what, Kind) {
   const isList = Array.isArray(values) || (ArrayBuffer.isView(values) && 'length' in values);
   if (!isList) throw new TypeError(`${what} must be a typed array or an array of numbers`);

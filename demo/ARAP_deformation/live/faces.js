@@ -75,14 +75,14 @@ export function boundary(tetrahedra, points) {
     }
   const result = [];
   for (const { face, t } of faces.values()) {
-    const flipped = volumeOf(points, tetrahedra, t) < 0;
+    const flipped = relativeVolume(points, tetrahedra, t) < 0;
     result.push(...(flipped ? face.reverse() : face));
   }
   return Int32Array.from(result);
 }
 
-// six times the volume of the tetrahedron whose corners begin at t
-function volumeOf(p, tetrahedra, t) {
+// six times the volume of the tetrahedron whose corners begin at t, relative to three of its edges
+function relativeVolume(p, tetrahedra, t) {
   const a = 3 * tetrahedra[t],
     b = 3 * tetrahedra[t + 1],
     c = 3 * tetrahedra[t + 2],
@@ -96,16 +96,23 @@ function volumeOf(p, tetrahedra, t) {
   const wx = p[d] - p[a],
     wy = p[d + 1] - p[a + 1],
     wz = p[d + 2] - p[a + 2];
-  return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
+  const volume =
+    ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx);
+  return volume / (Math.hypot(ux, uy, uz) * Math.hypot(vx, vy, vz) * Math.hypot(wx, wy, wz));
 }
 
-// the corners of all faces of the tetrahedra that are inverted at these positions
+const flat = 1e-5; // what single precision leaves of a volume that is zero
+
+// the corners of all faces of the tetrahedra that are inverted at these positions, and not flat
 export function facesOfInverted({ points, simplices }, positions) {
   const corners = [];
-  for (let t = 0; t < simplices.length; t += 4)
-    if (volumeOf(positions, simplices, t) * volumeOf(points, simplices, t) < 0)
+  for (let t = 0; t < simplices.length; t += 4) {
+    const now = relativeVolume(positions, simplices, t),
+      rest = relativeVolume(points, simplices, t);
+    if (now * rest < 0 && Math.min(Math.abs(now), Math.abs(rest)) > flat)
       for (const [i, j, k] of facesOfTetrahedron)
         for (const c of [i, j, k])
           for (let x = 0; x < 3; ++x) corners.push(positions[3 * simplices[t + c] + x]);
+  }
   return corners;
 }

@@ -1,5 +1,5 @@
 // Mesh files, and the selections and transforms of arap_deform: text or bytes to arrays and back.
-// What is wrong with a file is an Error with a sentence.
+// What is wrong with a file is an Error with a message.
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { cornersOf, cut } from './faces.js';

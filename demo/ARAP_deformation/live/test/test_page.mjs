@@ -218,7 +218,7 @@ const heaps = (sizes) =>
 const steps = {
   async 'without a browser'() {
     const { readMesh, readSelection, readTransforms, writeMesh } = await bundled('files'),
-      { boundary, startsOf, trianglesOf } = await bundled('faces'),
+      { boundary, facesOfInverted, startsOf, trianglesOf } = await bundled('faces'),
       { fittedMotion } = await bundled('motion');
     const read = (name, text) => readMesh(name, new TextEncoder().encode(text).buffer);
     // comments are no corners, and end with their line
@@ -361,6 +361,17 @@ const steps = {
       assert(volume > 0, 'the boundary is not inside out');
       for (let i = 0; i < solid.simplices.length; i += 4)
         solid.simplices.subarray(i, i + 2).reverse();
+    }
+    // one tetrahedron that is inverted, and one that is flat, and moves
+    const pair = {
+        points: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0.2, 0.3, 0.3, 0.1, 0.2, 0.4, 0.3, 0.5 + 1e-10),
+        simplices: Int32Array.of(0, 1, 2, 3, 0, 4, 5, 6),
+      },
+      shifted = Float32Array.from(pair.points, (x, i) => (i === 11 ? -1 : x) + 1 + (i % 3));
+    assert.equal(facesOfInverted(pair, shifted).length, 36);
+    for (let k = 0; k < 9; ++k) {
+      const moved = Float32Array.from(pair.points, (x, i) => x + 0.37 * k * (1 + (i % 3)));
+      assert.equal(facesOfInverted(pair, moved).length, 0);
     }
     // the motion of an elongated handle
     const strip = Array.from({ length: 105 }, (_, v) => [v % 21, ((v / 21) | 0) / 4, 0]).flat(),
