@@ -503,7 +503,7 @@ void test_refusals()
   check_refused("in.off --iterations -3" + rest, 2, "--iterations");
   check_refused("in.off --iterations many" + rest, 2, "iterations");
   check_refused("in.off --threads -1" + rest, 2, "--threads");
-  check_refused("in.off --tolerance -1" + rest, 2, "--tolerance is -1");
+  check_refused("in.off --tolerance -1" + rest, 2, "--tolerance must be finite and not negative");
   check_refused("in.off --cells k_ring:101" + rest, 2, "--cells is k_ring:101");
   check_refused("in.off --tolerance nan" + rest, 2, "tolerance");
 }
