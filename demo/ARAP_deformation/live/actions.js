@@ -1,5 +1,5 @@
 // What buttons and keys do with the shape that is open.
-import { FIXED, FREE } from './colors.js';
+import { FREE } from './colors.js';
 import { placeGizmo, showMeasure } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
 import {
@@ -12,6 +12,7 @@ import {
 } from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
+import { chooseTool } from './opening.js';
 import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { cancelStroke, painted, setTool } from './painting.js';
 import { $, changed, engine, page, view } from './state.js';
@@ -87,12 +88,10 @@ export function clearPaint() {
     page.shape.status.fill(FREE);
     page.shape.handles = [];
     page.keys = [];
-    page.chosen = -1;
-    page.paints = FIXED;
-    setTool('brush');
+    recountHandles(false);
+    chooseTool();
     const { points } = await engine.call('reset');
     page.spare = view.setPositions(points);
-    recountHandles(false);
     await hold();
   });
 }

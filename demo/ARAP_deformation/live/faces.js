@@ -1,6 +1,6 @@
-// The triangles that are drawn: of triangles and polygons, or of the boundary of tetrahedra; and what is
-// computed from tetrahedra. A shape has the corners of its simplices one after the other, those of
-// simplex s from starts[s] to starts[s + 1].
+// The triangles that are drawn: of triangles and polygons, or of the boundary of tetrahedra; and
+// what is computed from tetrahedra. A shape has the corners of its simplices one after the other,
+// those of simplex s from starts[s] to starts[s + 1].
 import { ShapeUtils, Vector2 } from 'three';
 
 // of a tetrahedron, seen from outside

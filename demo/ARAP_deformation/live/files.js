@@ -57,7 +57,9 @@ function surface(points, polygons) {
       ? 3
       : Int32Array.from(faces, (face) => face.length),
     volume: false,
-    note: large ? `Faces with more than ${mostCorners} corners were cut into triangles: ${large}.` : '',
+    note: large
+      ? `Faces with more than ${mostCorners} corners were cut into triangles: ${large}.`
+      : '',
   };
 }
 

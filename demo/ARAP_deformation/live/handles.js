@@ -97,6 +97,15 @@ export function recountHandles(fits) {
     page.chosen = -1;
 }
 
+// a matrix for each handle
+export const matrices = () => page.shape.handles.map((h) => h.matrix.slice());
+
+export function moveHandles(key) {
+  page.shape.handles.forEach((h, k) => {
+    h.matrix = key[k].slice();
+  });
+}
+
 export function handlesMoved() {
   page.hasNewTargets = true;
   page.isSettled = false;

@@ -1,7 +1,15 @@
-// Files that are chosen or dropped: a mesh, and a selection and transforms for it or for what is open.
+// Files that are chosen or dropped: a mesh, and a selection and transforms for it or for what is
+// open.
 import { HANDLE } from './colors.js';
 import { endingOf, meshFormats, readMesh, readSelection, readTransforms } from './files.js';
-import { handlesWithVertices, hold, isDeformed, recountHandles } from './handles.js';
+import {
+  handlesWithVertices,
+  hold,
+  isDeformed,
+  matrices,
+  moveHandles,
+  recountHandles,
+} from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
 import { chooseTool, openInTurn, stopAll } from './opening.js';
 import { page } from './state.js';
@@ -36,18 +44,11 @@ function select(status) {
 
 // Each key has a matrix for each handle with vertices. Several keys are key frames.
 function pose(keys) {
-  const { handles } = page.shape,
-    numbers = handlesWithVertices();
-  const all = keys.map((key) => {
-    const matrices = handles.map((h) => h.matrix.slice());
-    numbers.forEach((k, i) => {
-      matrices[k] = key[i];
-    });
-    return matrices;
-  });
-  handles.forEach((h, k) => {
-    h.matrix = all.at(-1)[k].slice();
-  });
+  const numbers = handlesWithVertices(),
+    all = keys.map((key) =>
+      matrices().map((matrix, k) => key[numbers.indexOf(k)] ?? matrix),
+    );
+  moveHandles(all.at(-1));
   if (all.length > 1) page.keys = all;
 }
 
@@ -58,8 +59,8 @@ async function openTogether(mesh, meshName, selection, transforms) {
   const selected = selection && selectionOf(selection, shape.points.length / 3),
     numbers = selected?.numbers ?? (mesh ? [] : handlesWithVertices().map((_, i) => i)),
     keys = transforms.map(({ name, bytes }) => {
-      const matrices = readTransforms(name, bytes, numbers.length && numbers.at(-1) + 1);
-      return numbers.map((k) => matrices[k]);
+      const key = readTransforms(name, bytes, numbers.length && numbers.at(-1) + 1);
+      return numbers.map((k) => key[k]);
     });
   if (mesh)
     await openInTurn(

@@ -142,7 +142,10 @@ export async function placePoint(x, y) {
         weights = b?.toArray() ?? [1, 0, 0];
       place = {
         simplex,
-        coordinates: Array.from(cornersOf(shape, simplex), (v) => weights[triangle.indexOf(v)] ?? 0),
+        coordinates: Array.from(
+          cornersOf(shape, simplex),
+          (v) => weights[triangle.indexOf(v)] ?? 0,
+        ),
       };
     } else
       ({ place } = await engine.call('locate', { point: hit.point.toArray() }));

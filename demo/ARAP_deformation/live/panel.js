@@ -10,7 +10,7 @@ import {
 } from './actions.js';
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
-import { choose, handlesMoved, isThere, nextHandle } from './handles.js';
+import { choose, handlesMoved, isThere, moveHandles, nextHandle } from './handles.js';
 import { formats, openFiles } from './importing.js';
 import { closeHelp, say } from './messages.js';
 import { models } from './models.js';
@@ -116,9 +116,7 @@ function showPanel() {
       onclick() {
         if (key.length !== page.shape.handles.length)
           return say('This key frame is of other handles.', true);
-        page.shape.handles.forEach((h, k) => {
-          h.matrix = key[k].slice();
-        });
+        moveHandles(key);
         handlesMoved();
         commit();
       },

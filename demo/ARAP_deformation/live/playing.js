@@ -1,7 +1,7 @@
 // Key frames, and films of them.
 import { placeGizmo } from './drawing.js';
 import { stopPlaying } from './follow.js';
-import { handlesMoved } from './handles.js';
+import { handlesMoved, matrices } from './handles.js';
 import { say } from './messages.js';
 import { identity, matrixOf, rigidParts } from './motion.js';
 import { save } from './saving.js';
@@ -9,7 +9,7 @@ import { changed, page, view } from './state.js';
 import { commit } from './undo.js';
 
 export function addKey() {
-  page.keys.push(page.shape.handles.map((h) => h.matrix.slice()));
+  page.keys.push(matrices());
   commit();
 }
 

@@ -30,6 +30,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -150,24 +151,29 @@ struct Built_region : Built_core
 
   // The rotations that these cells have in another region, the identity where they have none. None
   // if there are none.
-  Array<Matrix_3x3> rotations_from(const Cell_rotations<Domain>& others, const Domain& domain) const
+  Cell_rotations<Domain> rotations_from(const Cell_rotations<Domain>& others,
+                                        const Domain& domain) const
   {
+    Cell_rotations<Domain> result{region, {}, others.are_complete};
     if(others.rotations.empty())
-      return {};
-    Array<Matrix_3x3> rotations(core->number_of_cells(), identity_matrix());
+      return result;
+    result.rotations = Array<Matrix_3x3>(core->number_of_cells(), identity_matrix());
     const bool are_at_vertices = core->has_vertex_cells();
-    for(std::size_t c = 0; c < rotations.size(); ++c)
+    for(std::size_t c = 0; c < result.rotations.size(); ++c)
       if(const int old = are_at_vertices
                            ? others.region->find_vertex(domain, region->vertices[c])
                            : others.region->find_simplex(domain, region->simplices[c]);
          old >= 0 && old < static_cast<int>(others.rotations.size()))
-        rotations[c] = others.rotations[old];
-    return rotations;
+        result.rotations[c] = others.rotations[old];
+      else
+        result.are_complete = false;
+    return result;
   }
 
   void take_rotations(const Cell_rotations<Domain>& others, const Domain& domain)
   {
-    core->set_rotations(rotations_from(others, domain), others.are_complete);
+    Cell_rotations<Domain> own = rotations_from(others, domain);
+    core->set_rotations(std::move(own.rotations), own.are_complete);
   }
 
 private:

@@ -217,7 +217,7 @@ public:
       if(const Point* present = find_present(region().vertices[k]))
         positions[k] = Domain::coordinates(*present);
     if(state.cells.region)
-      state.cells.rotations = m_prepared->rotations_from(state.cells, domain);
+      state.cells = m_prepared->rotations_from(state.cells, domain);
     state.positions.swap(positions);
   }
 

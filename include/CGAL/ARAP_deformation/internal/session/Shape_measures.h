@@ -51,11 +51,14 @@ public:
     Bounding_box box;
     for(const Coordinates& p : m_rest)
       box.include(p);
-    if(const double side = box.longest_side(); side > 0 && is_finite(side))
-      for(Points* all : {&m_rest, &m_points})
-        for(Coordinates& p : *all)
-          for(double& x : p)
-            x = std::ldexp(x, -std::ilogb(side));
+    const double side = box.longest_side();
+    if(!(side > 0) || !is_finite(side))
+      return;
+    const int exponent = -std::ilogb(side);
+    for(Points* all : {&m_rest, &m_points})
+      for(Coordinates& p : *all)
+        for(double& x : p)
+          x = std::ldexp(x, exponent);
   }
 
   // of the whole shape
