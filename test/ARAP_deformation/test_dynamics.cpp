@@ -323,6 +323,44 @@ void fall(Cell_scheme cells, Minimizer minimizer)
   }
 }
 
+// A soft target is a spring: what a free body gains of momentum are its forces and the weight.
+template <int Dimension>
+void pull(Cell_scheme cells, Minimizer minimizer)
+{
+  const Model model = make_model<Dimension>();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(points.size()));
+  CHECK(deformation.set_options(options(cells, minimizer)));
+  const std::map<std::size_t, double> weights = {{0, 0.3}, {7, 2}};
+  std::map<std::size_t, Vector3d> targets;
+  for(const auto& [v, weight] : weights)
+  {
+    targets[v] = model.points[v] + Vector3d(0.3, -0.2, 0.5);
+    deformation.insert_control_vertex(v, point(targets[v]));
+    CHECK(deformation.set_target_weight(v, weight));
+  }
+  Dynamics dynamics;
+  dynamics.time_step = 0.02;
+  dynamics.modulus = 5;
+  dynamics.damping = 0.4;
+  dynamics.acceleration = {0, 0, -10};
+  const double h = dynamics.time_step;
+  Vector3d momentum(0, 0, 0);
+  for(int step = 0; step < 30; ++step)
+  {
+    const Step_report report = deformation.advance(dynamics);
+    if(!CHECK(report))
+      return;
+    Vector3d force = report.mass * eigen(dynamics.acceleration);
+    for(const auto& [v, weight] : weights)
+      force += 2 * dynamics.modulus * weight * (targets[v] - vector(points[v]));
+    momentum = (momentum + h * force) / (1 + h * dynamics.damping);
+    CHECK_AT_MOST((eigen(report.momentum) - momentum).norm(), 1e-7 * h * force.norm());
+    momentum = eigen(report.momentum);
+  }
+}
+
 // A hanging body comes to rest where its elastic forces bear its weight.
 template <int Dimension>
 void hang(Cell_scheme cells, Minimizer minimizer)
@@ -580,6 +618,7 @@ void run_all()
       conserve<Dimension>(cells, minimizer, 5, is_default ? 500 : 50);
       conserve<Dimension>(cells, minimizer, 5, 50, 0.1);
       fall<Dimension>(cells, minimizer);
+      pull<Dimension>(cells, minimizer);
       if(minimizer == Minimizer::quasi_newton || is_default)
         hang<Dimension>(cells, minimizer); // the other one takes long
     }
