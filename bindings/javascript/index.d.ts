@@ -276,13 +276,13 @@ export interface Session {
    *  values belong to these cells: clear them before the option `cells` changes to elements, or
    *  from these to others. */
   setStiffness(values?: Numbers): void;
-  /** lets cells with the same number from 0 on share a rotation, as rigid parts do; those with a
-   *  negative number have their own */
+  /** lets cells with the same number from 0 on share a rotation; those with a negative number have
+   *  their own. The part can still stretch: a rigid one has a large stiffness, too. */
   setGroups(groups?: Indices): void;
 
   /**
    * does what the next call of `deform()` needs, such as the factorization, before it is made;
-   * returns a message, which tells also what unconstrained components there are. Not for time
+   * returns a message, which also says what unconstrained components there are. Not for time
    * steps, which need another factorization.
    */
   preprocess(): string;

@@ -50,7 +50,8 @@ inline boost::program_options::options_description described_options()
     ("region", in_order()->value_name("WHAT"), "of the free vertices only these may move")
     ("stiffness", in_order()->value_name("WHAT K"), "these cells are K times as stiff")
     ("rigid", in_order()->value_name("WHAT"),
-     "these cells share a rotation; each --rigid is a part of its own")
+     "these cells share a rotation; each --rigid is a part of its own, which may still stretch "
+     "where it has no --stiffness")
     ("selection", value<std::string>()->default_value("", "")->value_name("S.sel"),
      "instead of --handle: a status per line and vertex: 0 fixed, 1 free, k >= 2 handle k; # is a "
      "comment; what --fix picks is fixed, whatever the file says")

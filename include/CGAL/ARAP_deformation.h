@@ -91,9 +91,9 @@ using Call_turn = Requires_convertible<
 ///         - if `Mesh` is itself a model of `ARAPDomain`, `Mesh`;
 ///         - for triangulations and complexes in them, `ARAP::Triangulation_domain`: include its
 ///           header;
-///         - for linear cell complexes that are no `FaceGraph` (of dimension 3, over generalized
-///           maps, or without face attributes), `ARAP::Linear_cell_complex_domain`: include its
-///           header;
+///         - for linear cell complexes that are not models of `FaceGraph` (of dimension 3, over
+///           generalized maps, or without face attributes), `ARAP::Linear_cell_complex_domain`:
+///           include its header;
 ///         - else `ARAP::Face_graph_domain<Mesh>`.
 template <typename Mesh, typename Traits = Default, typename Domain = Default>
 class ARAP_deformation
@@ -459,10 +459,8 @@ public:
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
-  /// Choose the weight relative to the edges: on a surface with cotangents, one edge, over all
-  /// cells that contain it, weighs about 1, with cells of `k_ring(1)` 8 and of `k_ring(2)` 22; in a
-  /// volume, about a length. The stiffness of the cells multiplies this. Weights below about
-  /// \f$10^{-14}\f$ times these are lost to rounding.
+  /// Choose the weight relative to that of an edge, see \ref ARAPDeformation_Soft: on a surface
+  /// with cotangents about 1, in a volume about a length.
   ///
   /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
   /// nothing. Returns `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative
@@ -537,14 +535,13 @@ public:
   /// It is copied, and asked whenever the region or its weights are prepared, by any later run:
   /// call the function again after a change of its values. What it refers to, as a lambda that
   /// captures by reference does, must live until other values are set. Its keys are vertices if
-  /// cells are at vertices, and simplices if cells are simplices; a map with the other keys has no
-  /// effect, and no call fails because of it. Where both have the same type, as in ranges, it is
-  /// taken for what the cells are. The keys of a generic lambda, or of another function object
-  /// without a unique `operator()`, are vertices: `ARAP::of_simplices()` of it takes simplices. The
-  /// indices of a vector are those of vertices, too, unless simplices are numbers, as in ranges and
-  /// linear cell complexes. Where cells are simplices, a run refuses such a function object and
-  /// such a vector, with `ARAP::Status::undeclared_map`. The functions themselves return
-  /// `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a run calls them.
+  /// cells are at vertices, and simplices if cells are simplices; a map whose type says that its
+  /// keys are the others has no effect. Where both have the same type, as in ranges, it is taken
+  /// for what the cells are. A generic lambda, or another function object without a unique
+  /// `operator()`, counts as a map of vertices: `ARAP::of_simplices()` makes it one of simplices. A
+  /// vector does, too, unless simplices are numbers, as in ranges and linear cell complexes. Where
+  /// cells are simplices, a run refuses both, with `ARAP::Status::undeclared_map`. The functions
+  /// themselves return `ARAP::Status::success`, or `ARAP::Status::in_a_run` where a run calls them.
   /// @{
 
   /// sets the stiffness \f$k_c \geq 0\f$ of cells, a number without unit, the weights \f$w_i\f$ of
@@ -565,8 +562,9 @@ public:
     return m_session.change_cell_values([](auto& values) { values.clear_stiffness(); });
   }
 
-  /// lets all cells to which the map gives the same number from 0 on share one rotation, as rigid
-  /// parts do; those with a negative number, or none, have their own. 0 is the number of a group:
+  /// lets all cells to which the map gives the same number from 0 on share one rotation; those with
+  /// a negative number, or none, have their own. The part can still stretch: a rigid one has a
+  /// large stiffness, too. 0 is the number of a group:
   /// a map to `bool` makes one of all cells with `false`. Numbers are at most
   /// \f$2^{63}-1\f$. What is not in the region of interest or next to it does not count.
   /// Takes new weights and a numeric factorization.
@@ -617,7 +615,8 @@ public:
 
   /// deforms with a number of iterations and a tolerance for this call only, see `ARAP::Options`.
   /// With `ARAP::Minimizer::automatic` a tolerance of 0 also selects local/global. Take it for the
-  /// frames of a drag; when the drag has ended, `deform()` goes on to the minimum.
+  /// frames of a drag (\ref ARAPDeformation_Iterations); when that has ended, `deform()` goes on to
+  /// the minimum.
   [[nodiscard]] ARAP::Report deform(unsigned int iterations, double tolerance)
   {
     return deform(iterations, tolerance, ARAP::Default_visitor());
@@ -697,13 +696,11 @@ public:
   /// returns the region of interest, the control vertices and control points, their targets
   /// (points, sets and rotations) and weights, the rest shape, the positions and velocities, for
   /// undo and redo. Linear time and memory: take one for a drag, not for each of its frames. What
-  /// functions of target sets refer to must live as long as a state that has them. Options,
-  /// stiffness and groups are no part of it: a program that lets its users change these must save
-  /// them itself, and where they differ now, must set them again before it restores the state,
-  /// because the rotations in a state belong to the cells that were in use when it was taken. That
-  /// costs what such a change costs, and `energy()` is not a number until the next run. The factor
-  /// is no part of it, either: if it, or the region, was computed again since, runs from a restored
-  /// state have the same iterates only up to rounding.
+  /// functions of target sets refer to must live as long as a state that has them. It does not hold
+  /// options, stiffness and groups: if they have changed since, set the old ones first, and then
+  /// restore, as the rotations in a state belong to the cells of that time; `energy()` is not a
+  /// number until the next run. Nor does it hold the factor: if it, or the region, was computed
+  /// again since, runs from a restored state have the same iterates only up to rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs

@@ -26,10 +26,10 @@ namespace ARAP {
 /// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  automatic, ///< `previous`; but where a handle is farther from where its neighbors are, or a soft
-             ///< target from its vertex, than a tenth of the diagonal of the bounding box,
-             ///< `rotations` if its energy is lower. Quasi-Newton
-             ///< runs on surfaces with 20,000 free vertices or more then deform a coarser surface
+  automatic, ///< `previous`; but where a hard handle is torn from its neighbors by more than a
+             ///< tenth of the diagonal of the bounding box, or a soft target is that far from its
+             ///< vertex, `rotations` if its energy is lower. Quasi-Newton runs on surfaces with
+             ///< 20,000 free vertices or more then deform a coarser surface
              ///< (\ref ARAPDeformation_CoarseStart).
   previous, ///< the current positions: for interaction, where each frame starts from the last
   rotations, ///< Poisson editing \cgalCite{Zayer2005Harmonic}: the rotations of the handles against
@@ -44,18 +44,18 @@ enum class Initial_guess
 };
 
 /// \ingroup PkgARAPDeformationOptions
-/// the minimization algorithm. With either one the energy never rises, and an iteration costs about
-/// the same: one fit of the rotations and one solve of the linear system; with
-/// `Options::smoothing_length` the quasi-Newton one takes two more solves, of another system.
+/// the minimization algorithm. With either one the energy never rises, and an iteration is one fit
+/// of the rotations and one solve of the linear system; with `Options::smoothing_length` the
+/// quasi-Newton one takes two more solves, of another system.
 enum class Minimizer
 {
   automatic,    ///< `quasi_newton` if `Options::tolerance` is positive, else `local_global`
-  local_global, ///< the iteration of the paper \cgalCite{Sorkine2007AsRigidAs}: gains the most in
-                ///< the first few iterations, and needs the least memory; see
+  local_global, ///< the iteration of the paper \cgalCite{Sorkine2007AsRigidAs}: its iterates can be
+                ///< compared with those of other programs, and it needs the least memory; see
                 ///< \ref ARAPDeformation_LocalGlobal
-  quasi_newton  ///< L-BFGS in the metric of the Laplacian: needs an eighth to a thirtieth of the
-                ///< iterations to the minimum, and about 200 bytes more for each vertex of the
-                ///< region; see \ref ARAPDeformation_QuasiNewton
+  quasi_newton  ///< L-BFGS in the metric of the Laplacian: is ahead from the second iteration on,
+                ///< needs an eighth to a thirtieth of the iterations to the minimum, and about 200
+                ///< bytes more for each vertex of the region; see \ref ARAPDeformation_QuasiNewton
 };
 
 /// \ingroup PkgARAPDeformationOptions

@@ -338,12 +338,13 @@ class Deformation:
 
     def set_groups(self, groups: ArrayLike) -> None:
         """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none.
+        The part can still stretch: a rigid one has a large stiffness, too.
         Pass [] before ``cells`` changes to 'elements', or from these to others."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 
     def preprocess(self) -> str:
         """Prepares what the next call of deform() needs, which it else does itself. Returns a
-        message, which tells also what unconstrained components there are. Not for time steps,
+        message, which also says what unconstrained components there are. Not for time steps,
         which need another factorization."""
         return str(self._session.preprocess())
 
