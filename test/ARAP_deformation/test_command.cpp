@@ -712,7 +712,9 @@ void test_frames()
     if(file == "film.gif" && !is_long_run()) // drawn frame by frame
       continue;
     const Run done = run(call + "new.off --frames 2 --animation " + file);
-    if(done.exit_code == 1 && done.err.find("--animation " + file) != std::string::npos)
+    const bool needs_programs = file == "film.gif" || file == "film.webm";
+    if(needs_programs && done.exit_code == 1 &&
+       done.err.find("--animation " + file) != std::string::npos)
       std::cout << "NOTICE: not tested: " << done.err; // something is not installed
     else
     {
@@ -720,13 +722,10 @@ void test_frames()
       CHECK(content(folder / file).rfind(start, 0) == 0);
     }
   }
-  if(fs::exists(folder / "film.gltf"))
-  {
-    const auto gltf = nlohmann::json::parse(content(folder / "film.gltf"));
-    CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
-    CHECK(gltf["accessors"][0]["count"] == shape.points.size());
-    CHECK(gltf["animations"][0]["channels"][0]["target"]["path"] == "weights");
-  }
+  const auto gltf = nlohmann::json::parse(content(folder / "film.gltf"));
+  CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
+  CHECK(gltf["accessors"][0]["count"] == shape.points.size());
+  CHECK(gltf["animations"][0]["channels"][0]["target"]["path"] == "weights");
   const std::string shell_command = command;
   command = "/usr/bin/env\" PATH=/nonexistent \"" + shell_command;
   check_refused("missing.off --selection in.sel --transform in.def -o other.off --animation a.mp4",
@@ -1501,8 +1500,11 @@ void test_help()
   fs::copy(models / mesh, folder / mesh);
   CHECK(run(first + " --report r.json --quality").exit_code == 0);
   const auto json = nlohmann::json::parse(content(folder / "r.json"));
-  if(json["vertices"] < 5000) // it is a stand-in
+  if(json["vertices"] < 5000)
+  {
+    std::cout << "NOTICE: not tested on " << mesh << ", but on a stand-in" << std::endl;
     return;
+  }
   CHECK_AT_MOST(json["edge_length_error"].get<double>(), 0.025); // there is no fold
   CHECK(json["self_intersections"] == 0);
 }
@@ -1788,7 +1790,7 @@ void test_terms()
     double difference = 0, change_by_option = 0;
     for(std::size_t v = 0; v < number_of_vertices; ++v)
     {
-      difference = (std::max)(difference, (result[v] - vector(points[v])).norm());
+      difference = larger(difference, (result[v] - vector(points[v])).norm());
       change_by_option = (std::max)(change_by_option, (result[v] - plain[v]).norm());
     }
     CHECK_AT_MOST(difference, options == "--solver single_precision" ? 1e-4 : 1e-9);

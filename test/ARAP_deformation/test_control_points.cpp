@@ -1051,13 +1051,15 @@ void test_refusals()
   d.insert_control_vertex(v);
   const auto is_asked = [](const Point&) -> Point { throw std::runtime_error("asked"); };
   CHECK(d.set_target_weight(v, 1));
-  for(int k = 0; k < 3; ++k)
+  for(int k = 0; k < 4; ++k)
   {
     CHECK(d.set_target_set(v, is_asked));
     if(k == 0)
       CHECK(d.set_target_position(v, sheet.s.points[v]));
     else if(k == 1)
       CHECK(!d.insert_control_vertex(v, sheet.s.points[v]));
+    else if(k == 2)
+      d.reset();
     else
       CHECK(d.transform(v, [](const Point& q) { return q; }, CGAL::ARAP::Transformed::rest_shape));
     CHECK(d.deform(1, 0));

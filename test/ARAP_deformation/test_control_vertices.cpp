@@ -320,7 +320,7 @@ void test_targets_and_weights()
   CHECK(d.set_target_weight(b, 0.5));
   CHECK(std::isnan(d.energy()));
 
-  // a range, up to the first that is refused
+  // a range
   const std::size_t both[] = {a, b};
   CHECK(d.set_target_weight(both, 7));
   CHECK(d.target_weight(a) == 7 && d.target_weight(b) == 7);
@@ -839,6 +839,7 @@ void test_history()
   for(std::size_t v = 0; v < n; ++v)
     old.insert_roi_vertex(v);
   old.insert_control_vertex(0);
+  int number_of_runs = 0;
   for(int change = 0; change < 1000; ++change)
   {
     test_case() = "change " + std::to_string(change);
@@ -898,11 +899,13 @@ void test_history()
     }
     const CGAL::ARAP::Report a = old.deform(4, 0), b = other.deform(4, 0);
     CHECK(a.status == b.status);
+    number_of_runs += bool(a);
     if(a && !a.energy.empty())
       CHECK_AT_MOST(std::abs(a.energy.back() - b.energy.back()),
                     1e-8 * (b.energy.back() + b.energy_scale));
     CHECK_AT_MOST(largest_distance(points, other_points), 1e-8);
   }
+  CHECK(number_of_runs > 20);
 }
 
 // What a factorization refuses is refused with the factor of other free vertices too.

@@ -15,7 +15,6 @@
 #include "include/compiled_solvers.h"
 #include "include/dense_reference.h"
 #include "include/domains.h"
-#include "include/misuse.h"
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>

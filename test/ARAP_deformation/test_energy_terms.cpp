@@ -514,6 +514,15 @@ void test_one_frame(const Model& model)
       CHECK(report.iterations <= 30);
       CHECK_AT_MOST(report.final_energy(), report.rounding_level);
       CHECK_AT_MOST(largest_distance(run.points, expected), 1e-9 * diameter);
+
+      // the same as a transformation, whose translation does not count, and a target that turns
+      Run<Dimension> same(model, s, cells, {}, minimizer);
+      const auto& r = rotation;
+      CHECK(same.deformation.set_target_rotation(v, CGAL::Aff_transformation_3<Kernel>(
+        r(0, 0), r(0, 1), r(0, 2), 1, r(1, 0), r(1, 1), r(1, 2), 2, r(2, 0), r(2, 1), r(2, 2), 3)));
+      CHECK(same.deformation.rotate(v, model.points[v], Eigen::Quaterniond(0, 1, 0, 0)));
+      CHECK(same.deformation.deform(100, 1e-6).energy == report.energy);
+
       CHECK(run.deformation.erase_target_rotation(v));
     }
 }
@@ -550,6 +559,12 @@ void test_frames_of_motions(const Model& model)
         CGAL::ARAP::Status::invalid_rotation);
   d.translate(turned[0], Kernel::Vector_3(1, 0, 0));
   CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
+#ifdef CGAL_NDEBUG // else a precondition says so
+  d.translate(turned[0], Kernel::Vector_3(-1, 0, 0));
+  const std::size_t last = turned.back();
+  CHECK(d.erase_control_vertex(last));
+  CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::not_a_control_vertex);
+#endif
 }
 
 // the cells of a group have one rotation
@@ -601,6 +616,11 @@ void test_changes(const Model& model)
       fresh.deformation.set_target_position(v, point(model.points[v]));
   CHECK(fresh.deformation.deform(4, 0));
   CHECK_AT_MOST(largest_distance(run.points, fresh.points), 1e-8);
+
+  d.overwrite_initial_geometry(); // erases them, too: the shape stays as it is
+  const std::vector<Point> overwritten = run.points;
+  CHECK(d.deform(4, 0));
+  CHECK_AT_MOST(largest_distance(run.points, overwritten), 1e-9);
   CHECK(d.restore(state));
   d.clear_stiffness();
   d.clear_groups();
@@ -1033,6 +1053,7 @@ void test_double_faces(const Model& model)
     Run<2> both(twice, s, Cell_scheme::spokes(), bending);
     const Report expected = single.deformation.deform(10, 0);
     const Report found = both.deformation.deform(10, 0);
+    CHECK(expected && found);
     for(std::size_t k = 0; k < expected.energy.size(); ++k)
       CHECK_AT_MOST(std::abs(found.energy.at(k) / (2 * expected.energy[k]) - 1), 1e-9);
   }
@@ -1134,8 +1155,8 @@ void test_huge_lengths(const Model& model)
   }
 }
 
-// On a mesh, in one call, and with any number of threads: the cells are in several blocks, and a
-// group reaches from the first one to the last.
+// On a mesh, in one call, by the class, and with any number of threads: the cells are in several
+// blocks, and a group reaches from the first one to the last.
 void test_mesh()
 {
   test_case() = "a mesh";
@@ -1143,39 +1164,58 @@ void test_mesh()
     return Eigen::Vector3d(6 * u, 4 * v, std::sin(3 * u + v));
   });
   const Scenario s = scenario(shape, 0.8);
-  const auto all_the_same = [&](Cell_scheme cells, unsigned int threads) {
-    Mesh mesh = make_mesh<Mesh>(shape);
-    std::map<Mesh::Vertex_index, Point> targets;
-    std::map<Mesh::Vertex_index, Eigen::Quaterniond> rotations;
-    for(Mesh::Vertex_index v : mesh.vertices())
-      if(s.selection[v] != 1)
-      {
-        targets.emplace(v, point(s.targets[v]));
-        if(v % 3 == 0)
-          rotations.emplace(v, turn(0.2, {1, 0, 0}));
-      }
+  const Mesh rest = make_mesh<Mesh>(shape);
+  std::map<Mesh::Vertex_index, Point> targets;
+  std::map<Mesh::Vertex_index, Eigen::Quaterniond> rotations;
+  for(Mesh::Vertex_index v : rest.vertices())
+    if(s.selection[v] != 1)
+    {
+      targets.emplace(v, point(s.targets[v]));
+      if(v % 3 == 0)
+        rotations.emplace(v, turn(0.2, {1, 0, 0}));
+    }
+  const auto stiffness = [](auto c) { return 1 + double(std::size_t(c) % 3); };
+  const auto groups = [](auto c) { return std::size_t(c) % 900 < 3 ? 0 : -1; };
+  for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements(),
+                           Cell_scheme::k_ring(2)})
+  {
     Options options = options_for(cells);
-    options.threads = threads;
     options.iterations = 10;
     options.smoothing_length = 0.1;
     options.bending_length = cells.has_vertex_cells() ? 0.1 : 0;
-    namespace np = CGAL::parameters;
-    const auto stiffness = [](auto c) { return 1 + double(std::size_t(c) % 3); };
-    const auto groups = [](auto c) { return std::size_t(c) % 900 < 3 ? 0 : -1; };
-    const auto deform = [&](const auto& stiffness_map, const auto& group_map) {
-      return CGAL::arap_deform(
-        mesh, targets,
-        np::target_rotations(rotations,
-          np::cell_stiffness(stiffness_map,
-            np::cell_groups(group_map, np::deformation_options(options)))));
+    const auto in_one_call = [&](unsigned int threads) {
+      Mesh mesh = rest;
+      options.threads = threads;
+      namespace np = CGAL::parameters;
+      const auto deform = [&](const auto& stiffness_map, const auto& group_map) {
+        return CGAL::arap_deform(
+          mesh, targets,
+          np::target_rotations(rotations,
+            np::cell_stiffness(stiffness_map,
+              np::cell_groups(group_map, np::deformation_options(options)))));
+      };
+      CHECK(cells.has_vertex_cells() ? deform(stiffness, groups)
+                                     : deform(of_simplices(stiffness), of_simplices(groups)));
+      return points_of(mesh);
     };
-    CHECK(cells.has_vertex_cells() ? deform(stiffness, groups)
-                                   : deform(of_simplices(stiffness), of_simplices(groups)));
-    return points_of(mesh);
-  };
-  for(Cell_scheme cells : {Cell_scheme::spokes_and_rims(), Cell_scheme::elements(),
-                           Cell_scheme::k_ring(2)})
-    CHECK(all_the_same(cells, 1) == all_the_same(cells, 4));
+    const std::vector<Point> one = in_one_call(1);
+    CHECK(one == in_one_call(4));
+
+    Mesh mesh = rest;
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options));
+    d.insert_roi_vertices(mesh.vertices());
+    for(const auto& [v, target] : targets)
+      d.insert_control_vertex(v, target);
+    for(const auto& [v, rotation] : rotations)
+      CHECK(d.set_target_rotation(v, rotation));
+    if(cells.has_vertex_cells())
+      CHECK(d.set_stiffness(stiffness) && d.set_groups(groups));
+    else
+      CHECK(d.set_stiffness(of_simplices(stiffness)) && d.set_groups(of_simplices(groups)));
+    CHECK(d.deform());
+    CHECK_AT_MOST(largest_distance(points_of(mesh), one), 1e-9);
+  }
 }
 
 // Generic lambdas are asked for vertices, unless they are declared: their bodies may compile for

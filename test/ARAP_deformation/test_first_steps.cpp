@@ -20,6 +20,7 @@
 
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Edge_map_weight.h>
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
@@ -36,6 +37,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -1026,6 +1028,14 @@ void test_one_call()
       constrained.push_back(is_fixed(v) || targets.count(v) > 0);
     return CGAL::arap_deform(mesh, constrained, targets, Options());
   }) == expected);
+  {
+    test_case() = "a vector that is too short";
+    Mesh mesh = rest;
+    bool is_refused = false;
+    try { static_cast<void>(CGAL::arap_deform(mesh, std::vector<bool>(80), targets, Options())); }
+    catch(const std::out_of_range&) { is_refused = true; }
+    CHECK(is_refused && points_of(mesh) == points_of(rest));
+  }
 
   run("maps that count their copies", [&](Mesh& mesh) {
     int number = 0;
@@ -1157,6 +1167,53 @@ void test_class()
   CGAL::ARAP_deformation held(mesh, CGAL::parameters::vertex_is_constrained_map(is_fixed));
   CHECK(held.control_vertices().size() == 9 && held.roi_vertices().size() == 9);
   CHECK(std::isinf(held.target_weight(Vertex(8))));
+
+  test_case() = "all named parameters of the constructor";
+  namespace np = CGAL::parameters;
+  Mesh by_functions = rest, by_names = rest;
+  auto output = by_names.add_property_map<Vertex, Point>("v:output").first;
+  std::vector<Vertex> region;
+  for(Vertex v : rest.vertices())
+  {
+    output[v] = rest.point(v);
+    if(v > Vertex(8) && v < Vertex(75))
+      region.push_back(v);
+  }
+  const auto stiffness = [](Vertex v) { return 1. + v % 4; };
+  const auto groups = [](Vertex v) { return v > Vertex(50) ? 3 : -1; };
+  const auto is_held = [](Vertex v) { return v == Vertex(20) || v == Vertex(40); };
+  Options five;
+  five.iterations = 5;
+  five.tolerance = 0;
+  const auto lift_one = [](auto& object) {
+    CHECK(object.set_target_position(Vertex(40), Point(1, 1, 1)));
+    const Report report = object.deform();
+    CHECK(report && report.iterations == 5);
+  };
+  CGAL::ARAP_deformation named(
+    by_names,
+    np::region_of_interest(region,
+      np::cell_stiffness(stiffness,
+        np::cell_groups(groups,
+          np::deformation_options(five,
+            np::output_point_map(output).vertex_is_constrained_map(is_held)
+              .weight_calculator(CGAL::ARAP::Uniform_weight())
+              .sparse_linear_solver(CGAL::ARAP::Eigen_LDLT_solver()))))));
+  lift_one(named);
+  CGAL::ARAP_deformation<Mesh, Traits> same(by_functions);
+  CHECK(same.set_options(five) && same.set_stiffness(stiffness) && same.set_groups(groups));
+  same.insert_roi_vertices(region);
+  same.insert_control_vertices(std::vector<Vertex>{Vertex(20), Vertex(40)});
+  lift_one(same);
+  CHECK(points_of(by_names) == points_of(rest));
+  for(Vertex v : rest.vertices())
+    CHECK_AT_MOST((vector(output[v]) - vector(by_functions.point(v))).norm(), 1e-12);
+  using Named_traits = decltype(named)::Deformation_traits;
+  static_assert(std::is_same_v<Named_traits::Sparse_solver, CGAL::ARAP::Eigen_LDLT_solver>);
+  static_assert(std::is_same_v<Named_traits::Edge_weight, CGAL::ARAP::Uniform_weight>);
+  using Ignored = decltype(CGAL::ARAP_deformation(mesh, np::deformation_traits(
+    Traits(), np::sparse_linear_solver(CGAL::ARAP::Eigen_LDLT_solver()))));
+  static_assert(std::is_same_v<Ignored::Deformation_traits, Traits>);
 
 #ifdef CGAL_NDEBUG // else a precondition says so
   test_case() = "invalid options of the constructor";

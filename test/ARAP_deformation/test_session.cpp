@@ -33,6 +33,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <locale>
 #include <map>
@@ -239,6 +240,8 @@ void test_frames()
   // moved elsewhere, the object goes on as well
   Deformation moved(std::move(d));
   CHECK(moved.deform(1, 0).energy.back() <= before);
+  d = std::move(moved);
+  CHECK(d.deform(1, 0).energy.back() <= before);
 }
 
 void test_options()
@@ -285,7 +288,12 @@ void test_options()
   CHECK(defaults.cells == CGAL::ARAP::Cell_scheme::spokes_and_rims());
   CHECK(defaults.initial_guess == CGAL::ARAP::Initial_guess::automatic);
   CHECK(defaults.minimizer == CGAL::ARAP::Minimizer::automatic);
-  CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-3);
+  CHECK(defaults.iterations == 1000 && defaults.tolerance == 1e-3 && defaults.threads == 0);
+  CHECK(defaults.check());
+  using Traits = CGAL::ARAP_deformation_traits<>;
+  static_assert(std::is_same_v<Traits::Sparse_solver, CGAL::ARAP::Multifrontal_cholesky_solver>);
+  static_assert(std::is_same_v<Traits::Closest_rotation, CGAL::ARAP::Newton_closest_rotation>);
+  static_assert(std::is_same_v<Traits::Edge_weight, CGAL::ARAP::Safe_cotangent_weight>);
 }
 
 // Options by name: what is set is read again; what is refused changes nothing.
@@ -403,20 +411,6 @@ struct Recording_rotation : CGAL::ARAP::SVD_closest_rotation
   }
 };
 std::vector<CGAL::ARAP::Matrix_3x3> Recording_rotation::given, Recording_rotation::returned;
-
-// what a program gets that asks for nothing
-void test_defaults()
-{
-  test_case() = "defaults";
-  using Traits = CGAL::ARAP_deformation_traits<>;
-  static_assert(std::is_same_v<Traits::Sparse_solver, CGAL::ARAP::Multifrontal_cholesky_solver>);
-  static_assert(std::is_same_v<Traits::Closest_rotation, CGAL::ARAP::Newton_closest_rotation>);
-  static_assert(std::is_same_v<Traits::Edge_weight, CGAL::ARAP::Safe_cotangent_weight>);
-  const CGAL::ARAP::Options options;
-  CHECK(options.threads == 0);
-  CHECK(options.minimizer == CGAL::ARAP::Minimizer::automatic);
-  CHECK(options.check());
-}
 
 // Each fit starts from the rotations of the last one, over iterations and runs.
 void test_warm_start()
@@ -730,7 +724,6 @@ void test_all()
   test_options_by_name();
   test_small_motions();
   test_change_of_sets();
-  test_defaults();
   test_warm_start();
 }
 
@@ -1424,6 +1417,9 @@ void test_all()
   d.insert_roi_vertex(v);
   CHECK(d.target_position(v) == mesh.point(v));
   CHECK(d.target_weight(v) == 0);
+  const CGAL::ARAP::Control_point none(1);
+  CHECK(d.control_point_position(none) == Point(0, 0, 0) && d.target_weight(none) == 0);
+  CHECK(d.target_position(none) == Point(0, 0, 0));
   d.set_target_position(w, Point(3, 1, 2));
   const CGAL::ARAP::Matrix_3x3 identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
@@ -1437,14 +1433,24 @@ void test_all()
     d.clear_roi_vertices();
     d.reset();
     d.overwrite_initial_geometry();
-    CHECK(d.set_target_position(w, Point(0, 0, 0)).status == CGAL::ARAP::Status::in_a_run);
-    CHECK(d.set_target_weight(w, 1).status == CGAL::ARAP::Status::in_a_run);
-    CHECK(d.set_options(CGAL::ARAP::Options()).status == CGAL::ARAP::Status::in_a_run);
-    CHECK(d.preprocess().status == CGAL::ARAP::Status::in_a_run);
-    CHECK(d.deform().status == CGAL::ARAP::Status::in_a_run);
+    d.clear_control_vertices();
+    d.clear_control_points();
+    CHECK(!d.erase_control_point(none) && !d.set_velocity(w, Kernel::Vector_3(1, 0, 0)));
+    const auto zero = [](Mesh::Vertex_index) { return 0; };
+    const std::array<double, 3> middle = {0.5, 0.25, 0.25};
+    for(const CGAL::ARAP::Outcome& outcome :
+        std::initializer_list<CGAL::ARAP::Outcome>{
+          d.set_target_position(w, Point(0, 0, 0)), d.set_target_weight(w, 1),
+          d.set_target_set(w, [](const Point& p) { return p; }),
+          d.set_target_rotation(w, identity), d.erase_target_rotation(w),
+          d.set_stiffness(zero), d.clear_stiffness(), d.set_groups(zero), d.clear_groups(),
+          d.insert_control_point(Mesh::Face_index(0), middle),
+          d.set_options(CGAL::ARAP::Options()), d.preprocess(), d.deform(),
+          d.advance(CGAL::ARAP::Dynamics())})
+      CHECK(outcome.status == CGAL::ARAP::Status::in_a_run);
     return CGAL::ARAP::Visitor_action::proceed;
   }));
-  CHECK(was_called && mesh.point(w) == Point(3, 1, 2));
+  CHECK(was_called && mesh.point(w) == Point(3, 1, 2) && d.is_control_vertex(w));
   CHECK(d.rotation(v) != identity);
   CHECK(d.simplex_rotation(Mesh::Face_index(0)) == identity);
 

@@ -1192,6 +1192,12 @@ void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>
   for(const Vertex_measure measure : all_measures)
     CHECK(std::isnan(quality_at_vertices(domain, measure, rest, broken)[0]));
 
+  const Points too_few(rest.begin(), rest.end() - 1);
+  bool is_refused = false;
+  try { quality(domain, too_few); }
+  catch(const std::out_of_range&) { is_refused = true; }
+  CHECK(is_refused);
+
   // maps of each kind; in the other direction
   std::map<std::size_t, Eigen::Vector3d> some; // the others are where they are now
   some[0] = rest[0];
@@ -1199,6 +1205,22 @@ void test_shape(const Points& rest, const std::vector<std::array<std::size_t, N>
   one[0] = rest[0];
   compare(quality(domain, some), quality(domain, one, [&](std::size_t v) { return now[v]; }));
   compare(quality(domain, now, rest), slow_quality(simplices, now, rest));
+}
+
+// A vertex without simplices has no measures, and changes none.
+void test_lone_vertex(Block block)
+{
+  test_case() = "quality at a vertex without simplices";
+  Points rest = block.points;
+  block.points[3] += Eigen::Vector3d(0.1, 0.2, 0.3);
+  const auto domain = CGAL::ARAP::make_tetrahedron_soup_domain(block.points, block.tetrahedra);
+  const Quality before = quality(domain, rest);
+  CHECK(before.edge_length_error > 0);
+  rest.emplace_back(1, 1, 9);
+  block.points.emplace_back(1, 5, 9);
+  compare(quality(domain, rest), before);
+  for(const Vertex_measure measure : all_measures)
+    CHECK(quality_at_vertices(domain, measure, rest).back() == 0);
 }
 
 // A cube of squares has the measures of the one of triangles whose sides are not its diagonals.
@@ -1355,8 +1377,9 @@ void test_all()
       test_shape<2>(shape.points, shape.triangles);
     }
   test_case() = "quality of a block";
-  const Block cubes = unit_cubes(2, 2, 2);
+  Block cubes = unit_cubes(2, 2, 2);
   test_shape<3>(cubes.points, cubes.tetrahedra);
+  test_lone_vertex(cubes);
   test_polygons();
   test_flat();
   test_meshes();

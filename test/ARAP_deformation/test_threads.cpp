@@ -71,16 +71,17 @@ Bits run(const std::vector<Eigen::Vector3d>& vectors, const Simplices& simplices
   options.threads = threads;
   CHECK(deformation.set_options(options));
   prepare(deformation, scenario(Shape{"", vectors, {}}), numbers(vectors.size()));
-  bits.energy = deformation.deform().energy;
+  const CGAL::ARAP::Report first = deformation.deform();
 
   // once more with other control vertices, and most of them soft
   deformation.erase_control_vertex(deformation.control_vertices().front());
   deformation.insert_control_vertex(vectors.size() / 2);
   const auto controls = deformation.control_vertices();
   CHECK(deformation.set_target_weight(CGAL::make_range(controls.begin() + 1, controls.end()), 2));
-  const std::vector<double> energy = deformation.deform().energy;
-  bits.energy.insert(bits.energy.end(), energy.begin(), energy.end());
-  CHECK(bits.energy.size() > 4);
+  const CGAL::ARAP::Report second = deformation.deform();
+  CHECK(first && second);
+  for(const CGAL::ARAP::Report* report : {&first, &second})
+    bits.energy.insert(bits.energy.end(), report->energy.begin(), report->energy.end());
   return bits;
 }
 
@@ -422,6 +423,8 @@ void test_soak(int number_of_drags)
   const double growth = settled_bytes(dragging.deformation(), mesh) - warm;
   std::cout << number_of_drags << " drags: " << warm / 1e6 << " MB after a fifth of them, "
             << growth / 1e6 << " MB more at the end" << std::endl;
+  if(warm == 0)
+    std::cout << "NOTICE: not tested: what is allocated is not known here" << std::endl;
   CHECK_AT_MOST(growth, 1e5); // of the mesh's 620 vertices one array of rotations has 45,000
 
   // the session that has seen all this does what a new one does

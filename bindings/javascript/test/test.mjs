@@ -2,7 +2,7 @@
 // sentence.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { load, ArapError } from 'arap-deformation';
 import { models } from './models.js';
 
@@ -109,9 +109,8 @@ for (const name of ['bar', 'cactus', 'volume']) {
     );
 }
 const folder = process.argv[2];
-for (const file of folder && existsSync(folder)
-  ? readdirSync(folder).filter((f) => f.endsWith('.off'))
-  : []) {
+if (!folder) console.log('NOTICE: no folder with meshes was given');
+for (const file of folder ? readdirSync(folder).filter((f) => f.endsWith('.off')) : []) {
   const name = file.slice(0, -4),
     status = numbers(`${folder}/${name}.sel`),
     entries = numbers(`${folder}/${name}.def`);

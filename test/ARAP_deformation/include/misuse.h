@@ -19,7 +19,7 @@
 
 #include <Eigen/Geometry>
 
-#include <string>
+#include <cmath>
 #include <vector>
 
 // Gives each call that sets a target of what has none to `check_refused`.
@@ -29,9 +29,9 @@ void test_misuse(const CheckRefused& check_refused)
 {
   Mesh mesh = make_mesh<Mesh>(octahedron());
   CGAL::ARAP_deformation<Mesh> d(mesh);
-  const std::vector<Mesh::Vertex_index> vertices = {Mesh::Vertex_index(2), Mesh::Vertex_index(5)};
-  const auto control = vertices[0], free = vertices[1];
-  const Eigen::Vector3d t(0, 0, 0);
+  const Mesh::Vertex_index control(2), free(5);
+  const std::vector<Mesh::Vertex_index> vertices = {free, control};
+  const Eigen::Vector3d t(0, 0, 1);
   const Eigen::Quaterniond q(1, 0, 0, 0);
   d.insert_control_vertex(control);
   const Point target = d.target_position(control);
@@ -53,8 +53,20 @@ void test_misuse(const CheckRefused& check_refused)
     check_refused([&] { return d.set_target_set(none, [](const Point& p) { return p; }); });
     CHECK(!d.is_control_vertex(free));
     CHECK(d.target_position(control) == target);
+    CHECK(std::isinf(d.target_weight(control)));
     d.insert_roi_vertex(free);
   }
+
+  // a range stops where it is refused
+  const Mesh::Vertex_index other(0);
+  d.insert_control_vertex(other);
+  const Point last = d.target_position(other);
+  const std::vector<Mesh::Vertex_index> three = {control, free, other};
+  check_refused([&] { return d.translate(three, t); });
+  check_refused([&] { return d.set_target_weight(three, 1); });
+  CHECK(d.target_position(control) == target + Kernel::Vector_3(0, 0, 1));
+  CHECK(d.target_weight(control) == 1);
+  CHECK(d.target_position(other) == last && std::isinf(d.target_weight(other)));
 }
 
 #endif // CGAL_ARAP_DEFORMATION_TEST_MISUSE_H
