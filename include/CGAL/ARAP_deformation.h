@@ -586,10 +586,11 @@ public:
   /// \name Deformation
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
   /// result throws, only the object is: points written before keep their new values until a
-  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds.) A visitor must not change the
-  /// object, nor must a map or a function that a call reads. This is a precondition; in Release
-  /// such calls fail. An object and its mesh are for one thread at a time: `ARAP::Status::in_a_run`
-  /// does not tell that another thread runs it.
+  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds, and those of vertices that only
+  /// the state knows that was to be restored, until it is.) A visitor must not change the object,
+  /// nor must a map or a function that a call uses. This is a precondition; in Release such calls
+  /// fail. An object and its mesh are for one thread at a time: `ARAP::Status::in_a_run` does not
+  /// tell that another thread runs it.
   /// @{
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the

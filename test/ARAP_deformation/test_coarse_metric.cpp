@@ -87,7 +87,7 @@ void test_transfer(const Region& region)
     if(fixed == far_away)
     {
       is_fixed[0] = true;
-      problem.x[0] = {1e7, -2e7, 3e7};
+      problem.x[0] = {1e39, -2e39, 3e39};
     }
     transfer.place(is_fixed, problem.x);
     for(int node = 0; node < m; ++node)

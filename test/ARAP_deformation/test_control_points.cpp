@@ -466,6 +466,31 @@ void test_dependent()
       s.insert(place, {0.3 + 0.01 * k, 0.4, 0.3 - 0.01 * k}, infinite, shift);
       check_refused(s, Status::dependent_target, "control point 4");
     }
+  for(const bool has_others : {false, true}) // elsewhere: they determine nothing here
+  {
+    test_case() = has_others ? "beside three points nearly on a line elsewhere" : "alone";
+    Subject<2, Solver> s(shape);
+    const auto insert_three = [&](std::size_t triangle, double distance) {
+      s.insert(triangle, {0.8, 0.2, 0}, infinite, shift);
+      s.insert(triangle, {0.02, 0.98, 0}, infinite, shift);
+      s.insert(triangle, {0.36 - distance / 2, 0.64 - distance / 2, distance}, infinite, shift);
+    };
+    const auto& corners = shape.simplices[place];
+    const auto is_corner = [&](std::size_t v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
+    std::size_t other = place;
+    for(std::size_t candidate : shape.places(8, 3))
+      if(std::none_of(shape.simplices[candidate].begin(), shape.simplices[candidate].end(),
+                      is_corner))
+        other = candidate;
+    CHECK(other != place);
+    if(has_others)
+      insert_three(other, 3e-6);
+    insert_three(place, 0.005);
+    CHECK(s.deformation.deform());
+    CHECK_AT_MOST(s.miss(), 1e-12 * shape.diameter());
+  }
   {
     test_case() = "many more points than vertices"; // what depends on others must not fill the rows
     Subject<2, Solver> s(shape, false);

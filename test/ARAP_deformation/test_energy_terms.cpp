@@ -368,7 +368,7 @@ void test_motions(const Model& model)
   const Eigen::Matrix3d q = turn(1.1, {1, 2, -1});
   const Eigen::Vector3d shift(3, -2, 1);
   for(const auto& [name, terms] : all_terms(model, s))
-    for(const double size : {1.0, 10.0})
+    for(const double size : {1.0, 10.0, 1e65, 1e-65})
     {
       test_case() = model.name + ", " + name;
       const auto move = [&](const Eigen::Vector3d& p) {
@@ -557,6 +557,19 @@ void test_frames_of_motions(const Model& model)
   CHECK(number > 0);
   CHECK(d.set_target_rotations(std::vector<std::size_t>{turned[0], turned[1]}).status ==
         CGAL::ARAP::Status::invalid_rotation);
+  for(const double size : {1e-100, 1e100})
+  {
+    std::vector<Point> points = points_of(model.points);
+    for(Point& p : points)
+      p = Point(size * p.x(), size * p.y(), size * p.z());
+    CGAL::ARAP_deformation<Soup<2>> scaled(Soup<2>(points, model.simplices));
+    scaled.insert_control_vertices(turned);
+    const Eigen::Quaterniond q(turn(2, {1, 2, 3}));
+    CHECK(scaled.rotate(turned, Eigen::Vector3d(size, 0, 0), q));
+    CHECK(scaled.set_target_rotations(turned));
+    CHECK(scaled.translate(turned[0], Kernel::Vector_3(size, 0, 0)));
+    CHECK(scaled.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
+  }
   d.translate(turned[0], Kernel::Vector_3(1, 0, 0));
   CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
 #ifdef CGAL_NDEBUG // else a precondition says so
@@ -984,26 +997,36 @@ void test_other_regions(const Model& model)
   }
 
   // points that the program writes back, without the rotations that belong to them
+  enum Before { nothing, state_and_restore, another_region };
   for(Cell_scheme cells : all_cell_schemes)
-  {
-    test_case() = model.name + ", smooth rotations of other points";
-    Terms terms;
-    terms.smoothing_length = 0.1 * diameter_of(model.points);
-    Run<Dimension> run(model, s, cells, terms, Minimizer::quasi_newton);
-    auto& d = run.deformation;
-    const double energy = d.deform(2000, 1e-12).final_energy();
-    const std::vector<Point> points = run.points;
-    for(const bool is_other : {true, false})
+    for(const Before before : {nothing, state_and_restore, another_region})
     {
-      for(const std::size_t v : d.control_vertices())
-        d.set_target_position(v, is_other ? point(turn(2.5, {1, 2, 3}) * s.targets[v] * 1.5)
-                                          : point(s.targets[v]));
-      if(is_other)
-        CHECK(d.deform(2000, 1e-6));
+      test_case() = model.name + ", smooth rotations of other points";
+      Terms terms;
+      terms.smoothing_length = 0.1 * diameter_of(model.points);
+      Run<Dimension> run(model, s, cells, terms, Minimizer::quasi_newton);
+      auto& d = run.deformation;
+      const double energy = d.deform(2000, 1e-12).final_energy();
+      const std::vector<Point> points = run.points;
+      for(const bool is_other : {true, false})
+      {
+        for(const std::size_t v : d.control_vertices())
+          d.set_target_position(v, is_other ? point(turn(2.5, {1, 2, 3}) * s.targets[v] * 1.5)
+                                            : point(s.targets[v]));
+        if(is_other)
+          CHECK(d.deform(2000, 1e-6));
+      }
+      const auto state = d.state();
+      if(before == another_region)
+      {
+        CHECK(d.erase_roi_vertex(d.control_vertices().front()));
+        CHECK(d.deform(1, 0) && d.restore(state));
+      }
+      run.points = points;
+      if(before == state_and_restore)
+        CHECK(d.restore(d.state()));
+      CHECK_AT_MOST(d.deform(0, 0).energy[0], 1.01 * energy);
     }
-    run.points = points;
-    CHECK_AT_MOST(d.deform(0, 0).energy[0], 1.01 * energy);
-  }
 
   // smoothed from now on, in the region that there is and in a new one
   for(Cell_scheme cells : all_cell_schemes)

@@ -758,6 +758,46 @@ void test_mended_points()
   t.d.reset();
   CHECK(t.mesh.point(v) == sound);
   CHECK(t.d.deform());
+
+  // where results are written elsewhere
+  Mesh input = make_mesh<Mesh>(sheet(12));
+  auto output = input.add_property_map<Vertex, Point>("v:output").first;
+  input.point(v) = broken;
+  CGAL::ARAP_deformation d(CGAL::ARAP::make_face_graph_domain(input, output));
+  d.insert_roi_vertices(vertices(input));
+  d.insert_control_vertex(Vertex(168), Point(1, 1, 0.5));
+  CHECK(says(d.deform(), "vertex 3"));
+  input.point(v) = sound;
+  CHECK(d.deform());
+  d.reset();
+  CHECK(output[v] == sound);
+}
+
+// What is wrong where nothing can move any more is not asked for.
+void test_refusals_elsewhere()
+{
+  Session s;
+  CHECK(s.d.deform(2, 0));
+  const auto fix_all_but_one = [&s] {
+    for(Vertex v : s.d.roi_vertices())
+      if(v != Vertex(160))
+        s.d.insert_control_vertex(v);
+  };
+  const auto before = s.d.state();
+  test_case() = "a stiffness elsewhere";
+  s.d.set_stiffness([](Vertex v) { return v == Vertex(30) ? std::nan("") : 1; });
+  CHECK(s.d.deform(2, 0).status == Status::invalid_stiffness);
+  fix_all_but_one();
+  CHECK(s.d.deform(2, 0));
+  s.d.clear_stiffness();
+  CHECK(s.d.restore(before));
+
+  test_case() = "a point elsewhere";
+  CHECK(s.d.deform(2, 0));
+  s.mesh.point(Vertex(3)) = Point(0, std::nan(""), 0);
+  CHECK(says(s.d.deform(2, 0), "vertex 3"));
+  fix_all_but_one();
+  CHECK(s.d.deform(2, 0));
 }
 
 } // namespace undo
@@ -1388,6 +1428,7 @@ int main()
   undo::test_branches();
   undo::test_points_of_others();
   undo::test_mended_points();
+  undo::test_refusals_elsewhere();
   user_weights::test_changes();
   user_weights::test_singular();
   user_weights::test_negative_energies();

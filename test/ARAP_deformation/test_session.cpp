@@ -1398,8 +1398,50 @@ void test_all()
 // so.
 namespace misuse {
 
+// a point map that calls a function when a point is written
+struct Calling_map
+{
+  using category = boost::read_write_property_map_tag;
+  using key_type = Mesh::Vertex_index;
+  using value_type = Point;
+  using reference = Point;
+
+  Mesh* mesh;
+  const std::function<void()>* call;
+
+  friend Point get(const Calling_map& map, key_type v) { return map.mesh->point(v); }
+  friend void put(const Calling_map& map, key_type v, const Point& p)
+  {
+    (*map.call)();
+    map.mesh->point(v) = p;
+  }
+};
+
+void test_writing_map()
+{
+  Mesh mesh = make_mesh<Mesh>(octahedron());
+  std::function<void()> call = [] {};
+  CGAL::ARAP_deformation d(mesh, CGAL::parameters::vertex_point_map(Calling_map{&mesh, &call}));
+  const Mesh::Vertex_index first(0), second(1), third(2);
+  d.insert_control_vertex(first);
+  const auto state = d.state();
+  d.insert_roi_vertex(second);
+  int calls = 0;
+  call = [&] {
+    ++calls;
+    CHECK(!d.insert_roi_vertex(third) && d.deform().status == CGAL::ARAP::Status::in_a_run);
+  };
+  CHECK(d.deform());
+  d.reset();
+  CHECK(d.restore(state));
+  CHECK(calls > 3 && !d.is_roi_vertex(third));
+  call = [] {};
+  CHECK(d.insert_roi_vertex(third));
+}
+
 void test_all()
 {
+  test_writing_map();
   test_misuse([](const auto& call) {
     const CGAL::ARAP::Outcome outcome = call();
     CHECK(outcome.status == CGAL::ARAP::Status::not_a_control_vertex);

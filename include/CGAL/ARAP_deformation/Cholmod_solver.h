@@ -106,13 +106,8 @@ private:
       common.print = 0;
       common.supernodal = CHOLMOD_SUPERNODAL;
       common.nmethods = 1;
-      common.method[0].ordering = CHOLMOD_AMD;
-      if(ordering == Fill_reducing_ordering::nested_dissection)
-      {
-        common.nmethods = 2; // the second is for a CHOLMOD without METIS
-        common.method[0].ordering = CHOLMOD_METIS;
-        common.method[1].ordering = CHOLMOD_AMD;
-      }
+      common.method[0].ordering = ordering == Fill_reducing_ordering::nested_dissection
+                                    ? CHOLMOD_METIS : CHOLMOD_AMD; // which it takes without METIS
     }
 
     ~State()

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/triangulation_caches.h>
 #include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -103,7 +104,7 @@ public:
     {
       std::vector<simplex_descriptor>& cells = (*m_cells_with_caches)[index(v)];
       if(cells.empty()) // collected once: a session writes the same points again and again
-        for_each_incident_cell(v, [&](simplex_descriptor cell) { cells.push_back(cell); });
+        cells = incident_cells(v);
       for(simplex_descriptor cell : cells)
         internal::invalidate_caches(*cell);
     }
@@ -121,9 +122,9 @@ public:
   /// returns whether no selected cell is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
   {
-    bool is_isolated = true;
-    for_each_incident_cell(v, [&](simplex_descriptor cell) { is_isolated &= !is_in(cell); });
-    return is_isolated;
+    const std::vector<simplex_descriptor> cells = incident_cells(v);
+    return std::none_of(cells.begin(), cells.end(),
+                        [&](simplex_descriptor cell) { return is_in(cell); });
   }
 
   /// returns whether `s` is a selected cell, and not a default-constructed handle.
@@ -139,10 +140,9 @@ public:
   template <typename Function>
   void for_each_incident_simplex(vertex_descriptor v, const Function& f) const
   {
-    for_each_incident_cell(v, [&](simplex_descriptor cell) {
+    for(simplex_descriptor cell : incident_cells(v))
       if(is_in(cell))
         f(cell, simplex_vertices(cell));
-    });
   }
 
 private:
@@ -156,16 +156,13 @@ private:
     return !m_triangulation->is_infinite(cell) && m_is_selected(cell);
   }
 
-  // calls f for each cell at v, infinite ones included
-  template <typename Function>
-  void for_each_incident_cell(vertex_descriptor v, const Function& f) const
+  // the cells at v, infinite ones included
+  std::vector<simplex_descriptor> incident_cells(vertex_descriptor v) const
   {
-    if(m_triangulation->dimension() < 3)
-      return;
     std::vector<simplex_descriptor> cells;
-    m_triangulation->incident_cells(v, std::back_inserter(cells));
-    for(simplex_descriptor cell : cells)
-      f(cell);
+    if(m_triangulation->dimension() == 3)
+      m_triangulation->incident_cells(v, std::back_inserter(cells));
+    return cells;
   }
 
   Triangulation* m_triangulation;

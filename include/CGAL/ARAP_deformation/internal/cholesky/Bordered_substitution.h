@@ -80,7 +80,6 @@ public:
   bool set_border(const Supernodal_structure& structure, const Number* values,
                   const Sparse_matrix& b, const Dense_matrix& d)
   {
-    m_border_size = 0;
     bool is_solvable = false;
     try
     {
@@ -128,7 +127,6 @@ private:
       for(std::size_t c = 0; c < 3; ++c)
         x[order[k]][c] = x[order[k]][c] / scale - m_products[4 * k + c];
     m_remainder.solve(x);
-    m_products.assign(4 * m_columns.size(), 0);
     for(std::size_t k = 0; k < order.size(); ++k)
       for(std::size_t c = 0; c < 3; ++c)
       {

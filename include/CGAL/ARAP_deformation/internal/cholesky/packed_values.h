@@ -44,7 +44,7 @@ constexpr int last_columns_together(int columns)
   return remainder == 0 ? most_columns_together : remainder > 4 ? remainder - 4 : remainder;
 }
 
-// The size of the columns of a supernode before, each with all rows.
+// The size of the columns of a supernode before they are packed: each has all rows of the front.
 inline std::size_t size_of_columns(const Supernodal_structure::Supernode& s)
 {
   return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.width + s.below);

@@ -134,23 +134,20 @@ public:
       f(m_vertices_of.items[k]);
   }
 
-  // Takes the positions. Fixed vertices do not move, and neither do nodes at them. What no node
-  // moves may be too far away for single precision.
+  // Takes the positions. Fixed vertices do not move, and neither do nodes at them. These, and what
+  // has no nodes, may be too far away for single precision.
   void place(const Array<char>& is_fixed, const Array<Coordinates>& x)
   {
     m_is_fixed = is_fixed;
-    m_points.resize(is_fixed.size());
-    Coordinates origin = {0, 0, 0};
+    m_points.assign(is_fixed.size(), {0, 0, 0});
+    const Coordinates* origin = nullptr;
     for(int v = 0; v < m_space.number_of_vertices(); ++v)
-      if(!is_fixed[v] && m_space.has_nodes(v)) // others may be far away
+      if(!is_fixed[v] && m_space.has_nodes(v))
       {
-        origin = x[v];
-        break;
+        origin = origin ? origin : &x[v];
+        for(std::size_t k = 0; k < 3; ++k)
+          m_points[v][k] = static_cast<float>(x[v][k] - (*origin)[k]);
       }
-    for(std::size_t v = 0; v < m_points.size(); ++v)
-      for(std::size_t k = 0; k < 3; ++k)
-        m_points[v][k] = m_space.has_nodes(static_cast<int>(v))
-                           ? static_cast<float>(x[v][k] - origin[k]) : 0;
   }
 
   bool is_fixed(int node) const { return m_is_fixed[m_space.vertex_of(node)] != 0; }

@@ -61,7 +61,7 @@ public:
   // is something that is not a simplex, or has too many corners: refused_vertex() is the index of
   // the vertex where, and refusal() says which.
   bool collect(const Domain& domain, const std::vector<vertex_descriptor>& movable_vertices,
-               int cell_rings = 0)
+               int cell_rings)
   {
     flat.dimension = Domain::dimension;
     flat.is_planar = is_planar<Domain>();

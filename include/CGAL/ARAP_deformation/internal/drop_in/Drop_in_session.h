@@ -116,7 +116,7 @@ public:
   // moves what has left the region of interest back to the rest shape, and forgets its rotations
   void put_back_erased()
   {
-    if(this->is_region_written())
+    if(this->m_is_region_written)
       return;
     read_entered();
     m_prepared.forget_rotations([this](vertex_descriptor v) {
@@ -162,7 +162,7 @@ private:
   // What has entered the region of interest is where the mesh has it when that is next used.
   bool has_just_entered(const Entry& entry) const
   {
-    return !this->is_region_written() && !m_prepared.has_region() && entry.is_roi && !entry.was_roi;
+    return !this->m_is_region_written && !m_prepared.has_region() && entry.is_roi && !entry.was_roi;
   }
 
   void read_entered()

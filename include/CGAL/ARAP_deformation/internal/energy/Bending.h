@@ -166,7 +166,7 @@ public:
         if(factor > 0)
         {
           result.weights += factor * m_inverse_masses[i] * weights * weights;
-          result.squares += factor / m_inverse_masses[i] * (square[0] + square[1] + square[2]);
+          result.squares += factor * (square[0] + square[1] + square[2]) / m_inverse_masses[i];
         }
       }
       return result;
@@ -204,11 +204,11 @@ public:
     for(int i = begin; i < end; ++i)
       if(m_chosen_factors[i] > 0)
       {
-        const double factor = m_chosen_factors[i] / m_inverse_masses[i];
+        const double factor = m_chosen_factors[i], mass = 1 / m_inverse_masses[i];
         for(int r = 0; r < 3; ++r)
-          for(int c = 0; c < 3; ++c)
+          for(int c = 0; c < 3; ++c) // in this order no product overflows before the others do
             covariances[i - begin][static_cast<std::size_t>(3 * r + c)] +=
-              factor * m_values[i][r] * m_rest_values[i][c];
+              factor * m_values[i][r] * m_rest_values[i][c] * mass;
       }
   }
 

@@ -135,18 +135,18 @@ public:
   }
 
   // the bounding box of the points of all vertices that cells that count are at
-  Bounding_box bounding_box(const Array<Coordinates>& points) const
+  Bounding_box bounding_box(const Points& points) const
   {
     return sum_over_blocks(m_is_in_cell.size(), [&](std::size_t begin, std::size_t end) {
       Bounding_box box;
       for(std::size_t v = begin; v < end; ++v)
-        if(m_is_in_cell[v])
-          box.include(points[v]);
+        if(const Double4 point = points[static_cast<int>(v)]; m_is_in_cell[v])
+          box.include(Coordinates{point[0], point[1], point[2]});
       return box;
     });
   }
 
-  // the natural unit of the energy: the sum of k |w| ||e||^2 in the rest shape
+  // the natural unit of the energy: the sum of k |w| ||e||^2 over the cells that count, at rest
   double scale() const { return m_scale; }
 
   // the same, enlarged with the square of the size of what positions and targets span, if that is
@@ -381,11 +381,7 @@ private:
       m_scale = sums.squares;
       m_is_in_cell = cells.vertices_of(is_chosen);
     }, m_cells);
-    Bounding_box box;
-    for(std::size_t v = 0; v < m_is_in_cell.size(); ++v)
-      if(const Double4 point = m_rest[static_cast<int>(v)]; m_is_in_cell[v])
-        box.include(Coordinates{point[0], point[1], point[2]});
-    m_squared_length = box.squared_length();
+    m_squared_length = bounding_box(m_rest).squared_length();
   }
 
   static double rounding_error(const Bounding_box& box) // of a position
@@ -482,7 +478,7 @@ private:
   Index_ranges m_batches;   // of the cells that count
   Points m_rest;
   double m_scale = 0;          // in the rest shape
-  double m_squared_length = 0; // of the diagonal of the bounding box of the rest shape
+  double m_squared_length = 0; // of the diagonal of the box of the vertices in these cells
   double m_sum_of_weights = 0;
   std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
   Array<Matrix_3x3> m_covariances;                // for these

@@ -66,7 +66,6 @@ public:
       add(c, d, -2 * weight);
     });
     Laplacian laplacian;
-    laplacian.is_tied = Array<char>(n, true);
     laplacian.matrix.resize(n, n);
     laplacian.matrix.setFromTriplets(entries.begin(), entries.end());
     m_system.set_laplacian(std::move(laplacian));

@@ -173,13 +173,11 @@ public:
   template <typename Function>
   void for_each_edge(const Function& f) const
   {
-    int last = -1;
-    double stiffness = 0;
-    m_simplices.for_each_edge([&](int s, int i, int j, double w) {
-      if(s != last)
-        stiffness = total_stiffness(last = s, m_cells.stiffness);
-      f(i, j, stiffness * w);
-    });
+    for(int s = 0; s < m_simplices.size(); ++s)
+    {
+      const double stiffness = total_stiffness(s, m_cells.stiffness);
+      m_simplices.for_each_edge_of(s, [&](int i, int j, double w) { f(i, j, stiffness * w); });
+    }
   }
 
   // over the cells that count

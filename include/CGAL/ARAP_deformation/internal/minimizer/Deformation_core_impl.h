@@ -359,8 +359,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
                                 unsigned int number_of_threads)
 {
-  if(m_are_rotations_complete || !are_rotations_state() ||
-     m_order != Minimization_order::local_first)
+  if(m_are_rotations_complete || !are_rotations_state())
     return;
   rotations.clear();
   if(x != m_region.rest)
@@ -423,11 +422,11 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   Array<Coordinates> unplaced;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!is_certain)
-      unplaced = x;
     targets.project(m_constraints.rows, x);
     if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
     {
+      if(!is_certain)
+        unplaced = x;
       if(!m_state->rigid_start)
       {
         m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
@@ -439,6 +438,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   }
   const bool has_other_start =
     !is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
+  if(!has_other_start)
+    Array<Coordinates>().swap(unplaced);
   if(is_laplacian)
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
@@ -451,8 +452,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const bool is_quasi_newton =
     options.minimizer == Minimizer::quasi_newton ||
     (options.minimizer == Minimizer::automatic && options.tolerance > 0);
-  if(are_rotations_state() && m_order == Minimization_order::local_first &&
-     (is_quasi_newton || options.tolerance > 0))
+  if(are_rotations_state() && (is_quasi_newton || options.tolerance > 0))
   {
     Scoped_seconds seconds(report.seconds.preprocess);
     // local/global is that of the papers; there the steps only tell how far it is from the minimum
@@ -478,7 +478,6 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   const Free_neighborhood& neighborhood = m_state->free_neighborhood;
   const bool is_tried = options.initial_guess == Initial_guess::automatic &&
                         m_order == Minimization_order::local_first &&
-                        m_constraints.inertia == 0 &&
                         (is_torn(neighborhood.ties, m_region.rest, m_squared_size, x) ||
                          is_torn(m_constraints, m_squared_size, targets, x,
                                  [&]() -> const Array<Coordinates>& {

@@ -64,9 +64,8 @@ public:
                std::unique_ptr<Coarse_metric>& coarse_metric, Report& report_)
     : x(x_), number_of_vertices(constraints.is_fixed.size()), report(report_), options(options_),
       m_energy(energy), m_closest_rotations(closest_rotations), m_system(system),
-      m_constraints(constraints), m_rows(constraints.rows), m_inertia(constraints.inertia),
-      m_observe(observe), m_region(region), m_targets(targets), m_rotations(rotations),
-      m_coarse_metric(coarse_metric)
+      m_constraints(constraints), m_observe(observe), m_region(region), m_targets(targets),
+      m_rotations(rotations), m_coarse_metric(coarse_metric)
   {
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       if(constraints.is_fixed[v])
@@ -131,7 +130,7 @@ public:
       m_last_rotations = last_rotations;
       return Start::rejected;
     }
-    m_targets.project(m_rows, x);
+    m_targets.project(m_constraints.rows, x);
     measure();
     return Start::taken;
   }
@@ -145,16 +144,16 @@ public:
     x.swap(other);
     m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, nullptr, false);
     keep_rotations();
-    if(evaluate_without_fit() < energy)
+    const bool is_lower = evaluate_without_fit() < energy;
+    if(!is_lower)
     {
-      measure();
-      return true;
+      x.swap(other);
+      m_rotations.swap(fitted);
+      keep_rotations();
+      m_targets.project(m_constraints.rows, x);
     }
-    x.swap(other);
-    m_rotations.swap(fitted);
-    keep_rotations();
-    m_targets.project(m_rows, x); // for what asks for the targets before the next evaluation
-    return false;
+    measure();
+    return is_lower;
   }
 
   const Array<Coordinates>& rest() const { return m_region.rest; }
@@ -167,7 +166,7 @@ public:
   // no need of it: it is short, and inertia makes its energy convex.
   bool has_second_derivative() const
   {
-    return !m_energy.are_rotations_state() && m_inertia == 0;
+    return !m_energy.are_rotations_state() && m_constraints.inertia == 0;
   }
 
   // to be called before change_of_force(), when x was evaluated last
@@ -186,8 +185,8 @@ public:
     Array<Coordinates> targets(m_targets.soft.size(), Coordinates{0, 0, 0});
     for(const Targets::Set& set : m_targets.sets)
     {
-      Coordinates moved = m_rows.value(set.row, x.data());
-      const Coordinates value = m_rows.value(set.row, step.data());
+      Coordinates moved = m_constraints.rows.value(set.row, x.data());
+      const Coordinates value = m_constraints.rows.value(set.row, step.data());
       const double length = std::sqrt(dot(value, value));
       if(!(length > 0))
         continue;
@@ -199,7 +198,7 @@ public:
       add(moved, h, value);
       targets[r] = scaled(difference(set.projection(moved), m_targets.soft[r]), 1 / h);
     }
-    m_rows.pull(targets, step, change);
+    m_constraints.rows.pull(targets, step, change);
     leave_free(change);
   }
 
@@ -229,8 +228,8 @@ public:
     const Sparse_matrix& laplacian = m_system.laplacian().matrix;
     if(!m_coarse_metric)
       m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian, m_region.rest);
-    const bool has_rows = m_rows.size() > 0;
-    const Sparse_matrix own = has_rows ? m_system.with_rows(m_rows) : Sparse_matrix();
+    const bool has_rows = m_constraints.rows.size() > 0;
+    const Sparse_matrix own = has_rows ? m_system.with_rows(m_constraints.rows) : Sparse_matrix();
     return m_coarse_metric->build(m_energy, has_rows ? own : laplacian, m_constraints.is_fixed, x,
                                   m_rotations) ? m_coarse_metric.get() : nullptr;
   }
@@ -366,8 +365,8 @@ private:
   // distance from a set has the gradient of that from the projection, which is the target.
   double complete(double rigidity)
   {
-    m_targets.project(m_rows, x);
-    m_value = rigidity + m_rows.pull(m_targets.soft, x, m_force);
+    m_targets.project(m_constraints.rows, x);
+    m_value = rigidity + m_constraints.rows.pull(m_targets.soft, x, m_force);
     leave_free(m_force);
     return m_value;
   }
@@ -377,11 +376,11 @@ private:
   {
     Scoped_seconds local(report.seconds.local_steps);
     Bounding_box box = m_energy.bounding_box(x);
-    box.include(m_rows.places(m_targets.soft, x));
+    box.include(m_constraints.rows.places(m_targets.soft, x));
     report.energy_scale = m_energy.scale(box);
-    report.rounding_level = m_energy.rounding_level(box, m_inertia);
+    report.rounding_level = m_energy.rounding_level(box, m_constraints.inertia);
     diameter = std::sqrt(box.squared_length());
-    force_error = m_energy.rounding_error_of_force(box, m_inertia);
+    force_error = m_energy.rounding_error_of_force(box, m_constraints.inertia);
   }
 
   void estimate_gap()
@@ -408,8 +407,6 @@ private:
   const Closest_rotations& m_closest_rotations;
   Constrained_system& m_system;
   const Constraints& m_constraints;
-  const Weighted_rows& m_rows;
-  const double m_inertia;
   std::vector<std::size_t> m_fixed_vertices; // of the movable ones
   const Observer& m_observe;
   const Region& m_region;

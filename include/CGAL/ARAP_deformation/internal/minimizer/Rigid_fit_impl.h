@@ -40,15 +40,19 @@ inline Coordinates centroid(const Array<Coordinates>& points)
 // points on a line is; nothing for others.
 inline std::optional<Matrix_3x3> rotation_of_line(const Matrix_3x3& covariance)
 {
-  const auto unit = [](const Coordinates& v) { return scaled(v, 1 / std::sqrt(dot(v, v))); };
-  Coordinates from = {0, 0, 0}; // the longest row
+  const auto unit = [](const Coordinates& v) {
+    const Coordinates direction = without_scale(v);
+    return scaled(direction, 1 / std::sqrt(dot(direction, direction)));
+  };
+  Coordinates from = {0, 0, 0}; // the row with the largest entry
   for(std::size_t row = 0; row < 3; ++row)
   {
     const double* r = covariance.data() + 3 * row;
-    if(const Coordinates entries = {r[0], r[1], r[2]}; dot(entries, entries) > dot(from, from))
+    if(const Coordinates entries = {r[0], r[1], r[2]};
+       largest_absolute_value(entries) > largest_absolute_value(from))
       from = entries;
   }
-  if(!(dot(from, from) > 0) || !is_finite(from))
+  if(!(largest_absolute_value(from) > 0) || !is_finite(from))
     return std::nullopt;
   from = unit(from);
   const Coordinates to = product(covariance, from);
@@ -56,7 +60,7 @@ inline std::optional<Matrix_3x3> rotation_of_line(const Matrix_3x3& covariance)
   for(std::size_t row = 0; row < 3; ++row)
     for(std::size_t k = 0; k < 3; ++k)
       left = (std::max)(left, std::abs(covariance[3 * row + k] - to[row] * from[k]));
-  if(!(left * left <= 1e-24 * dot(to, to)))
+  if(!(left <= 1e-12 * largest_absolute_value(to)))
     return std::nullopt;
   return Svd_rotation::smallest_rotation(from, unit(to));
 }
@@ -96,7 +100,7 @@ CGAL_ARAP_INLINE_FUNCTION
 std::optional<Matrix_3x3> rotation_of_motion(const Array<Coordinates>& from,
                                              const Array<Coordinates>& to)
 {
-  double length = 0, area = 0; // squares, of the triangles at the first point
+  double length = 0, width = 0; // squares
   Coordinates longest = {0, 0, 0};
   for(const Coordinates& p : from)
     if(const Coordinates edge = difference(p, from[0]); dot(edge, edge) > length)
@@ -106,11 +110,11 @@ std::optional<Matrix_3x3> rotation_of_motion(const Array<Coordinates>& from,
     }
   for(const Coordinates& p : from)
   {
-    const Coordinates normal = cross(longest, difference(p, from[0]));
-    area = (std::max)(area, dot(normal, normal));
+    const Coordinates normal = cross(without_scale(longest), difference(p, from[0]));
+    width = (std::max)(width, dot(normal, normal));
   }
   constexpr double tolerance = 1e-12; // of squares
-  if(!(area > tolerance * length * length))
+  if(!(width > tolerance * length))
     return std::nullopt;
   const Rigid_fit fit(from, to);
   if(!(fit.squared_error() <= tolerance * length))

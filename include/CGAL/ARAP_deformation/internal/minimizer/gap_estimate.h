@@ -32,7 +32,7 @@ inline double energy_resolution(double energy, const Report& report)
 {
   const double size = std::abs(energy);
   return std::numeric_limits<double>::epsilon() * (size + report.energy_scale) +
-         16 * std::sqrt(size * report.rounding_level) + report.rounding_level;
+         16 * std::sqrt(size) * std::sqrt(report.rounding_level) + report.rounding_level;
 }
 
 // an energy below which nothing is left to be gained

@@ -116,14 +116,6 @@ inline Status minimize_quasi_newton(Minimization& run)
     };
     double decrease = 0;
     bool is_wrong = false; // whether the step of local/global rises far
-    const auto shorten_or_replace = [&] {
-      const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
-      const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
-      t *= ratio;
-      if(t < 0.05 && !is_safe)
-        return replace();
-      shorten(ratio, before, run.x);
-    };
     t = 1;
     if(!is_safe && (!(slope > 0) || memory.went_too_far(run.diameter)))
       replace();
@@ -145,7 +137,13 @@ inline Status minimize_quasi_newton(Minimization& run)
         t = decrease = 0;
         break;
       }
-      shorten_or_replace();
+      const double parabola = slope * t / (2 * slope * t - decrease); // its minimum
+      const double ratio = (std::max)(0.1, (std::min)(0.5, parabola));
+      t *= ratio;
+      if(t < 0.05 && !is_safe)
+        replace();
+      else
+        shorten(ratio, before, run.x);
     }
     status = run.next_iterate(decrease);
   }

@@ -125,8 +125,9 @@ public:
 
   // Moves the parts of x that can be rigid there, and returns for each movable vertex whether it is
   // in one of them. They are moved by as little as possible from the positions x, or if
-  // `is_from_rest` from the rest shape. `size` is the squared diagonal of its bounding box. Parts
-  // that are twisted by a full turn are at a minimum of their own, and are left as they are.
+  // `is_from_rest` from the rest shape. `size` is the squared diagonal of the box of what is near
+  // free vertices, at rest. Parts that are twisted by a full turn are at a minimum of their own,
+  // and are left as they are.
   Array<char> operator()(const Region& region, double size, const Constraints& constraints,
                          const Targets& targets, bool is_from_rest,
                          Array<Coordinates>& x) const

@@ -76,6 +76,9 @@ public:
   // Others have moved the vertex of an entry.
   void set_position(std::size_t k, const Coordinates& position)
   {
+    m_restored.are_complete = false;
+    if(!has_region())
+      return;
     set_position(k, position, m_prepared->positions);
     core().outdate_rotations();
   }
@@ -88,18 +91,16 @@ public:
       positions[v] = position;
   }
 
-  // Reads the points around the region of interest again, which have no entries. All have to be
-  // finite then.
-  Outcome read_surroundings(const Vertices& vertices)
+  // Reads the points around the region of interest again, which have no entries.
+  void read_surroundings(const Vertices& vertices)
   {
+    if(!has_region())
+      return;
     Array<Coordinates>& positions = m_prepared->positions;
     for(int v = core().region().number_of_movable_vertices;
         v < core().region().number_of_vertices(); ++v)
       if(!vertices.find(region().vertices[v]))
         positions[v] = Domain::coordinates(vertices.domain().point(region().vertices[v]));
-    const int v = find_non_finite(positions);
-    return v < 0 ? outcome(Status::success)
-                 : outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
   }
 
   // makes those rotations identities that are at vertices which satisfy a predicate
@@ -152,25 +153,16 @@ public:
   Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
                   Stages& stages)
   {
-    if(has_region() && (core().are_weights_stale() || m_ready.values != m_present.values))
+    if(!has_region() || has_other_values() || m_ready.constraints != m_present.constraints)
     {
-      stages.weights = true;
-      m_ready.values = m_ready.constraints = none;
-      Energy_model model;
       m_outcome = Outcome(); // as long as something may throw
-      m_outcome = values.fill_in(model, options, vertices.domain(), region(), core().region());
-      if(!m_outcome)
-        return m_outcome;
-      core().update_weights(std::move(model), options.threads);
-      if(core().diagnosis().status == Status::success)
-        m_ready.values = m_present.values;
-    }
-    if(m_ready.region != m_present.region || m_ready.constraints != m_present.constraints)
-    {
-      m_outcome = Outcome();
       m_outcome = update(vertices, values, options, stages);
     }
-    return m_outcome;
+    if(!m_outcome || m_rules.order == Minimization_order::global_first)
+      return m_outcome;
+    const int v = find_non_finite(positions()); // around the region, where others may move it
+    return v < 0 ? m_outcome
+                 : outcome_of_vertex(Status::non_finite_point, core().region().indices[v]);
   }
 
   // what the last preparation led to
@@ -243,6 +235,12 @@ public:
 private:
   static constexpr std::size_t none = 0; // no version
 
+  // whether the weights of the region that there is are those of before
+  bool has_other_values() const
+  {
+    return core().are_weights_stale() || m_ready.values != m_present.values;
+  }
+
   bool has_region_of(const Versions& present) const
   {
     return m_prepared && m_ready.region == present.region;
@@ -280,6 +278,18 @@ private:
         next->take_rotations(m_prepared->rotations_of_cells(), vertices.domain());
       else if(m_restored.region)
         next->take_rotations(m_restored, vertices.domain());
+    }
+    else if(has_other_values())
+    {
+      stages.weights = true;
+      m_ready.values = none;
+      Energy_model model;
+      if(Outcome filled = values.fill_in(model, options, vertices.domain(), region(),
+                                         core().region()); !filled)
+        return filled;
+      core().update_weights(std::move(model), options.threads);
+      if(core().diagnosis().status == Status::success)
+        m_ready.values = m_present.values;
     }
     Built_region<Domain>& prepared = next ? *next : *m_prepared;
     if(prepared.core->diagnosis().status != Status::success) // its weights

@@ -150,6 +150,7 @@ protected:
   using Base::points_of_entries;
   using Base::refuse_in_a_run;
   using Base::region_changed;
+  using typename Base::Scoped_flag;
   using Base::set_points;
   using Base::takes_points;
 
@@ -158,8 +159,6 @@ protected:
   {
     return m_rules.are_erased_put_back && entry.was_roi && !entry.is_roi;
   }
-
-  bool is_region_written() const { return m_is_region_written; }
 
   void note_region_as_written()
   {
@@ -172,24 +171,12 @@ protected:
 private:
   friend Iterate;
 
-  // sets a flag from its construction to its destruction
-  class Scoped_flag
-  {
-  public:
-    explicit Scoped_flag(bool& flag) : m_flag(flag) { m_flag = true; }
-    Scoped_flag(const Scoped_flag&) = delete;
-    Scoped_flag& operator=(const Scoped_flag&) = delete;
-    ~Scoped_flag() { m_flag = false; }
-
-  private:
-    bool& m_flag;
-  };
-
   // what comes before all stages
   Outcome begin(const Options& options, double& transfer)
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
+    const Scoped_flag in_a_run(m_is_in_a_run);
     const Outcome checked = options.check();
     return checked ? take_points_of_others(transfer) : checked;
   }
@@ -266,6 +253,8 @@ private:
   Outcome take_points_of_others(double& transfer)
   {
     Scoped_seconds seconds(transfer);
+    if(!domain().is_in_place() && !m_rules.are_erased_put_back)
+      mend_inputs();
     if(!takes_points())
       return outcome(Status::success);
     std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
@@ -273,16 +262,27 @@ private:
       if(const Entry& entry = m_vertices.entries()[k];
          entry.is_roi && !is_finite(Domain::coordinates(point)))
         return outcome_of_vertex(Status::non_finite_point, domain().index(entry.vertex));
-    const bool has_region = m_prepared.has_region();
     for(auto& [k, point] : changed) // one after the other: a copy that throws leaves the others
     {
       if(mend(m_vertices.entries()[k], point))
         region_changed();
-      if(has_region)
-        m_prepared.set_position(k, Domain::coordinates(point));
+      m_prepared.set_position(k, Domain::coordinates(point));
       m_vertices.present_points()[k] = std::move(point);
     }
-    return has_region ? m_prepared.read_surroundings(m_vertices) : outcome(Status::success);
+    m_prepared.read_surroundings(m_vertices);
+    return outcome(Status::success);
+  }
+
+  // Where results are written elsewhere, inputs are read once, but for those that were not finite.
+  void mend_inputs()
+  {
+    for(std::size_t k = 0; k < m_vertices.entries().size(); ++k)
+      if(Entry& entry = m_vertices.entries()[k]; !is_finite(Domain::coordinates(entry.rest)))
+        if(const Point point = domain().point(entry.vertex); mend(entry, point))
+        {
+          m_vertices.present_points()[k] = point;
+          region_changed();
+        }
   }
 
   void write_points(Array<Coordinates>& positions)

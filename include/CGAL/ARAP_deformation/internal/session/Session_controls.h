@@ -273,6 +273,20 @@ protected:
     return true;
   }
 
+  // sets a flag from its construction to its destruction
+  class Scoped_flag
+  {
+  public:
+    explicit Scoped_flag(bool& flag) : m_flag(flag), m_before(std::exchange(flag, true)) {}
+    Scoped_flag(const Scoped_flag&) = delete;
+    Scoped_flag& operator=(const Scoped_flag&) = delete;
+    ~Scoped_flag() { m_flag = m_before; }
+
+  private:
+    bool& m_flag;
+    const bool m_before;
+  };
+
   // Whether a run is under way, so that a visitor or another user function has made the call.
   bool refuse_in_a_run() const
   {
@@ -309,6 +323,7 @@ protected:
   template <typename Function>
   void set_points(const Function& write)
   {
+    const Scoped_flag in_a_run(m_is_in_a_run);
     m_are_points_written = false;
     write();
     m_are_points_written = true;

@@ -59,7 +59,8 @@ public:
     {
       positions = m_prepared.positions();
       for(std::size_t k = 0; k < positions.size(); ++k)
-        if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]))
+        if(const auto* entry = m_vertices.find(m_prepared.region().vertices[k]);
+           entry && is_reset(*entry))
           positions[k] = Domain::coordinates(entry->rest);
     }
     std::vector<Point> points =
@@ -69,7 +70,7 @@ public:
       held_targets.push_back(rest_point(held.first));
     set_points([&] {
       for(const auto& entry : m_vertices.entries())
-        if(entry.is_roi || !m_rules.are_erased_put_back)
+        if(is_reset(entry))
           domain().set_point(entry.vertex, entry.rest);
     });
     // not swapped: where the present points were, nothing else would fit
@@ -131,6 +132,7 @@ public:
       {
         state.vertices.present_points[k] = point;
         mend(state.vertices.entries[k], point);
+        state.prepared.cells.are_complete = false; // rotations are of the positions before
         if(m_prepared.has_region())
           m_prepared.set_position(k, Domain::coordinates(point), state.prepared.positions);
       }
@@ -182,6 +184,9 @@ protected:
   using Base::replace_target;
   using Base::set_points;
   using Base::takes_points;
+
+  // CGAL's class does not know what is outside of the region of interest.
+  bool is_reset(const Entry& entry) const { return entry.is_roi || !m_rules.are_erased_put_back; }
 
   // If the point of a vertex was not finite when it was inserted, and is now: makes the new point
   // its rest point. Returns whether it has changed.

@@ -47,7 +47,6 @@ public:
 
   using Base::Base;
   using Base::present;
-  using Base::rest_point;
 
   // The target of a control vertex or a control point, the projection of where it is if the target
   // is a set; the point of what is no control.

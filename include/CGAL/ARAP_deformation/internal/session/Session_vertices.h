@@ -117,11 +117,6 @@ public:
     return slot == Paged_index_map::none ? nullptr : &m_entries[slot];
   }
 
-  Entry* find(vertex_descriptor v)
-  {
-    return const_cast<Entry*>(std::as_const(*this).find(v));
-  }
-
   // allocates memory for so many more vertices
   void reserve(std::size_t n)
   {

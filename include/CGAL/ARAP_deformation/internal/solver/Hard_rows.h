@@ -22,6 +22,7 @@
 #include <CGAL/ARAP_deformation/internal/cholesky/packed_values.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/is_finite.h>
+#include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 #include <CGAL/ARAP_deformation/internal/solver/Orthogonalized_rows.h>
@@ -59,21 +60,29 @@ public:
 
   // The first row that is a linear combination of those before it and of fixed vertices, or -1.
   // What counts is the squared sine of its angle to their span; behind a small pivot, the rounding
-  // errors of later ones too. (A pivot that is zero, or none, spoils only those of later rows.)
+  // errors of later ones too, of rows that common vertices connect. (A pivot that is zero, or none,
+  // spoils only those of later rows.)
   int find_dependent() const
   {
-    if(!is_empty())
+    if(is_empty())
+      return -1;
+    Disjoint_sets connected(size());
+    Array<int> first(static_cast<int>(columns().rows()), -1); // the row at each vertex
+    for_each_entry([&](std::size_t v, std::size_t r, double) {
+      if(first[v] < 0)
+        first[v] = static_cast<int>(r);
+      connected.unite(first[v], static_cast<int>(r));
+    });
+    const Array<double> pivots = m_gram->pivots();
+    Array<double> smallest_pivots(size(), 1); // of connected rows
+    for(int r = 0; r < size(); ++r)
     {
-      const Array<double> pivots = m_gram->pivots();
-      double smallest = 1;
-      for(int r = 0; r < size(); ++r)
-      {
-        const double length = m_orthogonalized.length(r), pivot = pivots[r];
-        if(!is_finite(pivot) || !(length * length * pivot > smallest_sine * smallest_sine) ||
-           !(pivot > rounding_of_a_sum / smallest))
-          return r;
-        smallest = (std::min)(smallest, pivot);
-      }
+      const double length = m_orthogonalized.length(r), pivot = pivots[r];
+      double& smallest = smallest_pivots[connected.find(r)];
+      if(!is_finite(pivot) || !(length * length * pivot > smallest_sine * smallest_sine) ||
+         !(pivot > rounding_of_a_sum / smallest))
+        return r;
+      smallest = (std::min)(smallest, pivot);
     }
     return -1;
   }

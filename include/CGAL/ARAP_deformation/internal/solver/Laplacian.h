@@ -25,8 +25,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Half the Hessian of the rigidity with its rotations fixed: the matrix of Equation (9) of the
-// paper, for all movable vertices of a region.
+// Half the Hessian of rigidity and bending with their rotations fixed, for all movable vertices of
+// a region. Without bending it is the matrix of Equation (9) of the paper.
 struct Laplacian
 {
   Sparse_matrix matrix; // the lower triangle, every diagonal entry stored

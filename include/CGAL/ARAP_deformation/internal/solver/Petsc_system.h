@@ -257,7 +257,6 @@ private:
   // estimates it.
   bool set_up_iteration()
   {
-    KSPDestroy(&m_iteration);
     PC preconditioner = nullptr;
     return m_ranks.is_everywhere(
       is_petsc_success(KSPCreate(m_ranks.world(), &m_iteration)) &&

@@ -33,7 +33,8 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// The free vertices that edges of non-zero weight tie together, and where they are tied also rows.
+// The components of the free vertices: edges of non-zero weight connect them, and rows those that
+// are tied.
 struct Free_components
 {
   Array<int> component; // for each movable vertex the smallest of its component, -1 if fixed
