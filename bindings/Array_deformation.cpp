@@ -154,7 +154,6 @@ public:
   }
 
   std::size_t number_of_vertices() const override { return m_points.size(); }
-  std::size_t number_of_simplices() const override { return m_simplices.size(); }
   const double* points() const override { return m_points.data()->data(); }
   const double* rest_points() const override { return m_rest.data()->data(); }
 
@@ -335,7 +334,23 @@ public:
   }
   void set_weight(Indices handles, double weight) override
   {
-    for_each(handles, [&](auto handle) { return m_deformation.set_target_weight(handle, weight); });
+    std::vector<double> before;
+    for(std::size_t k = 0; k < handles.rows; ++k)
+      before.push_back(this->weight(*handles[k]));
+    try
+    {
+      for_each(handles, [&](auto handle) {
+        return m_deformation.set_target_weight(handle, weight);
+      });
+    }
+    catch(const Deformation_error&) // as of a set, which cannot be hard
+    {
+      auto next = before.begin();
+      for_each(handles, [&](auto handle) {
+        return m_deformation.set_target_weight(handle, *next++);
+      });
+      throw;
+    }
   }
   void set_rotation(Indices vertices, const double* matrix) override
   {
@@ -442,7 +457,7 @@ public:
   {
     const bool at_vertices = options().cells.has_vertex_cells();
     std::vector<double> result;
-    for(std::size_t c = 0; c < (at_vertices ? number_of_vertices() : number_of_simplices()); ++c)
+    for(std::size_t c = 0; c < (at_vertices ? number_of_vertices() : m_simplices.size()); ++c)
     {
       const Matrix_3x3 r = at_vertices ? m_deformation.rotation(c)
                                        : m_deformation.simplex_rotation(c);
@@ -583,7 +598,7 @@ private:
   void with_cell_map(Rows<Number> values, const Function& f) const
   {
     const bool at_vertices = options().cells.has_vertex_cells();
-    const std::size_t cells = at_vertices ? number_of_vertices() : number_of_simplices();
+    const std::size_t cells = at_vertices ? number_of_vertices() : m_simplices.size();
     require(values.rows == cells, "there are " + std::to_string(values.rows) + " values for the " +
                                   std::to_string(cells) +
                                   (at_vertices ? " vertices" : " simplices"));

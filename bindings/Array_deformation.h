@@ -78,7 +78,6 @@ public:
   virtual ~Array_deformation() = default;
 
   virtual std::size_t number_of_vertices() const = 0;
-  virtual std::size_t number_of_simplices() const = 0;
 
   // n x 3: where the vertices are. The memory stays the same as long as this object lives.
   virtual const double* points() const = 0;
@@ -94,7 +93,8 @@ public:
   virtual std::string option(const std::string& name) const = 0;
   virtual Options options_with(const Named_options& values) const = 0; // which are not set
 
-  // All vertices are in the region of interest at first. Handles that are not in it are erased.
+  // All vertices are in the region of interest at first. Control vertices that are not in it are
+  // erased, control points stay.
   virtual void set_region(Indices vertices) = 0;
   virtual std::vector<std::int32_t> region() const = 0;
 

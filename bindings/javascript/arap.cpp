@@ -122,6 +122,17 @@ Array_deformation::Named_options options_of(const char* texts, std::size_t n)
   return options;
 }
 
+// the three coordinates that a function of a handle writes
+bool point_of(const Array_deformation* d, std::int32_t handle,
+              void (Array_deformation::*function)(std::int32_t, double*) const)
+{
+  return answer_of([&] {
+    double point[3];
+    (d->*function)(handle, point);
+    add(point, 3);
+  });
+}
+
 } // namespace
 
 // the visitor that index.js has set; 0 to proceed, 1 to stop, 2 to cancel
@@ -251,11 +262,7 @@ ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::int32_t simplex,
 }
 ARAP_EXPORT bool arap_point_position(const Array_deformation* d, std::int32_t handle)
 {
-  return answer_of([&] {
-    double point[3];
-    d->point_position(handle, point);
-    add(point, 3);
-  });
+  return point_of(d, handle, &Array_deformation::point_position);
 }
 
 ARAP_EXPORT bool arap_set_targets(Array_deformation* d, const std::int32_t* handles, std::size_t n,
@@ -284,11 +291,7 @@ ARAP_EXPORT bool arap_set_target_surface(Array_deformation* d, const std::int32_
 }
 ARAP_EXPORT bool arap_target(const Array_deformation* d, std::int32_t handle)
 {
-  return answer_of([&] {
-    double point[3];
-    d->target(handle, point);
-    add(point, 3);
-  });
+  return point_of(d, handle, &Array_deformation::target);
 }
 ARAP_EXPORT bool arap_transform(Array_deformation* d, const std::int32_t* handles, std::size_t n,
                                 const double* matrix, std::size_t rows, bool from_rest)

@@ -308,7 +308,8 @@ def test_region_weights_points_and_frames():
     errors = []
     for weight in (1e-3, 1, 1e3):
         d.set_weight(handle, weight)
-        d.deform(tolerance=1e-6)
+        report = d.deform(tolerance=1e-6)
+        assert report.final_energy == report.energy[-1]
         errors.append(np.linalg.norm(d.point_position(handle) - [6, 5, 1]))
     assert errors[0] > errors[1] > errors[2] > 0
 
@@ -375,6 +376,10 @@ def test_targets_that_are_sets():
     d.deform()
     assert np.abs(d.vertices[moving, 1:] - 4).max() < 0.05
     assert d.target(moving[0]) == pytest.approx([d.vertices[moving[0], 0], 4, 4])
+    with pytest.raises(arap.DeformationError, match="finite weight"):  # and changes nothing
+        d.set_weight([fixed[0], moving[0]], 7)
+        d.set_weight([fixed[0], moving[0]], np.inf)
+    assert d.weight(fixed[0]) == 7 and d.weight(moving[0]) == 7
     d.set_weight(moving[1:], 3)
     with pytest.raises(arap.DeformationError, match="of another object"):
         d.restore(state)

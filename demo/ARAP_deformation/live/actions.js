@@ -1,7 +1,7 @@
 // What buttons and keys do with the shape that is open.
 import { FREE } from './colors.js';
-import { placeGizmo, showMeasure } from './drawing.js';
-import { pump, stopPlaying } from './follow.js';
+import { placeGizmo } from './drawing.js';
+import { pump } from './follow.js';
 import {
   handlesMoved,
   hold,
@@ -81,9 +81,8 @@ export async function removeHandle() {
   });
 }
 
-export function clearPaint() {
-  stopPlaying();
-  return changing(async () => {
+export const clearPaint = () =>
+  changing(async () => {
     cancelStroke();
     page.shape.status.fill(FREE);
     page.shape.handles = [];
@@ -94,22 +93,18 @@ export function clearPaint() {
     page.spare = view.setPositions(points);
     await hold();
   });
-}
 
-export async function reset() {
-  stopPlaying();
-  await changing(async () => {
+export const reset = () =>
+  changing(async () => {
     page.shape.handles.forEach((h) => {
       h.matrix = identity();
     });
     const { points } = await engine.call('reset');
     page.spare = view.setPositions(points);
   });
-}
 
-export async function restFromNow() {
-  stopPlaying();
-  await changing(async () => {
+export const restFromNow = () =>
+  changing(async () => {
     const { rest } = await engine.call('rest');
     page.shape.points = rest;
     page.shape.handles.forEach((handle, k) => {
@@ -119,10 +114,8 @@ export async function restFromNow() {
     });
     page.keys = [];
     await hold();
-    showMeasure();
     say('This is the rest shape from now on.');
   });
-}
 
 export function moveByKey(key, turns) {
   const handle = page.shape?.handles[page.chosen],
@@ -142,6 +135,6 @@ export function moveByKey(key, turns) {
   handle.matrix = matrixOf(handle.pivot, q, place);
   handlesMoved();
   placeGizmo();
-  commitSoon();
+  commitSoon(400);
   return true;
 }

@@ -3,7 +3,7 @@
 export const FIXED = 0,
   FREE = 1,
   HANDLE = 2;
-export const palette = [
+const palette = [
   0xf6c415, 0x2f7fe0, 0x36a852, 0x9b51c9, 0xf08a24, 0x14b8b0, 0xe0569b, 0x8a6d3b,
 ];
 export const gray = 0xc9ced6,

@@ -22,7 +22,7 @@ const percent = (x) => `${(100 * x).toPrecision(3)}%`;
 
 let isMeasuring = false;
 
-// the measure at the vertices, where the shape has come to rest or now and then
+// the measure at the vertices, where the shape has come to rest
 export async function showMeasure() {
   const measure = $('measure').value,
     of = page.shape;
@@ -104,8 +104,10 @@ export function draw() {
 
 export function placeGizmo() {
   const handle = page.shape?.handles[page.chosen];
-  if (!handle) view.gizmo.detach();
-  else if (!view.gizmo.dragging) {
+  if (!handle) {
+    if (view.gizmo.dragging) view.gizmo.pointerUp(null);
+    view.gizmo.detach();
+  } else if (!view.gizmo.dragging) {
     const { q, place } = rigidParts(handle);
     view.proxy.position.copy(place);
     view.proxy.quaternion.copy(q);

@@ -20,7 +20,7 @@ export class Engine {
         if (!this.#current) return; // after a failure
         const { resolve: done, reject: fail } = this.#current;
         this.#current = null;
-        if (data.error) fail(Object.assign(new Error(data.error), { status: data.status }));
+        if (data.error) fail(new Error(data.error));
         else done(data);
         this.#next();
       };

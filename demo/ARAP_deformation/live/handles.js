@@ -16,8 +16,11 @@ export function membersOf(k) {
   return list;
 }
 
-export const isDeformed = () =>
-  page.shape.handles.some((h) => h.matrix.some((x, i) => Math.abs(x - identity()[i]) > 1e-12));
+// whether the shape is not where it was at rest, but for single precision
+export const isDeformed = () => {
+  const { points, diagonal } = page.shape;
+  return view.positions.some((x, i) => Math.abs(x - points[i]) > 1e-5 * diagonal);
+};
 
 export function newHandle(rest = {}) {
   return {

@@ -11,6 +11,7 @@ import {
   recountHandles,
 } from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
+import { originOf, shiftedMotion } from './motion.js';
 import { chooseTool, openInTurn, stopAll } from './opening.js';
 import { page } from './state.js';
 import { change, inTurn } from './undo.js';
@@ -55,12 +56,13 @@ function pose(keys) {
 async function openTogether(mesh, meshName, selection, transforms) {
   const shape = mesh ?? page.shape;
   if (!shape) throw new Error('no shape is open');
+  const origin = mesh ? originOf(mesh.points) : shape.origin;
   // what is wrong with a file changes nothing
   const selected = selection && selectionOf(selection, shape.points.length / 3),
     numbers = selected?.numbers ?? (mesh ? [] : handlesWithVertices().map((_, i) => i)),
     keys = transforms.map(({ name, bytes }) => {
       const key = readTransforms(name, bytes, numbers.length && numbers.at(-1) + 1);
-      return numbers.map((k) => key[k]);
+      return numbers.map((k) => shiftedMotion(key[k], origin, -1));
     });
   if (mesh)
     await openInTurn(

@@ -13,7 +13,7 @@ addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (!page.shape || page.dragging || event.altKey) return;
   const isCommand = event.ctrlKey || event.metaKey; // menus take all other keys
-  if (event.target.closest?.(isCommand ? 'input[type=text]' : 'input[type=text], select')) return;
+  if (!isCommand && event.target.closest?.('select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
   if (event.repeat && !isCommand && !/^(Arrow|Page)/.test(key)) return;
   if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();

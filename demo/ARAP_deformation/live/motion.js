@@ -33,6 +33,27 @@ export function rigid(matrix) {
 export const diagonalOf = (points) =>
   new THREE.Box3().setFromArray(points).getSize(new THREE.Vector3()).length();
 
+// What is taken off coordinates that are far from zero, so that single precision draws them: exact.
+export function originOf(points) {
+  const box = new THREE.Box3().setFromArray(points),
+    size = box.getSize(new THREE.Vector3()).length();
+  return box
+    .getCenter(new THREE.Vector3())
+    .toArray()
+    .map((x) => (Math.abs(x) > 10 * size ? x : 0));
+}
+
+// points that are moved by a multiple of a vector
+export const shifted = (points, by, factor) => points.map((x, i) => x + factor * by[i % 3]);
+
+// a motion of points as one of the same points that are moved by a multiple of a vector
+export const shiftedMotion = (m, by, factor) =>
+  m.map((x, i) =>
+    i % 4 === 3 && i < 12
+      ? x + factor * (by[(i - 3) / 4] - [0, 1, 2].reduce((sum, k) => sum + m[i - 3 + k] * by[k], 0))
+      : x,
+  );
+
 export function center(points, list) {
   const c = [0, 0, 0];
   for (const v of list) for (let i = 0; i < 3; ++i) c[i] += points[3 * v + i] / list.length;

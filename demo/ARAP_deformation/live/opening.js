@@ -6,10 +6,10 @@ import { stopPlaying } from './follow.js';
 import { handlesMoved, hold, isThere, recountHandles } from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { models } from './models.js';
-import { diagonalOf } from './motion.js';
+import { diagonalOf, originOf, shifted } from './motion.js';
 import { options, sendOptions } from './options.js';
 import { cancelStroke, setTool } from './painting.js';
-import { $, engine, history, measured, page, view } from './state.js';
+import { $, engine, hasUnsavedWork, history, measured, page, view } from './state.js';
 import { commit, commitNow, forgetPast, inTurn } from './undo.js';
 
 export const open = (mesh, name, rest) =>
@@ -33,16 +33,22 @@ export function chooseTool() {
 }
 
 export async function openInTurn(
-  { points, simplices, corners, volume, status },
+  { points: given, simplices, corners, volume, status },
   name,
   { note = '', model = '' } = {},
 ) {
-  const n = points.length / 3,
+  const n = given.length / 3,
+    origin = originOf(given),
+    points = shifted(given, origin, -1),
     starts = startsOf(simplices, corners),
     weights = $('weights').value;
   if (!n || !simplices.length) throw new Error(`${name} has no faces`);
   await stopAll();
   const { shape, chosen } = page;
+  $('model').value = shape?.model ?? '';
+  const question = () => `${shape.name} was changed and not saved. Open ${name} instead?`;
+  if (hasUnsavedWork() && !confirm(question()))
+    throw new Error(`${name} was not opened`);
   Object.assign(page, { shape: null, chosen: -1 }); // nothing takes input meanwhile
   const parts = document.querySelectorAll('header, main'),
     focused = document.activeElement;
@@ -56,6 +62,7 @@ export async function openInTurn(
       name,
       model,
       points,
+      origin,
       simplices,
       starts,
       volume,

@@ -20,7 +20,7 @@ import { setTool } from './painting.js';
 import { addKey, film, play } from './playing.js';
 import { saves } from './saving.js';
 import { $, page, view, whenChanged } from './state.js';
-import { commit, redo, steps, undo } from './undo.js';
+import { commitSoon, redo, steps, undo } from './undo.js';
 
 const icon = (path) =>
   `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" ` +
@@ -118,7 +118,7 @@ function showPanel() {
           return say('This key frame is of other handles.', true);
         moveHandles(key);
         handlesMoved();
-        commit();
+        commitSoon();
       },
     })),
   );

@@ -6,11 +6,11 @@ import { say } from './messages.js';
 import { identity, matrixOf, rigidParts } from './motion.js';
 import { save } from './saving.js';
 import { changed, page, view } from './state.js';
-import { commit } from './undo.js';
+import { commitSoon } from './undo.js';
 
 export function addKey() {
   page.keys.push(matrices());
-  commit();
+  commitSoon();
 }
 
 export function play(record) {
@@ -46,7 +46,7 @@ export function playFrame(time) {
   handlesMoved();
   if (isEnd) {
     stopPlaying();
-    commit();
+    commitSoon();
   }
 }
 

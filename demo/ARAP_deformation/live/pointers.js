@@ -15,10 +15,11 @@ import {
 } from './painting.js';
 import { flood, nearestSeen } from './regions.js';
 import { $, page, view } from './state.js';
-import { commit, commitNow } from './undo.js';
+import { commitNow, commitSoon } from './undo.js';
 import { THREE } from './view.js';
 
 const pointers = new Set();
+let point = null; // where a finger or button went down to place one
 
 const at = (event) => {
   const box = view.canvas.getBoundingClientRect();
@@ -31,6 +32,7 @@ function pressed(event) {
   pointers.add(event.pointerId);
   if (pointers.size > 1) {
     // two fingers turn the view
+    point = null;
     cancelStroke();
     endDrag(true);
     return;
@@ -53,7 +55,10 @@ function pressed(event) {
   const screen = view.screen();
   if (page.tool !== 'box' && page.tool !== 'lasso' && !screen.isOn(x, y)) return; // the view turns
   view.letTurn(false);
-  if (page.tool === 'point') return void placePoint(x, y);
+  if (page.tool === 'point') {
+    point = [x, y];
+    return;
+  }
   if (page.shape.handles[page.paints - HANDLE]?.point) page.paints = nextHandle() + HANDLE;
   page.stroke = {
     screen,
@@ -104,9 +109,9 @@ function grab(event, x, y, k) {
     before: page.shape.handles[k].matrix,
     hasMoved: false,
     to: (a, b) => {
-      const p = hit(a, b);
-      if (!p) return;
-      const handle = page.shape.handles[k];
+      const p = hit(a, b),
+        handle = page.shape.handles[k];
+      if (!p || !handle) return;
       handle.matrix = matrixOf(handle.pivot, q, p.sub(start).add(place));
       page.dragging.hasMoved = true;
       handlesMoved();
@@ -120,14 +125,15 @@ function endDrag(isCancelled = false) {
   if (!page.dragging) return;
   const { k, before, hasMoved } = page.dragging;
   page.dragging = null;
-  if (isCancelled && hasMoved) {
-    page.shape.handles[k].matrix = before;
+  const handle = page.shape.handles[k];
+  if (isCancelled && hasMoved && handle) {
+    handle.matrix = before;
     handlesMoved();
   }
   placeGizmo();
   if (hasMoved && !isCancelled) {
     closeHelp();
-    commit();
+    commitSoon();
   }
   page.isSettled = false;
 }
@@ -146,6 +152,8 @@ function movedTo(event) {
 function released(event) {
   pointers.delete(event.pointerId);
   const isCancelled = event.type === 'pointercancel';
+  if (point && !isCancelled) placePoint(...point);
+  point = null;
   if (page.dragging?.to ? page.dragging.id === event.pointerId : isCancelled)
     endDrag(isCancelled);
   if (!page.stroke || page.stroke.id !== event.pointerId) return;
@@ -172,8 +180,8 @@ $('view').addEventListener('pointerleave', () => !page.stroke && drawStroke());
 $('view').addEventListener('contextmenu', (event) => event.preventDefault());
 
 view.gizmo.addEventListener('objectChange', () => {
-  if (page.chosen < 0) return;
-  const handle = page.shape.handles[page.chosen];
+  const handle = page.shape?.handles[page.chosen];
+  if (!handle) return;
   handle.matrix = matrixOf(handle.pivot, view.proxy.quaternion, view.proxy.position);
   if (page.dragging) page.dragging.hasMoved = true;
   handlesMoved();
@@ -187,5 +195,5 @@ view.gizmo.addEventListener('dragging-changed', ({ value }) => {
   page.isSettled = false;
   if (!hasMoved) return;
   closeHelp();
-  commit();
+  commitSoon();
 });

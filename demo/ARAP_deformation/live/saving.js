@@ -3,9 +3,9 @@ import { HANDLE } from './colors.js';
 import { writeMesh, writeSelection, writeTransforms } from './files.js';
 import { handlesWithVertices } from './handles.js';
 import { complain, say } from './messages.js';
-import { diagonalOf, identity } from './motion.js';
+import { diagonalOf, identity, shifted, shiftedMotion } from './motion.js';
 import { options } from './options.js';
-import { engine, page, view } from './state.js';
+import { engine, hasUnsavedWork, page, view } from './state.js';
 
 export function save(name, content) {
   const url = URL.createObjectURL(
@@ -51,16 +51,20 @@ export function commandLine() {
   );
 }
 
+const inFile = (matrix) => shiftedMotion(matrix, page.shape.origin, 1);
+
 async function saveMesh(ending, which, suffix) {
-  const { shape } = page; // another one may be opened meanwhile
+  const { shape } = page, // another one may be opened meanwhile
+    isWork = which === 'points';
+  if (isWork) page.isSaved = true; // what is done from now on is not
   try {
     const answer = await engine.call('points');
     save(
       `${shape.name}${suffix}.${ending}`,
-      writeMesh(ending, { ...shape, points: answer[which] }),
+      writeMesh(ending, { ...shape, points: shifted(answer[which], shape.origin, 1) }),
     );
-    if (which === 'points' && shape === page.shape) page.isSaved = true;
   } catch (error) {
+    if (isWork && shape === page.shape) page.isSaved = false;
     complain(error);
   }
 }
@@ -76,7 +80,7 @@ export const saves = {
     if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
     save(
       `${page.shape.name}.def`,
-      writeTransforms(numbers.map((k) => page.shape.handles[k].matrix)),
+      writeTransforms(numbers.map((k) => inFile(page.shape.handles[k].matrix))),
     );
   },
   'Key frames': () => {
@@ -86,7 +90,7 @@ export const saves = {
     page.keys.forEach((key, i) =>
       save(
         `${page.shape.name}-${i + 1}.def`,
-        writeTransforms(numbers.map((k) => key[k] ?? identity())),
+        writeTransforms(numbers.map((k) => inFile(key[k] ?? identity()))),
       ),
     );
   },
@@ -101,7 +105,9 @@ export const saves = {
   },
 };
 
-// A model is soon deformed again; work on a file is not.
 addEventListener('beforeunload', (event) => {
-  if (!page.isSaved && !page.shape?.model) event.preventDefault();
+  if (hasUnsavedWork()) {
+    event.preventDefault();
+    event.returnValue = true; // browsers before 2023
+  }
 });

@@ -20,9 +20,9 @@ export const view = (() => {
 export const engine = new Engine(...window.arapParts());
 
 export const page = {
-  // what is open: points are those of the rest shape
-  // { name, model, points, simplices, starts, volume, weights, faces, simplexOf, diagonal, status,
-  //   fixed, handles, stiffness }
+  // what is open: points are those of the rest shape, relative to the origin
+  // { name, model, points, origin, simplices, starts, volume, weights, faces, simplexOf, diagonal,
+  //   status, fixed, handles, stiffness }
   shape: null,
   tool: 'grab',
   paints: FIXED,
@@ -38,6 +38,9 @@ export const page = {
   dragging: null,
   stroke: null,
 };
+
+// A model is soon deformed again; work on a file is not.
+export const hasUnsavedWork = () => !!page.shape && !page.shape.model && !page.isSaved;
 
 export const measured = {
   energy: NaN,

@@ -40,7 +40,6 @@ export async function commit() {
     chosen: page.chosen,
     handles: structuredClone(shape.handles),
     options: options(),
-    points: shape.points,
   };
   const dropped = past.splice(now + 1);
   past.push(kept);
@@ -62,10 +61,10 @@ export async function commit() {
   await kept.state;
 }
 
-// commits once no key has been pressed for a moment
-export function commitSoon() {
+// commits after what the shape is in the middle of; once no key has been pressed for a moment
+export function commitSoon(milliseconds = 0) {
   clearTimeout(timer);
-  timer = setTimeout(commit, 400);
+  timer = setTimeout(() => inTurn(commitNow), milliseconds);
 }
 
 // before anything else is changed, so that it is a step of its own
@@ -75,6 +74,7 @@ export async function commitNow() {
 
 // Runs what changes the shape, which then follows. What fails is undone. For what has its turn.
 export async function change(f) {
+  stopPlaying();
   try {
     await f();
     page.failed = '';
@@ -106,6 +106,7 @@ async function goTo(index) {
       stiffness: kept.stiffness?.slice() ?? null,
     });
     page.keys = kept.keys.slice();
+    page.isSaved = false;
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells

@@ -48,12 +48,9 @@ export class View {
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef1f5);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
-    this.lights = new THREE.Group();
-    this.lights.add(new THREE.HemisphereLight(0xffffff, 0x8a94a6, 1.5));
     const light = new THREE.DirectionalLight(0xffffff, 2);
     light.position.set(0.5, 0.8, 1);
-    this.lights.add(light);
-    this.camera.add(this.lights);
+    this.camera.add(new THREE.HemisphereLight(0xffffff, 0x8a94a6, 1.5), light);
     this.scene.add(this.camera);
     this.material = new THREE.MeshStandardMaterial({
       vertexColors: true,

@@ -176,11 +176,7 @@ onmessage = async ({ data }) => {
     const moved = ['points', 'rest', 'values'].map((name) => answer[name]?.buffer).filter(Boolean);
     postMessage({ ...answer, id: data.id }, moved);
   } catch (error) {
-    postMessage({
-      id: data.id,
-      error: error.message || String(error),
-      status: error.status ?? error.name,
-    });
+    postMessage({ id: data.id, error: error.message || String(error) });
   }
 };
 postMessage({ id: 0 });

@@ -2,9 +2,9 @@
 
 ``deform()`` is one call; ``Deformation`` is a session, for dragging, undo and time steps. n
 vertices have coordinates of any unit of length, as an array of shape (n, 3); m faces or tetrahedra
-have k corners, as an array of indices of shape (m, k); faces of fewer corners end with -1. Arguments
-may be any arrays of numbers, or lists; they are copied. Energies are those of the manual: with cotangent weights their unit is an
-area for surfaces and a volume for tetrahedra.
+have k corners, as an array of indices of shape (m, k); faces of fewer corners end with -1.
+Arguments may be any arrays of numbers, or lists; they are copied. Energies are those of the manual:
+with cotangent weights their unit is an area for surfaces and a volume for tetrahedra.
 """
 
 from __future__ import annotations
@@ -59,6 +59,11 @@ class Report:
     unconstrained_components: List[int]
     stages: Dict[str, bool]
     seconds: Dict[str, float]
+
+    @property
+    def final_energy(self) -> float:
+        """The energy of the last iterate; not a number if there was none."""
+        return float(self.energy[-1]) if len(self.energy) else math.nan
 
     def __bool__(self) -> bool:
         return self.status != "cancelled"
@@ -233,7 +238,7 @@ class Deformation:
     @property
     def region(self) -> NDArray[np.int32]:
         """The vertices that may move: the region of interest. At first it has all. Setting it erases
-        the handles that are not in it."""
+        handles that are vertices outside of it; points stay."""
         return self._session.region()
 
     @region.setter
@@ -338,7 +343,8 @@ class Deformation:
 
     def set_groups(self, groups: ArrayLike) -> None:
         """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none.
-        The part can still stretch: a rigid one has a large stiffness, too.
+        Those with a negative number have their own. The part can still stretch: a rigid one has a
+        large stiffness, too.
         Pass [] before ``cells`` changes to 'elements', or from these to others."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 

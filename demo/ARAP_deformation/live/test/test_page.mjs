@@ -57,12 +57,19 @@ const browser = await puppeteer.launch({
     '--enable-precise-memory-info',
   ],
 });
-const complaints = [];
+const complaints = [],
+  questions = []; // that the page has asked
+let answer = true;
 
 async function newPage(options = {}, url = address) {
   const page = await browser.newPage();
   await page.setViewport({ width: 1280, height: 800, ...options });
   page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('dialog', (dialog) => {
+    if (dialog.type() !== 'confirm') return;
+    questions.push(dialog.message());
+    answer ? dialog.accept() : dialog.dismiss();
+  });
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', {
@@ -521,6 +528,14 @@ const steps = {
     await question.dismiss();
     await leaving;
     assert.equal((await settled()).name, 'my_bar');
+    answer = false;
+    await page.select('#model', 'sheet');
+    await page.waitForFunction(() => /not opened/.test(window.arap.state().message));
+    answer = true;
+    assert.match(questions.at(-1), /^my_bar .* sheet instead\?$/);
+    assert.equal((await settled()).name, 'my_bar');
+    assert.equal(await page.$eval('#model', (m) => m.value), '');
+    await page.click('#message button');
   },
 
   async 'saved files, and the command'() {
@@ -732,6 +747,22 @@ const steps = {
       [false, true],
     );
     assert(await page.$eval('#handle', (h) => h.hidden), 'no handle is chosen');
+    // a gizmo that is dragged while its handle goes
+    await page.click('#undo');
+    await settled();
+    await page.evaluate(() => {
+      window.arap.choose(0);
+      dispatchEvent(new KeyboardEvent('keydown', { key: 'Delete' }));
+      Object.assign(window.arap.view.gizmo, { axis: 'X', dragging: true });
+    });
+    await settled();
+    assert(
+      await page.evaluate(() => {
+        const { gizmo, orbit } = window.arap.view;
+        return orbit.enabled && !gizmo.dragging;
+      }),
+      'the view can be turned',
+    );
     assert.equal(await page.evaluate(() => window.arap.view.canvas.style.cursor), 'grab');
     // a button keeps the focus, and says that it is pressed
     await page.focus('#regions button:nth-child(2)');
@@ -920,6 +951,39 @@ const steps = {
     now = await settled();
     assert(now.handles[1].point);
     assert(now.handles[2]?.vertices > 0, 'a handle beside the point');
+  },
+
+  async 'far from the origin'() {
+    const { points, simplices, status } = models.bar[1](),
+      origin = [5e6, -4e6, 0],
+      far = points.map((x, i) => x + origin[i % 3]),
+      path = (ending) => join(files, `far.${ending}`);
+    // a quarter turn about the middle of the bar's first end
+    const [px, py] = origin;
+    writeFileSync(path('off'), off({ points: far, simplices }));
+    writeFileSync(path('sel'), [...status].join('\n'));
+    writeFileSync(
+      path('def'),
+      `0 -1 0 ${px + py + 0.5}\n1 0 0 ${py - px}\n0 0 1 0.25\n0 0 0 1\n`,
+    );
+    await openFile(path('off'), path('sel'), path('def'));
+    await page.waitForFunction(() => /Opened: far\.sel/.test(window.arap.state()?.message));
+    await page.waitForFunction(() => window.arap.state().energy > 1e-3);
+    await settled();
+    assert((await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6);
+    await shot('23_far');
+    const ours = pointsOf(String(await saved('Mesh .off', 'far.off')));
+    assert(
+      ours.every((x, i) => status[Math.floor(i / 3)] !== 0 || x === far[i]),
+      'what is fixed stays, to the last digit',
+    );
+    const rest = String(await saved('Rest shape', 'far_rest.off'));
+    assert.equal(rest, off({ points: far, simplices }));
+    await saved('Selection', 'far.sel');
+    await saved('Transforms', 'far.def');
+    const distance = largestDifference(ours, theCommands('far.sel')) / 5.2;
+    console.log(`  the command's mesh differs by ${distance.toExponential(1)} of the diagonal`);
+    assert(distance < 1e-3);
   },
 
   async volume() {
@@ -1325,6 +1389,17 @@ const steps = {
     for (let k = 1; k <= 8; ++k) await stroke.move(a - 8 + 2 * k, b);
     await stroke.end();
     assert((await settled(phone)).fixed > fixed, 'a finger paints');
+    // two fingers place no point, one does
+    await phone.tap('[data-tool=point]');
+    const before = (await state(phone)).handles.length,
+      first = await phone.touchscreen.touchStart(a, b),
+      second = await phone.touchscreen.touchStart(a + 40, b + 40);
+    await second.move(a + 60, b + 60);
+    await second.end();
+    await first.end();
+    assert.equal((await settled(phone)).handles.length, before);
+    await phone.touchscreen.tap(...(await onPage([[0, 0, 0.4]], phone))[0]);
+    assert.equal((await settled(phone)).handles.length, before + 1);
     await phone.close();
   },
 
