@@ -112,6 +112,9 @@ public:
       throw std::runtime_error("has an accessor that is sparse, compressed, or not of the type " +
                                type);
     const Json& view = json.at("bufferViews").at(whole(accessor["bufferView"]));
+    for(const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+      if(view.contains("extensions") && view["extensions"].contains(extension))
+        throw std::runtime_error(std::string("has arrays that are compressed by ") + extension);
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
     const std::size_t bytes = (result.component == BYTE_INDEX    ? 1

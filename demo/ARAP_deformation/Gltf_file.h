@@ -78,7 +78,7 @@ public:
   {
     check_format(file, format, m_mesh);
     std::error_code error;
-    if(std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), m_folder, error))
+    if(std::filesystem::equivalent(internal::location(file).parent_path(), m_folder, error))
       return;
     m_gltf.embed_buffers(); // their files are not beside the output
     m_are_images_left = m_has_images;
@@ -191,6 +191,9 @@ private:
     const std::size_t triangles = 4;
     if(Gltf::whole(primitive, "mode", triangles) != triangles)
       throw std::runtime_error("has a primitive that is no list of triangles");
+    const char* const draco = "KHR_draco_mesh_compression";
+    if(primitive.contains("extensions") && primitive["extensions"].contains(draco))
+      throw std::runtime_error(std::string("has triangles that are compressed by ") + draco);
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");
@@ -212,6 +215,11 @@ private:
        same->second.to_scene.matrix() != to_scene.matrix())
       throw std::runtime_error("the accessor " + std::to_string(accessors.first) + " has the "
                                "positions of two nodes in different places");
+    for(const auto& directions : {accessors.second, tangents})
+      if(directions &&
+         m_positions_of.emplace(*directions, accessors.first).first->second != accessors.first)
+        throw std::runtime_error("the accessor " + std::to_string(*directions) + " has the normals "
+                                 "or tangents of two sets of positions");
     Piece& piece = m_pieces[accessors];
     if(tangents)
       piece.tangents.insert(*tangents);
@@ -308,6 +316,7 @@ private:
   bool m_has_images = false, m_are_images_left = false; // in files of their own
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
+  std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
   // for the accessors of its positions and normals
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces;
   internal::Polygons m_faces;

@@ -56,6 +56,9 @@ public:
     else
       read_elements(words);
     read_end(words, "$EndElements");
+    for(const char* keyword : {"$Nodes", "$Elements"})
+      if(find_section(keyword, words.end()))
+        refuse(std::string("has a second section ") + keyword);
     if(m_mesh.tetrahedra.empty())
       refuse_without_tetrahedra();
   }

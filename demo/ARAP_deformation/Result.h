@@ -40,7 +40,6 @@ namespace CGAL::ARAP::demo {
 // the report of the deformation, and what the command adds to it
 struct Result
 {
-  Report report;             // of the last frame
   std::vector<Step_report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
   Quality quality;
@@ -81,7 +80,7 @@ inline nlohmann::ordered_json to_json(const Phase_seconds& seconds)
 
 inline void write_report(Output_file& file, const Result& result)
 {
-  const Report& report = result.report;
+  const Report& report = result.frames.back();
   nlohmann::ordered_json json;
   json["status"] = to_string(report.status);
   json["message"] = report.message;
@@ -131,7 +130,7 @@ inline void write_report(Output_file& file, const Result& result)
 // The last lines of a run.
 inline void print_summary(std::ostream& out, const Command_line& line, const Result& result)
 {
-  const Report& report = result.report;
+  const Report& report = result.frames.back();
   out << line.mesh << ": " << result.vertices << " vertices, "
       << report.free_vertices << " free\n"
       << (result.frames.size() > 1 ? "last frame: " : "")

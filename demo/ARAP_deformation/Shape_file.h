@@ -65,7 +65,8 @@ public:
   // Throws if a file of this format cannot hold the surface.
   void check_output(const std::string& file, const std::string& format) const
   {
-    check_format(file, format, m_mesh);
+    if(!m_is_kept)
+      check_format(file, format, m_mesh);
   }
 
   // what an output of this format does not keep

@@ -176,9 +176,9 @@ inline std::vector<std::vector<Transform>> read_key_frames(const Command_line& l
   {
     keys.push_back(read_transforms(file));
     if(const std::size_t n = keys.back().size(); n != 1 && n != handles)
-      throw std::runtime_error(file + ": has " + std::to_string(n) + " matrices, but there are " +
-                               std::to_string(handles) + " handles; give one for each, or one for "
-                               "all");
+      throw std::runtime_error(file + ": has " + std::to_string(n) + " matrices, but the number of "
+                               "handles is " + std::to_string(handles) + "; give one for each, or "
+                               "one for all");
   }
   return keys;
 }
@@ -214,8 +214,9 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
 
   const auto key_frames = internal::read_key_frames(line, task.handles.size());
   const bool are_together = // all handles move as one
-    line.handles.empty() && std::all_of(key_frames.begin(), key_frames.end(),
-                                        [](const auto& key) { return key.size() == 1; });
+    (line.handles.empty() || !key_frames.empty()) &&
+    std::all_of(key_frames.begin(), key_frames.end(),
+                [](const auto& key) { return key.size() == 1; });
   const Bbox_3 box = CGAL::bbox_3(points.begin(), points.end());
   task.diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(),
                              box.zmax() - box.zmin());

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -94,12 +95,19 @@ protected:
   }
 
   // The words after a line that starts with a keyword, the first one after a place.
-  Words section(const std::string& keyword, std::size_t place) const
+  std::optional<Words> find_section(const std::string& keyword, std::size_t place) const
   {
     for(; (place = text().find(keyword, place)) != std::string::npos; ++place)
       if(place > 0 && text()[place - 1] == '\n')
         if(Words words(text(), place); words.next() == keyword)
           return words;
+    return std::nullopt;
+  }
+
+  Words section(const std::string& keyword, std::size_t place) const
+  {
+    if(const auto found = find_section(keyword, place))
+      return *found;
     refuse("has no " + keyword);
   }
 

@@ -366,7 +366,6 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
     if(outputs.film)
       film.add_frame(panel_of(points_of(shape.mesh()), ""));
   });
-  result.report = result.frames.back();
   result.quality = CGAL::ARAP::quality(domain, rest_points);
   if(line.has_quality)
     result.self_intersections = CGAL::ARAP::number_of_self_intersections(domain);
@@ -404,7 +403,8 @@ void run(const Command_line& line, const Chosen_solver& solver)
   const std::string format = output_format(line.output, line.mesh);
   check_mesh_files(line, format);
   if(!line.color.empty() && line.image.empty() && format != ".ply")
-    throw Usage_error("--color " + line.color + ": needs a .ply file as output, or --image");
+    throw Usage_error("--color " + line.color + ": needs --image, or for a surface a .ply file as "
+                      "output");
   {
     const Delayed_interruption until_folder_is_removed;
     if(!line.image.empty())

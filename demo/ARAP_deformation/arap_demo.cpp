@@ -135,6 +135,22 @@ void expect_success(const CGAL::ARAP::Outcome& outcome)
     throw std::runtime_error(outcome.message);
 }
 
+// Passes the selection to a deformation, with the targets of the handles.
+template <typename Deformation>
+void insert_selection(Deformation& deformation, const std::vector<int>& selection,
+                      const Transform& transform)
+{
+  const auto& domain = deformation.domain();
+  for(auto v : domain.vertices())
+  {
+    const int status = selection[domain.index(v)];
+    if(status != FIXED)
+      deformation.insert_roi_vertex(v);
+    if(status >= HANDLE)
+      deformation.insert_control_vertex(v, transformed(transform, domain.point(v)));
+  }
+}
+
 // The panel of a shape that is deformed here. `change` may say more of the deformation than the
 // options do; prints what the run has come to.
 template <typename Change>

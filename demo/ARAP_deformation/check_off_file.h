@@ -149,6 +149,8 @@ private:
     if(number > 0 && !has_colors)
       refuse(what, number, "has a color, though those before it have none");
     has_colors = true;
+    if(n > 3)
+      m_dropped.insert("transparency of colors");
     if(n != 1 && n < 3)
       refuse(what, number, "has a color that is neither one number nor three, or no color though "
                            "others have one");

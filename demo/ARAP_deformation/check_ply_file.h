@@ -13,7 +13,6 @@
 #define CGAL_ARAP_DEFORMATION_DEMO_CHECK_PLY_FILE_H
 
 #include "Source_text.h"
-#include "check_count.h"
 #include "shape_files.h"
 
 #include <CGAL/IO/io.h>
@@ -269,13 +268,22 @@ private:
       refuse("the property " + property.name + " is not " + types);
   }
 
+  // A file has at least one byte for each of its items. Throws if it announces more: it is damaged,
+  // and a reader that trusts it allocates without bound.
+  void check_count(double count, const std::string& things) const
+  {
+    if(!(count >= 0 && count <= static_cast<double>(m_bytes)))
+      refuse("announces more " + things + " than fit into its " + std::to_string(m_bytes) +
+             " bytes");
+  }
+
   void read_element(std::istream& words)
   {
     Element element;
     if(!(words >> element.name >> element.number))
       refuse("has an element without a name or a number in its header");
     m_total += static_cast<double>(element.number);
-    check_count(m_file, m_bytes, m_total, "elements");
+    check_count(m_total, "elements");
     m_elements.push_back(element);
   }
 
@@ -315,7 +323,7 @@ private:
     if(p.is_list)
     {
       entries = read(p.size_type);
-      check_count(m_file, m_bytes, entries, "entries of " + in_quotes(p.name));
+      check_count(entries, "entries of " + in_quotes(p.name));
     }
     for(double j = 0; j < entries; ++j)
       value = read(p.type);

@@ -70,8 +70,8 @@ inline boost::program_options::options_description described_options()
      "write OUT-0001, OUT-0002 and so on, the number before the ending: the way to the end in N "
      "frames, each from the one before")
     ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
-     "of the frames, 24 for each move without --frames: .gltf or .glb, or as --image .gif, .mp4 or "
-     ".webm (ffmpeg writes the last two)")
+     "of the frames, 20 a second; without --frames 24 for each --transform, or 24 in all: .gltf or "
+     ".glb, or as --image .gif, .mp4 or .webm (ffmpeg writes the last two)")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")
@@ -162,9 +162,10 @@ inline void print_help(std::ostream& out)
          "diagonal. Where WHAT picks cells, these are the cells of its vertices, or with\n"
          "--cells elements the simplices all of whose corners it picks.\n\n"
       << described_options()
-      << "\nBetween key frames the center of a handle moves along a straight line, its\n"
-         "rotation turns at constant speed, and its stretch is interpolated linearly. This\n"
-         "makes two key frames, a way through them, and a film of a body under gravity:\n\n"
+      << "\nBetween key frames the center of a handle, or of all of them where one matrix is\n"
+         "for all, moves along a straight line, its rotation turns at constant speed and the\n"
+         "shorter way, and its stretch is interpolated linearly. This makes two key frames, a\n"
+         "way through them, and a film of a body under gravity:\n\n"
          "  arap_deform cactus.off -o bent.off --fix z:..5% --handle z:90%.. \\\n"
          "    --rotate x 60 50%,50%,40% --save-transform bent.def\n"
          "  arap_deform cactus.off -o turned.off --fix z:..5% --handle z:90%.. \\\n"

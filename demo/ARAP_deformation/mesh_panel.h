@@ -18,6 +18,7 @@
 
 #include <CGAL/enum.h>
 #include <CGAL/Kernel/global_functions_3.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
 #include <algorithm>
 #include <array>
@@ -37,10 +38,12 @@ struct Skin
   std::vector<std::array<int, 3>> triangles;
 };
 
-// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles from
-// its first corner, so that a strongly concave one is drawn larger than it is.
-inline Skin skin(const Mesh& mesh)
+// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles; from
+// its first corner, where CGAL finds no better way.
+inline Skin skin(const Mesh& surface)
 {
+  Mesh mesh = surface;
+  CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
   Skin result;
   result.vertices.assign(mesh.vertices_begin(), mesh.vertices_end());
   for(Mesh::Face_index f : mesh.faces())

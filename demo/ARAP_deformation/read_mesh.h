@@ -64,8 +64,9 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
-      throw std::runtime_error(file + ": face " + std::to_string(f) + " has a vertex twice, or "
-                               "does not form an oriented manifold with the previous faces");
+      throw std::runtime_error(file + ": face " + std::to_string(f) + " has fewer than three "
+                               "vertices, has one twice, or does not form an oriented manifold "
+                               "with the previous faces");
   }
 }
 
@@ -152,11 +153,6 @@ inline void check_mesh(const std::string& file, const Mesh& mesh)
       if(!std::isfinite(mesh.point(v)[k]))
         throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
                                  " has a coordinate that is infinite or not a number");
-  for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) < 3)
-      throw std::runtime_error(file + ": face " + std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; a polygon needs at "
-                               "least three");
 }
 
 // Reads a surface of triangles and polygons; all its coordinates are finite. Inserts what the mesh

@@ -72,22 +72,6 @@ inline Kernel::Plane_3 transformed(const Transform& m, const Kernel::Plane_3& pl
                                                       m[7], m[8], m[9], m[10], m[11]));
 }
 
-// Passes the selection to a deformation, with the targets of the handles.
-template <typename Deformation>
-void insert_selection(Deformation& deformation, const std::vector<int>& selection,
-                      const Transform& transform)
-{
-  const auto& domain = deformation.domain();
-  for(auto v : domain.vertices())
-  {
-    const int status = selection[domain.index(v)];
-    if(status != FIXED)
-      deformation.insert_roi_vertex(v);
-    if(status >= HANDLE)
-      deformation.insert_control_vertex(v, transformed(transform, domain.point(v)));
-  }
-}
-
 // Skips the byte order mark that some programs write at the start of a text.
 inline void skip_byte_order_mark(std::istream& in, const std::string& file)
 {
@@ -349,14 +333,17 @@ inline void write_transform(std::ostream& out, const Transform& transform)
 // Throws if the format of the file cannot store the mesh.
 inline void check_format(const std::string& file, const std::string& format, const Mesh& mesh)
 {
-  if(format != ".stl")
+  if(format != ".stl" && format != ".ply")
     return;
+  const std::size_t largest = format == ".stl" ? 3 : 255; // as CGAL writes a .ply file
   for(Mesh::Face_index f : mesh.faces())
-    if(mesh.degree(f) > 3)
-      throw std::runtime_error(file + ": an .stl file holds triangles only, but face " +
-                               std::to_string(std::size_t(f)) + " has " +
-                               std::to_string(mesh.degree(f)) + " vertices; .off, .obj and .ply "
-                               "files can hold polygons");
+    if(mesh.degree(f) > largest)
+      throw std::runtime_error(file + (largest == 3 ? ": an .stl file holds triangles only"
+                                                    : ": the faces of a .ply file that is made "
+                                                      "have at most 255 vertices") +
+                               ", but face " + std::to_string(std::size_t(f)) + " has " +
+                               std::to_string(mesh.degree(f)) + "; .off and .obj files can hold "
+                               "all polygons");
 }
 
 inline bool has_colors(const Mesh& mesh)

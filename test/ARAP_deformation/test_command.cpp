@@ -427,7 +427,7 @@ void test_refusals()
   mesh("index.off", "index.off: ");
   wrong.triangles[5] = wrong.triangles[6];
   write("doubled.off", off(wrong));
-  mesh("doubled.off", "doubled.off: face 6 has a vertex twice, or does not form an oriented");
+  mesh("doubled.off", "doubled.off: face 6 has fewer than three vertices, has one twice, or");
   write("line.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n");
   mesh("line.off", "line.off: ");
 
@@ -589,9 +589,25 @@ void test_handles()
   check_refused(onto + "plane:0,0,6,0,0,0 --soft 1", 2, "the normal 0,0,0 has no direction");
   check_refused(onto + "z:4.. --soft 1", 2, "expected plane:X,Y,Z,NX,NY,NZ");
 
+  // one matrix for all handles turns them about their common center, however they are picked
+  std::string picks;
+  for(int k : {2, 3})
+  {
+    picks += " --handle list:";
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+      if(handle(shape.points[v]) == k)
+        picks += std::to_string(v) + ',';
+    picks.pop_back();
+  }
+  write("one.def", first);
+  const std::string way = " --transform one.def --frames 2 --tolerance 0 --iterations 5 -o ";
+  CHECK(run("in.off --selection two.sel" + way + "a.off").exit_code == 0);
+  CHECK(run("in.off --fix z:..0.49" + picks + way + "b.off").exit_code == 0);
+  CHECK(content(folder / "a-0001.off") == content(folder / "b-0001.off"));
+
   write("three.def", first + first + second);
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
-                "three.def: has 3 matrices, but there are 2 handles");
+                "three.def: has 3 matrices, but the number of handles is 2");
   write("three.def", first + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def, matrix 2: the transform is singular");
@@ -690,7 +706,7 @@ void test_frames()
   CHECK(read_points("keys-0002.off")[handle[0]] == read_points("six-0006.off")[handle[0]]);
 
   write("precious.off", "precious");
-  check_refused(two_keys + "--frames 1 -o new.off", 2, "--frames 1: there is at least one for");
+  check_refused(two_keys + "--frames 1 -o new.off", 2, "--frames 1: --frames is from 1, or the");
   check_refused(call + "new.off --frames 10000", 2, "--frames 10000");
   check_refused(call + "new.off --frames x", 2, "--frames 'x' is not a whole number");
   write("in-0002.off", content(folder / "in.off"));
@@ -1031,6 +1047,30 @@ void test_gltf()
   CHECK(uri("apart/out.gltf").rfind("data:", 0) == 0);
   CHECK(run("apart/out.gltf" + stay + "apart.off").exit_code == 0);
   CHECK(read_points("apart.off").size() == 4);
+#if defined(__unix__) || defined(__APPLE__)
+  fs::create_symlink("apart/linked.gltf", folder / "link.gltf");
+  CHECK(run("in.gltf" + stay + "link.gltf").exit_code == 0);
+  CHECK(uri("apart/linked.gltf").rfind("data:", 0) == 0);
+#endif
+
+  test_case() = "a polygon that is not convex, as triangles";
+  write("angle.off", "OFF\n6 1 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n");
+  CHECK(run("angle.off" + stay + "angle.glb").exit_code == 0);
+  CHECK(run("angle.glb" + stay + "angle2.off").exit_code == 0);
+  {
+    const auto p = read_points("angle2.off");
+    std::istringstream faces(content(folder / "angle2.off"));
+    std::string line;
+    int number_of_triangles = 0;
+    while(std::getline(faces, line))
+      if(std::size_t n, a, b, c; std::istringstream(line) >> n >> a >> b >> c && n == 3 &&
+                                 line[0] == '3')
+      {
+        ++number_of_triangles;
+        CHECK((p.at(b) - p.at(a)).cross(p.at(c) - p.at(a)).z() > 0.1);
+      }
+    CHECK(number_of_triangles == 4);
+  }
 
   test_case() = "too many frames";
   std::string transforms;
@@ -1119,6 +1159,18 @@ void test_gltf()
   refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
   refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
   refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
+  refuse("/meshes/0/primitives/0/extensions", {{"KHR_draco_mesh_compression", {{"bufferView", 0}}}},
+         "has triangles that are compressed by KHR_draco");
+  refuse("/bufferViews/0/extensions", {{"EXT_meshopt_compression", {{"buffer", 0}}}},
+         "has arrays that are compressed by EXT_meshopt");
+  auto shared = json; // the normals of one mesh are those of another
+  shared["accessors"].push_back(json["accessors"][0]);
+  shared["meshes"].push_back(json["meshes"][0]);
+  shared["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = 4;
+  shared["nodes"][0]["mesh"] = 1;
+  write("bad.gltf", shared.dump());
+  check_refused("bad.gltf" + stay + "precious.off", 1,
+                "bad.gltf: the accessor 1 has the normals or tangents of two sets of positions");
   refuse("/accessors/0/count", 7000, "has an accessor that does not fit into its buffer");
   for(const char* pointer : {"/accessors/0/count", "/bufferViews/0/byteOffset"})
     refuse(pointer, -1, "is no glTF that can be read");
@@ -1214,7 +1266,7 @@ void test_quality()
   CHECK(content(folder / "new2.ply").find("property float edge_error_\n") != std::string::npos);
   CHECK(run("in.off --handle z:..1 --rotate x 90 -o new2.ply --color spike").exit_code == 0);
   CHECK(content(folder / "new2.ply").find("property float spike\n") != std::string::npos);
-  check_refused(call + "new3.off --color edge_error", 2, "needs a .ply file as output, or --image");
+  check_refused(call + "new3.off --color edge_error", 2, "needs --image, or for a surface");
   check_refused(call + "new3.ply --color red", 2, "use one of edge_error, area, volume, angle");
 
   test_case() = "one triangle through another";

@@ -127,7 +127,7 @@ void test_obj()
   accept("isolated.obj", "v 7 7 7\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\n");
   accept("good.obj", square + "f -4 -2 -1\n");
   for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
-    refuse("obj", square + "f " + corners + "\n", "face 1 has a vertex twice, or does not form");
+    refuse("obj", square + "f " + corners + "\n", "face 1 has fewer than three vertices, has one");
   refuse_at(1, "obj", "f 1 2 -3\n" + square, "a face has the vertex '-3', which does not exist");
   for(const std::string corner : {"5", "2147483648", "9223372036854775807"})
     refuse_at(6, "obj", square + "f 1 3 " + corner + "\nf 1 2 4\n",
@@ -228,6 +228,19 @@ void test_ply()
   refuse_ply(ply("ascii", "float", "4", "uchar int", halfedges) + square + "0 1\n" + faces,
              "the property source is not uint");
   refuse_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n", "has no end of its");
+
+  // CGAL writes the number of corners as one byte
+  std::string disc, face = "f";
+  for(int k = 0; k < 300; ++k)
+  {
+    disc += "v " + std::to_string(std::cos(k * 0.02)) + ' ' + std::to_string(std::sin(k * 0.02)) +
+            " 0\n";
+    face += ' ' + std::to_string(k + 1);
+  }
+  write("disc.obj", disc + face + '\n');
+  check_refused("disc.obj --handle list:0 --move 0,0,1 -o new.ply", 1,
+                "new.ply: the faces of a .ply file that is made have at most 255 vertices, but "
+                "face 0 has 300");
 }
 
 void test_stl()
@@ -316,6 +329,9 @@ void test_notes()
                          faces(" 1 2 3"));
   check_note("colors.off", "new.off", "");
   check_note("colors.off", "new.ply", "");
+  write("clear.off", "COFF\n4 2 0\n0 0 0 1 2 3 9\n1 0 0 1 2 3 9\n1 1 0 1 2 3 9\n0 1 0 1 2 3 9\n" +
+                       faces(""));
+  check_note("clear.off", "new.ply", "transparency of colors");
   check_note("colors.off", "new.obj", "colors");
   const auto ply_of = [](const std::string& vertex_color, const std::string& face_color) {
     write("some.off", "COFF\n4 2 0\n0 0 0" + vertex_color + "\n1 0 0" + vertex_color + "\n1 1 0" +
@@ -766,6 +782,7 @@ void test_msh()
                                       "node 3, but found nan");
   refuse("msh", msh4(damaged, true), ": byte 287: expected a finite number, a coordinate in ");
   refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n7"), ": byte ");
+  refuse("msh", good4 + good4.substr(good4.find("$Nodes")), "has a second section $Nodes");
   refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n5"),
          ": byte 189: expected $EndNodes after as many as the file announces, but found");
   refuse("msh", replaced(good2, "$Elements\n4", "$Elements\n3"),
