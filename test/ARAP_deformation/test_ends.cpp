@@ -326,9 +326,7 @@ struct Run
   Run(const Shape& shape, const Scenario& s, const Options& options, Visitor visitor = Visitor())
     : mesh(make_mesh<Mesh>(shape))
   {
-    Deformation d(mesh);
-    CHECK(d.set_options(options));
-    prepare(d, s, all_vertices(mesh));
+    auto d = prepared(mesh, s, options);
     report = d.deform(visitor);
     CHECK(report.energy.size() == report.iterations + 1);
     CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
@@ -360,9 +358,7 @@ void test_buckling()
     options.verify_minimum = true;
     options.tolerance = 1e-5;
     Mesh mesh = make_mesh<Mesh>(shape);
-    Deformation d(mesh);
-    CHECK(d.set_options(options));
-    prepare(d, s, all_vertices(mesh));
+    auto d = prepared(mesh, s, options);
     for(auto v : mesh.vertices())
       if(s.selection[v.idx()] == 1)
         mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(),
@@ -538,9 +534,7 @@ void test_trials(const Shape& shape, double share, const Options& options,
   const Scenario s = push(shape, share);
   const Mesh first = make_mesh<Mesh>(shape);
   Mesh mesh = first;
-  Deformation d(mesh);
-  CHECK(d.set_options(options));
-  prepare(d, s, all_vertices(mesh));
+  auto d = prepared(mesh, s, options);
   for(auto f : control_points)
     CHECK(d.insert_control_point(f, std::array{0.2, 0.3, 0.5}));
   const Deformation::State start = d.state();

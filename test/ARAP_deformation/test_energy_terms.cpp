@@ -1258,9 +1258,7 @@ void test_generic_maps()
       of_vertex[v] = 1 + double(v % 3);
     for(Mesh::Face_index f : mesh.faces())
       of_face[f] = 1 + double(f % 4);
-    Deformation d(mesh);
-    CHECK(d.set_options(options_for(cells)));
-    prepare(d, s, all_vertices(mesh));
+    auto d = prepared(mesh, s, options_for(cells));
     set(d);
     Report report = d.deform(5, 0);
     if(!report)
@@ -1359,9 +1357,7 @@ Report run(const Shape& shape, const Scenario& s, Initial_guess guess, Cell_sche
            unsigned int iterations, std::vector<Point>& points)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh> d(mesh);
-  CHECK(d.set_options(options_for(cells, Minimizer::quasi_newton, guess)));
-  prepare(d, s, all_vertices(mesh));
+  auto d = prepared(mesh, s, options_for(cells, Minimizer::quasi_newton, guess));
   const Report report = d.deform(iterations, iterations == 0 ? 0 : 1e-4);
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
   points = points_of(mesh);

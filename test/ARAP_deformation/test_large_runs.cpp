@@ -42,9 +42,7 @@ struct Run
   Run(const Shape& shape, const Scenario& s, const Options& options)
     : mesh(make_mesh<Mesh>(shape))
   {
-    Deformation d(mesh);
-    CHECK(d.set_options(options));
-    prepare(d, s, all_vertices(mesh));
+    auto d = prepared(mesh, s, options);
     report = d.deform();
     CHECK(report.status == CGAL::ARAP::Status::converged);
     CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
@@ -110,9 +108,7 @@ void test_runs()
       continue;
 
     Mesh mesh = make_mesh<Mesh>(shape);
-    Deformation d(mesh);
-    CHECK(d.set_options(options));
-    prepare(d, twist(shape, 0.5), all_vertices(mesh));
+    auto d = prepared(mesh, twist(shape, 0.5), options);
     CHECK(d.deform());
     d.reset();
     for(auto v : mesh.vertices())
@@ -133,19 +129,10 @@ struct Solver_of_large_systems : CGAL::ARAP::Multifrontal_cholesky_solver
 };
 
 template <typename Solver = CGAL::Default>
-auto prepared(Mesh& mesh, const Scenario& s, const Options& options)
-{
-  CGAL::ARAP_deformation<Mesh, CGAL::ARAP_deformation_traits<Solver>> d(mesh);
-  CHECK(d.set_options(options));
-  prepare(d, s, all_vertices(mesh));
-  return d;
-}
-
-template <typename Solver = CGAL::Default>
 Report course(const Shape& shape, const Scenario& s, const Options& options)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  const Report report = prepared<Solver>(mesh, s, options).deform();
+  const Report report = prepared<CGAL::ARAP_deformation_traits<Solver>>(mesh, s, options).deform();
   CHECK(report.status == CGAL::ARAP::Status::converged ||
         report.status == CGAL::ARAP::Status::iteration_limit);
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);
@@ -158,7 +145,7 @@ double first_energy(const Shape& shape, const Scenario& s, const Options& option
                     double weight = 0)
 {
   Mesh mesh = make_mesh<Mesh>(shape);
-  auto d = prepared<Solver>(mesh, s, options);
+  auto d = prepared<CGAL::ARAP_deformation_traits<Solver>>(mesh, s, options);
   if(weight > 0) // of a soft target
   {
     const Mesh::Vertex_index middle(static_cast<Mesh::size_type>(shape.points.size() / 2));

@@ -425,9 +425,7 @@ void test_cut_off()
         test_case() = "cut off after " + std::to_string(n);
         const Report cut_off = run(shape, s, options, n, 0);
         Mesh mesh = make_mesh<Mesh>(shape);
-        Deformation d(mesh);
-        CHECK(d.set_options(options));
-        prepare(d, s, all_vertices(mesh));
+        auto d = prepared(mesh, s, options);
         const Report stopped = d.deform(n + 1, 0, [n](const auto& iterate) {
           return iterate.iteration() < n ? CGAL::ARAP::Visitor_action::proceed
                                          : CGAL::ARAP::Visitor_action::stop;

@@ -24,6 +24,8 @@
 #include <CGAL/ARAP_deformation/conformance/check_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 
+#include <CGAL/Default.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -49,6 +51,16 @@ inline CGAL::ARAP::Options options_for(
   options.minimizer = minimizer;
   options.initial_guess = guess;
   return options;
+}
+
+// a deformation of a mesh with these options and the scenario
+template <typename Traits = CGAL::Default>
+auto prepared(Mesh& mesh, const Scenario& s, const CGAL::ARAP::Options& options)
+{
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  CHECK(d.set_options(options));
+  prepare(d, s, all_vertices(mesh));
+  return d;
 }
 
 // Calls f(options) with all cells, minimizers and initial guesses.
