@@ -220,8 +220,8 @@ export interface Session {
   setOptions(options: Options): void;
   option<Name extends keyof Options>(name: Name): NonNullable<Options[Name]>;
 
-  /** All vertices are in the region of interest at first. Vertices that are handles and not in it
-   *  are erased from these; points stay. */
+  /** All vertices are in the region of interest at first. Handles at vertices outside of it are
+   *  erased; points stay. */
   setRegion(vertices: Indices | number): void;
   region(): Int32Array;
 

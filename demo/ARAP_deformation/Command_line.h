@@ -375,7 +375,7 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
       (values.count("frames") ? "--frames " + std::to_string(line.frames)
                               : std::to_string(keys) + " times --transform gives " +
                                 std::to_string(line.frames) + " frames") +
-      ": --frames is from 1, or the number of --transform, to 9999");
+      ": --frames is from " + std::to_string(keys) + " (one for each --transform) to 9999");
   if(line.is_sequence && is_written_directly(line.output))
     throw Usage_error("--output " + line.output + ": frames need a file each");
   if(values.count("view"))

@@ -77,6 +77,12 @@ public:
   void check_output(const std::string& file, const std::string& format)
   {
     check_format(file, format, m_mesh);
+    if(!is_gltf_format(format))
+      return;
+    if(m_shared_directions)
+      throw std::runtime_error(file + ": the accessor " + std::to_string(*m_shared_directions) +
+                               " has the normals or tangents of two sets of positions, which "
+                               "would turn apart");
     std::error_code error;
     if(std::filesystem::equivalent(internal::location(file).parent_path(), m_folder, error))
       return;
@@ -218,8 +224,7 @@ private:
     for(const auto& directions : {accessors.second, tangents})
       if(directions &&
          m_positions_of.emplace(*directions, accessors.first).first->second != accessors.first)
-        throw std::runtime_error("the accessor " + std::to_string(*directions) + " has the normals "
-                                 "or tangents of two sets of positions");
+        m_shared_directions = directions;
     Piece& piece = m_pieces[accessors];
     if(tangents)
       piece.tangents.insert(*tangents);
@@ -317,6 +322,7 @@ private:
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
+  std::optional<std::size_t> m_shared_directions;    // one of several positions
   // for the accessors of its positions and normals
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces;
   internal::Polygons m_faces;

@@ -63,10 +63,12 @@ public:
   Domain domain() { return Domain(m_mesh); }
 
   // Throws if a file of this format cannot hold the surface.
-  void check_output(const std::string& file, const std::string& format) const
+  void check_output(const std::string& file, const std::string& format)
   {
     if(!m_is_kept)
       check_format(file, format, m_mesh);
+    if(is_gltf_format(format))
+      m_skin = skin(m_mesh); // at rest, so that all frames have the same triangles
   }
 
   // what an output of this format does not keep
@@ -96,7 +98,8 @@ public:
         set_vertex_property(m_mesh, m_property, m_values);
       if(is_gltf_format(format))
       {
-        const Panel all = panel(m_mesh, std::vector<int>(m_rest_points.size()), "");
+        const Panel all =
+          panel(m_skin, points_of(m_mesh), std::vector<int>(m_rest_points.size()), "");
         return output.write([&](std::ostream& out) {
           make_gltf(all.points, all.triangles).write(out, format == ".glb");
         });
@@ -163,6 +166,7 @@ private:
   Mesh m_mesh; // deformed
   std::vector<Kernel::Point_3> m_rest_points;
   Source_text m_source;
+  Skin m_skin; // for glTF
   std::string m_property; // of the vertices, and its values
   std::vector<double> m_values;
   bool m_is_kept = false; // the text is written with other coordinates

@@ -224,9 +224,10 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   {
     Handle& handle = task.handles[k];
     const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
-    const Eigen::Vector3d center = handle.points.empty()
-      ? internal::centroid(points, are_together ? all : handle.vertices)
-      : internal::centroid(handle.points, {0});
+    const Eigen::Vector3d center =
+      are_together && !all.empty() ? internal::centroid(points, all)
+      : handle.points.empty()      ? internal::centroid(points, handle.vertices)
+                                   : internal::centroid(handle.points, {0});
     handle.weight = options.weight;
     handle.is_frame = options.is_frame;
     if(options.plane)

@@ -17,8 +17,9 @@
 #include "shape_files.h"
 
 #include <CGAL/enum.h>
+#include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
 #include <CGAL/Kernel/global_functions_3.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 
 #include <algorithm>
 #include <array>
@@ -38,21 +39,27 @@ struct Skin
   std::vector<std::array<int, 3>> triangles;
 };
 
-// All of a surface, whose vertices are numbered without gaps. A polygon is cut into triangles; from
-// its first corner, where CGAL finds no better way.
-inline Skin skin(const Mesh& surface)
+// All of a surface, whose vertices are numbered without gaps.
+inline Skin skin(const Mesh& mesh)
 {
-  Mesh mesh = surface;
-  CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
   Skin result;
   result.vertices.assign(mesh.vertices_begin(), mesh.vertices_end());
+  std::vector<int> corners;
+  ARAP::internal::Array<Coordinates> points;
   for(Mesh::Face_index f : mesh.faces())
   {
-    const auto first = mesh.halfedge(f);
-    for(auto h = mesh.next(first); mesh.next(h) != first; h = mesh.next(h))
-      result.triangles.push_back({static_cast<int>(mesh.source(first)),
-                                  static_cast<int>(mesh.source(h)),
-                                  static_cast<int>(mesh.target(h))});
+    corners.clear();
+    points.clear();
+    for(Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+    {
+      corners.push_back(static_cast<int>(v));
+      points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
+    }
+    if(corners.size() == 3)
+      result.triangles.push_back({corners[0], corners[1], corners[2]});
+    else
+      for(const auto& [a, b, c] : ARAP::internal::triangles_of_polygon(points))
+        result.triangles.push_back({corners[a], corners[b], corners[c]});
   }
   return result;
 }

@@ -586,11 +586,12 @@ public:
   /// \name Deformation
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
   /// result throws, only the object is: points written before keep their new values until a
-  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds, and those of vertices that only
-  /// the state knows that was to be restored, until it is.) A visitor must not change the object,
-  /// nor must a map or a function that a call uses. This is a precondition; in Release such calls
-  /// fail. An object and its mesh are for one thread at a time: `ARAP::Status::in_a_run` does not
-  /// tell that another thread runs it.
+  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds. Only where `restore()` threw,
+  /// vertices that the state knows, and the object does not, keep theirs until that state is
+  /// restored.) A visitor must not change the object, nor must a map or a function that a run calls
+  /// or that points are written by. This is a precondition; in Release such calls fail. An object
+  /// and its mesh are for one thread at a time: `ARAP::Status::in_a_run` does not tell that another
+  /// thread runs it.
   /// @{
 
   /// collects the region, computes the weights and the matrix, and factorizes it, or reuses the
@@ -698,7 +699,7 @@ public:
   /// (points, sets and rotations) and weights, the rest shape, the positions and velocities, for
   /// undo and redo. Linear time and memory: take one for a drag, not for each of its frames. What
   /// functions of target sets refer to must live as long as a state that has them. It does not hold
-  /// options, stiffness and groups: if they have changed since, set the old ones first, and then
+  /// options, stiffness or groups: if they have changed since, set the old ones first, and then
   /// restore, as the rotations in a state belong to the cells of that time; `energy()` is not a
   /// number until the next run. Nor does it hold the factor: if it, or the region, was computed
   /// again since, runs from a restored state have the same iterates only up to rounding.

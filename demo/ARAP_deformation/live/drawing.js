@@ -22,7 +22,7 @@ const percent = (x) => `${(100 * x).toPrecision(3)}%`;
 
 let isMeasuring = false;
 
-// the measure at the vertices, where the shape has come to rest
+// the measure at the vertices, when the shape has come to rest or another one is chosen
 export async function showMeasure() {
   const measure = $('measure').value,
     of = page.shape;

@@ -316,8 +316,9 @@ export const readSelection = (name, bytes, n) =>
 export const writeSelection = (status, comment) =>
   `${comment.replace(/^/gm, '# ')}\n${status.join('\n')}\n`;
 
-// matrices of four rows for n handles: one for each, or one for all
-export const readTransforms = (name, bytes, n) =>
+// Matrices of four rows for n handles, one for each or one for all; placed() makes them what the
+// page wants.
+export const readTransforms = (name, bytes, n, placed = (matrix) => matrix) =>
   reading(name, () => {
     const words = new Words(textOf(bytes)),
       numbers = Array.from(words.words, () => words.number('an entry')),
@@ -328,7 +329,7 @@ export const readTransforms = (name, bytes, n) =>
     return Array.from(
       { length: n },
       (_, k) =>
-        rigid(count === 1 ? numbers : numbers.slice(16 * k, 16 * k + 16)) ??
+        rigid(placed(count === 1 ? numbers : numbers.slice(16 * k, 16 * k + 16))) ??
         fail('it has a matrix that is no rigid motion, as this page needs'),
     );
   });

@@ -16,7 +16,7 @@ export function membersOf(k) {
   return list;
 }
 
-// whether the shape is not where it was at rest, but for single precision
+// whether the shape is elsewhere than at rest, by more than single precision rounds
 export const isDeformed = () => {
   const { points, diagonal } = page.shape;
   return view.positions.some((x, i) => Math.abs(x - points[i]) > 1e-5 * diagonal);

@@ -61,8 +61,10 @@ async function openTogether(mesh, meshName, selection, transforms) {
   const selected = selection && selectionOf(selection, shape.points.length / 3),
     numbers = selected?.numbers ?? (mesh ? [] : handlesWithVertices().map((_, i) => i)),
     keys = transforms.map(({ name, bytes }) => {
-      const key = readTransforms(name, bytes, numbers.length && numbers.at(-1) + 1);
-      return numbers.map((k) => shiftedMotion(key[k], origin, -1));
+      const key = readTransforms(name, bytes, numbers.length && numbers.at(-1) + 1, (matrix) =>
+        shiftedMotion(matrix, origin, -1),
+      );
+      return numbers.map((k) => key[k]);
     });
   if (mesh)
     await openInTurn(

@@ -33,7 +33,8 @@ export function rigid(matrix) {
 export const diagonalOf = (points) =>
   new THREE.Box3().setFromArray(points).getSize(new THREE.Vector3()).length();
 
-// What is taken off coordinates that are far from zero, so that single precision draws them: exact.
+// What is subtracted from coordinates that are far from zero, as they are drawn in single
+// precision. To subtract it, and to add it to the result again, is exact.
 export function originOf(points) {
   const box = new THREE.Box3().setFromArray(points),
     size = box.getSize(new THREE.Vector3()).length();

@@ -46,8 +46,10 @@ export async function openInTurn(
   await stopAll();
   const { shape, chosen } = page;
   $('model').value = shape?.model ?? '';
-  const question = () => `${shape.name} was changed and not saved. Open ${name} instead?`;
-  if (hasUnsavedWork() && !confirm(question()))
+  if (
+    hasUnsavedWork() &&
+    !confirm(`${shape.name} was changed and not saved. Open ${name} instead?`)
+  )
     throw new Error(`${name} was not opened`);
   Object.assign(page, { shape: null, chosen: -1 }); // nothing takes input meanwhile
   const parts = document.querySelectorAll('header, main'),

@@ -98,4 +98,8 @@ window.arap = {
   engine,
 };
 
-engine.ready.catch((error) => say(`The engine could not be started: ${error.message}.`, true));
+engine.ready.catch((error) => {
+  $('help').hidden = $('tools').inert = $('panel').inert = true;
+  document.querySelector('main').inert = false; // for the message
+  say(`The engine could not be started: ${error.message}.`, true);
+});

@@ -19,7 +19,7 @@ import { commitNow, commitSoon } from './undo.js';
 import { THREE } from './view.js';
 
 const pointers = new Set();
-let point = null; // where a finger or button went down to place one
+let point = null; // where a finger or button went down to place one, { id, x, y }
 
 const at = (event) => {
   const box = view.canvas.getBoundingClientRect();
@@ -27,12 +27,12 @@ const at = (event) => {
 };
 
 function pressed(event) {
+  point = null;
   if (event.target !== view.canvas || !page.shape) return;
   view.canvas.focus({ preventScroll: true });
   pointers.add(event.pointerId);
   if (pointers.size > 1) {
     // two fingers turn the view
-    point = null;
     cancelStroke();
     endDrag(true);
     return;
@@ -56,7 +56,7 @@ function pressed(event) {
   if (page.tool !== 'box' && page.tool !== 'lasso' && !screen.isOn(x, y)) return; // the view turns
   view.letTurn(false);
   if (page.tool === 'point') {
-    point = [x, y];
+    point = { id: event.pointerId, x, y };
     return;
   }
   if (page.shape.handles[page.paints - HANDLE]?.point) page.paints = nextHandle() + HANDLE;
@@ -152,8 +152,10 @@ function movedTo(event) {
 function released(event) {
   pointers.delete(event.pointerId);
   const isCancelled = event.type === 'pointercancel';
-  if (point && !isCancelled) placePoint(...point);
-  point = null;
+  if (point?.id === event.pointerId) {
+    if (!isCancelled && page.shape && page.tool === 'point') placePoint(point.x, point.y);
+    point = null;
+  }
   if (page.dragging?.to ? page.dragging.id === event.pointerId : isCancelled)
     endDrag(isCancelled);
   if (!page.stroke || page.stroke.id !== event.pointerId) return;

@@ -9,7 +9,8 @@ export const view = (() => {
   try {
     return new View($('view'));
   } catch (error) {
-    $('message').hidden = false;
+    $('help').hidden = $('tools').inert = $('panel').inert = true;
+    document.querySelector('main').inert = $('message').hidden = false;
     $('message').className = 'error';
     $('message').firstElementChild.textContent =
       'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
@@ -20,7 +21,7 @@ export const view = (() => {
 export const engine = new Engine(...window.arapParts());
 
 export const page = {
-  // what is open: points are those of the rest shape, relative to the origin
+  // what is open: points are those of the rest shape less origin, as are positions and handles
   // { name, model, points, origin, simplices, starts, volume, weights, faces, simplexOf, diagonal,
   //   status, fixed, handles, stiffness }
   shape: null,

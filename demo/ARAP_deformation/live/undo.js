@@ -61,7 +61,8 @@ export async function commit() {
   await kept.state;
 }
 
-// commits after what the shape is in the middle of; once no key has been pressed for a moment
+// Commits after what is under way, whose step it then joins; with a delay, once no key has been
+// pressed for that long.
 export function commitSoon(milliseconds = 0) {
   clearTimeout(timer);
   timer = setTimeout(() => inTurn(commitNow), milliseconds);
@@ -85,6 +86,8 @@ export async function change(f) {
     pump();
   } catch (error) {
     complain(error);
+    clearTimeout(timer);
+    timer = 0;
     await goTo(now);
   }
 }
@@ -106,7 +109,6 @@ async function goTo(index) {
       stiffness: kept.stiffness?.slice() ?? null,
     });
     page.keys = kept.keys.slice();
-    page.isSaved = false;
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
@@ -134,6 +136,7 @@ async function goTo(index) {
 const step = (by) =>
   inTurn(async () => {
     await commitNow();
+    page.isSaved = false;
     await goTo(now + by);
   });
 

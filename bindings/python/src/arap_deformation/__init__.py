@@ -238,7 +238,7 @@ class Deformation:
     @property
     def region(self) -> NDArray[np.int32]:
         """The vertices that may move: the region of interest. At first it has all. Setting it erases
-        handles that are vertices outside of it; points stay."""
+        handles at vertices outside of it; points stay."""
         return self._session.region()
 
     @region.setter
@@ -342,9 +342,9 @@ class Deformation:
         self._session.set_stiffness(_floats("stiffness", values, None))
 
     def set_groups(self, groups: ArrayLike) -> None:
-        """Lets cells with the same number from 0 on share a rotation: (n,) or (m,); []: none.
-        Those with a negative number have their own. The part can still stretch: a rigid one has a
-        large stiffness, too.
+        """Lets cells with the same number from 0 on share a rotation; cells with a negative one have
+        their own: (n,) or (m,); []: none. The part can still stretch: a rigid one has a large
+        stiffness, too.
         Pass [] before ``cells`` changes to 'elements', or from these to others."""
         self._session.set_groups(_integers("groups", groups, None, least=-(2**31)))
 

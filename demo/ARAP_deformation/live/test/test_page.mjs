@@ -958,13 +958,15 @@ const steps = {
       origin = [5e6, -4e6, 0],
       far = points.map((x, i) => x + origin[i % 3]),
       path = (ending) => join(files, `far.${ending}`);
-    // a quarter turn about the middle of the bar's first end
-    const [px, py] = origin;
+    // an eighth of a turn, rounded, about the middle of the bar's first end
+    const [px, py] = origin,
+      c = 0.7071;
     writeFileSync(path('off'), off({ points: far, simplices }));
     writeFileSync(path('sel'), [...status].join('\n'));
     writeFileSync(
       path('def'),
-      `0 -1 0 ${px + py + 0.5}\n1 0 0 ${py - px}\n0 0 1 0.25\n0 0 0 1\n`,
+      `${c} ${-c} 0 ${px - c * (px - py) + 0.5}\n` +
+        `${c} ${c} 0 ${py - c * (px + py)}\n0 0 1 0.25\n0 0 0 1\n`,
     );
     await openFile(path('off'), path('sel'), path('def'));
     await page.waitForFunction(() => /Opened: far\.sel/.test(window.arap.state()?.message));
@@ -972,6 +974,8 @@ const steps = {
     await settled();
     assert((await page.evaluate(() => window.arap.distanceToTargets())) < 1e-6);
     await shot('23_far');
+    const { matrix } = (await state()).handles[0];
+    assert(Math.abs(matrix[3] - 0.5) < 1e-4 && Math.abs(matrix[7]) < 1e-4, 'about this place');
     const ours = pointsOf(String(await saved('Mesh .off', 'far.off')));
     assert(
       ours.every((x, i) => status[Math.floor(i / 3)] !== 0 || x === far[i]),

@@ -158,7 +158,8 @@ public:
       m_outcome = Outcome(); // as long as something may throw
       m_outcome = update(vertices, values, options, stages);
     }
-    if(!m_outcome || m_rules.order == Minimization_order::global_first)
+    if(!m_outcome || !vertices.domain().is_in_place() ||
+       m_rules.order == Minimization_order::global_first)
       return m_outcome;
     const int v = find_non_finite(positions()); // around the region, where others may move it
     return v < 0 ? m_outcome
@@ -235,7 +236,7 @@ public:
 private:
   static constexpr std::size_t none = 0; // no version
 
-  // whether the weights of the region that there is are those of before
+  // whether the weights of the region that there is are not those of the present values
   bool has_other_values() const
   {
     return core().are_weights_stale() || m_ready.values != m_present.values;

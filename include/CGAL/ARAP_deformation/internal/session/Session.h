@@ -253,7 +253,7 @@ private:
   Outcome take_points_of_others(double& transfer)
   {
     Scoped_seconds seconds(transfer);
-    if(!domain().is_in_place() && !m_rules.are_erased_put_back)
+    if(!m_prepared.has_region() && !domain().is_in_place() && !m_rules.are_erased_put_back)
       mend_inputs();
     if(!takes_points())
       return outcome(Status::success);
@@ -278,11 +278,11 @@ private:
   {
     for(std::size_t k = 0; k < m_vertices.entries().size(); ++k)
       if(Entry& entry = m_vertices.entries()[k]; !is_finite(Domain::coordinates(entry.rest)))
-        if(const Point point = domain().point(entry.vertex); mend(entry, point))
-        {
-          m_vertices.present_points()[k] = point;
+      {
+        m_vertices.present_points()[k] = domain().point(entry.vertex);
+        if(mend(entry, m_vertices.present_points()[k]))
           region_changed();
-        }
+      }
   }
 
   void write_points(Array<Coordinates>& positions)
