@@ -1407,6 +1407,22 @@ const steps = {
     await phone.close();
   },
 
+  async 'an engine that cannot start'() {
+    const broken = await browser.newPage();
+    await broken.setRequestInterception(true);
+    broken.on('request', (request) =>
+      request.url().endsWith('.wasm') ? request.abort() : request.continue(),
+    );
+    await broken.goto(address);
+    await broken.waitForFunction(() =>
+      /could not be started/.test(document.querySelector('#message').innerText),
+    );
+    assert(await broken.$eval('#help', (help) => help.hidden));
+    await broken.click('#message button');
+    assert(await broken.$eval('#message', (m) => m.hidden), 'the message can be closed');
+    await broken.close();
+  },
+
   async 'one file without a server'() {
     const local = await newPage({}, pathToFileURL(join(live, 'arap_live.html')).href);
     await local.evaluate(() => document.querySelector('#begin').click());
