@@ -459,8 +459,8 @@ public:
   /// An infinite weight, the default, makes the target *hard*: the vertex moves exactly there. A
   /// finite weight makes it *soft*: the vertex is solved for with the free vertices, and the energy
   /// gains the term \f$m \|p'_v - t\|^2\f$. A target that is a set needs a finite weight.
-  /// Choose the weight relative to that of an edge, see \ref ARAPDeformation_Soft: on a surface
-  /// with cotangents about 1, in a volume about a length.
+  /// Choose the weight relative to that of an edge (\ref ARAPDeformation_Soft): on a surface with
+  /// cotangents about 1, in a volume about a length.
   ///
   /// A new weight costs what other control vertices do (\ref ARAPDeformation_Session), a new target
   /// nothing. Returns `ARAP::Status::invalid_weight`, and changes nothing, if `weight` is negative
