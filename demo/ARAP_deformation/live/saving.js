@@ -7,13 +7,13 @@ import { diagonalOf, identity, shifted, shiftedMotion } from './motion.js';
 import { options } from './options.js';
 import { engine, hasUnsavedWork, page, view } from './state.js';
 
-export function save(name, content) {
+export function save(name, content, note = '') {
   const url = URL.createObjectURL(
     content instanceof Blob ? content : new Blob([content], { type: 'text/plain' }),
   );
   Object.assign(document.createElement('a'), { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
-  say(`${name} was saved.`);
+  say(`${name} was saved${note}.`);
 }
 
 // the handles of the files, which are numbered without gaps and have vertices
@@ -55,13 +55,16 @@ const inFile = (matrix) => shiftedMotion(matrix, page.shape.origin, 1);
 
 async function saveMesh(ending, which, suffix) {
   const { shape } = page, // another one may be opened meanwhile
-    isWork = which === 'points';
+    isWork = which === 'points',
+    isCut =
+      ending === 'mesh' && !shape.volume && shape.simplexOf.length > shape.starts.length - 1;
   if (isWork) page.isSaved = true; // what is done from now on is not
   try {
     const answer = await engine.call('points');
     save(
       `${shape.name}${suffix}.${ending}`,
       writeMesh(ending, { ...shape, points: shifted(answer[which], shape.origin, 1) }),
+      isCut ? ', with its polygons cut into triangles' : '',
     );
   } catch (error) {
     if (isWork && shape === page.shape) page.isSaved = false;

@@ -1254,6 +1254,8 @@ const steps = {
       readFileSync(path('sel'), 'utf8').replace(/#.*/g, '').trim().split(/\s+/).map(Number),
       [...bar.status],
     );
+    await saved('.mesh', 'quads.mesh');
+    assert.match((await state()).message, /quads\.mesh was saved, with its polygons cut/);
     const theirs = theCommands('quads.sel');
     const distance = largestDifference(ours, theirs) / 5.2;
     console.log(`  the command's mesh differs by ${distance.toExponential(1)} of the diagonal`);
