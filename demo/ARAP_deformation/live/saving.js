@@ -56,8 +56,7 @@ const inFile = (matrix) => shiftedMotion(matrix, page.shape.origin, 1);
 async function saveMesh(ending, which, suffix) {
   const { shape } = page, // another one may be opened meanwhile
     isWork = which === 'points',
-    isCut =
-      ending === 'mesh' && !shape.volume && shape.simplexOf.length > shape.starts.length - 1;
+    isCut = ending === 'mesh' && !!shape.simplexOf; // which polygons have
   if (isWork) page.isSaved = true; // what is done from now on is not
   try {
     const answer = await engine.call('points');
