@@ -147,7 +147,7 @@ class Array_deformation_of final : public Array_deformation
 {
 public:
   Array_deformation_of(Numbers points, Indices simplices, const std::string& weights)
-    : m_points(points_of(points)), m_rest(m_points), m_simplices(simplices, Dimension == 3),
+    : m_points(points_of(points)), m_simplices(simplices, Dimension == 3),
       m_deformation(Domain(m_points, m_simplices), Traits({}, Chosen_edge_weight(weights)))
   {
     m_deformation.insert_roi_vertices(domain().vertices());
@@ -155,7 +155,10 @@ public:
 
   std::size_t number_of_vertices() const override { return m_points.size(); }
   const double* points() const override { return m_points.data()->data(); }
-  const double* rest_points() const override { return m_rest.data()->data(); }
+  std::vector<double> rest_points() const override
+  {
+    return coordinates_of(domain().vertices(), rest_map());
+  }
 
   std::string option(const std::string& name) const override
   {
@@ -175,9 +178,6 @@ public:
         throw Deformation_error(Outcome(Status::non_finite_point, "the point of vertex " +
                                         std::to_string(v) + " is not finite"));
     std::copy(copy.begin(), copy.end(), m_points.begin());
-    for(std::size_t v = 0; v < copy.size(); ++v)
-      if(!is_finite(m_rest[v])) // the session mends it, too
-        m_rest[v] = copy[v];
   }
 
   Options options_with(const Named_options& values) const override
@@ -221,7 +221,7 @@ public:
   void erase_handles(Indices handles) override
   {
     refuse_in_a_run();
-    for_each(handles, [&](auto handle) {
+    for_each(handles, [&](auto handle, std::size_t) {
       if constexpr(is_point<decltype(handle)>)
         m_deformation.erase_control_point(handle);
       else
@@ -233,6 +233,11 @@ public:
   {
     refuse_in_a_run();
     m_deformation.clear_control_vertices();
+  }
+  void clear_points() override
+  {
+    refuse_in_a_run();
+    m_deformation.clear_control_points();
   }
   std::vector<std::int32_t> handles() const override
   {
@@ -254,65 +259,87 @@ public:
     }
     return places;
   }
-  std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) override
+  std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) override
   {
-    if(simplex < 0 || static_cast<std::size_t>(simplex) >= m_simplices.size())
-      throw std::out_of_range("there is no simplex " + std::to_string(simplex));
-    const auto inserted = m_deformation.insert_control_point(
-      static_cast<std::size_t>(simplex),
-      std::vector<double>(coordinates.data, coordinates[coordinates.rows]));
-    require(inserted);
-    return handle_of(inserted.point);
+    require(coordinates.rows == simplices.rows,
+            "there are " + std::to_string(simplices.rows) + " simplices, but " +
+            std::to_string(coordinates.rows) + " rows of coordinates");
+    for(std::size_t k = 0; k < simplices.rows; ++k)
+      if(const std::int32_t s = *simplices[k];
+         s < 0 || static_cast<std::size_t>(s) >= m_simplices.size())
+        throw std::out_of_range("there is no simplex " + std::to_string(s));
+    std::vector<std::int32_t> result;
+    all_or_none(simplices, [&] {
+      for(std::size_t k = 0; k < simplices.rows; ++k)
+      {
+        const auto s = static_cast<std::size_t>(*simplices[k]);
+        const double* end = coordinates[k + 1];
+        const double* const filled = (std::min)(coordinates[k] + m_simplices[s].size(), end);
+        if(std::all_of(filled, end, [](double c) { return c == 0; }))
+          end = filled;
+        const auto inserted = m_deformation.insert_control_point(
+          s, boost::make_iterator_range(coordinates[k], end));
+        require(inserted);
+        result.push_back(handle_of(inserted.point));
+      }
+    });
+    return result;
   }
-  void point_position(std::int32_t handle, double* point) const override
+  std::vector<double> point_positions(Indices handles) const override
   {
-    const Control_point known = control_point(handle);
-    require(m_deformation.is_control_point(known), name(handle) + " is not a control point");
-    const Point p = m_deformation.control_point_position(known);
-    std::copy(p.begin(), p.end(), point);
+    std::vector<Control_point> points;
+    for(std::size_t k = 0; k < handles.rows; ++k)
+    {
+      points.push_back(control_point(*handles[k]));
+      require(m_deformation.is_control_point(points.back()),
+              name(*handles[k]) + " is not a control point");
+    }
+    return coordinates_of(points, [this](Control_point point) {
+      return m_deformation.control_point_position(point);
+    });
   }
 
   void set_targets(Indices handles, Numbers targets) override
   {
-    require_rows(handles, "handles", targets, "targets");
-    std::size_t row = 0;
-    for_each(handles, [&](auto handle) {
-      return m_deformation.set_target_position(handle, point_at(targets[row++]));
+    require_rows(handles, "handles", targets, "targets", 3);
+    for_each(handles, [&](auto handle, std::size_t k) {
+      return m_deformation.set_target_position(handle, point_at(targets[k]));
     });
   }
-  void set_target_plane(Indices handles, Numbers plane) override
+  void set_target_planes(Indices handles, Numbers points, Numbers normals) override
   {
-    const auto [origin, normal] = point_and_direction(plane, "normal");
-    set_target_sets(handles, [origin = origin, normal = normal](const Point& p) {
-      return combined(1, p, dot(combined(1, origin, -1, p), normal), normal);
-    });
+    set_target_sets(handles, points, normals, "normal",
+                    [](const Point& p, const Point& origin, const Point& normal) {
+                      return combined(1, p, dot(combined(1, origin, -1, p), normal), normal);
+                    });
   }
-  void set_target_line(Indices handles, Numbers line) override
+  void set_target_lines(Indices handles, Numbers points, Numbers directions) override
   {
-    const auto [origin, direction] = point_and_direction(line, "direction");
-    set_target_sets(handles, [origin = origin, direction = direction](const Point& p) {
-      return combined(1, origin, dot(combined(1, p, -1, origin), direction), direction);
-    });
+    set_target_sets(handles, points, directions, "direction",
+                    [](const Point& p, const Point& origin, const Point& direction) {
+                      return combined(1, origin, dot(combined(1, p, -1, origin), direction),
+                                      direction);
+                    });
   }
   void set_target_surface(Indices handles, Numbers points, Indices polygons) override
   {
     const auto surface = std::make_shared<const Target_surface>(points, polygons);
-    set_target_sets(handles, [surface](const Point& p) { return surface->projection(p); });
-  }
-  void target(std::int32_t handle, double* point) const override
-  {
-    require_handle(handle);
-    visit_handle(handle, [&](auto known) {
-      const Point p = m_deformation.target_position(known);
-      std::copy(p.begin(), p.end(), point);
+    set_target_sets(handles, [surface](std::size_t) {
+      return [surface](const Point& p) { return surface->projection(p); };
     });
   }
-  double weight(std::int32_t handle) const override
+  std::vector<double> targets(Indices handles) const override
   {
-    require_handle(handle);
-    double weight = 0;
-    visit_handle(handle, [&](auto known) { weight = m_deformation.target_weight(known); });
-    return weight;
+    return coordinates_of(required_handles(handles), [this](std::int32_t handle) {
+      return visit_handle(handle, [&](auto known) { return m_deformation.target_position(known); });
+    });
+  }
+  std::vector<double> weights(Indices handles) const override
+  {
+    std::vector<double> result;
+    for(std::int32_t handle : required_handles(handles))
+      result.push_back(weight(handle));
+    return result;
   }
   void transform(Indices handles, Numbers matrix, bool from_rest) override
   {
@@ -327,37 +354,32 @@ public:
         q[k] = matrix[k][0] * p[0] + matrix[k][1] * p[1] + matrix[k][2] * p[2] + matrix[k][3];
       return q;
     };
-    for_each(handles, [&](auto handle) {
+    for_each(handles, [&](auto handle, std::size_t) {
       return m_deformation.transform(handle, apply,
                                      from_rest ? Transformed::rest_shape : Transformed::targets);
     });
   }
-  void set_weight(Indices handles, double weight) override
+  void set_weights(Indices handles, Numbers weights) override
   {
-    std::vector<double> before;
-    for(std::size_t k = 0; k < handles.rows; ++k)
-      before.push_back(this->weight(*handles[k]));
-    try
-    {
-      for_each(handles, [&](auto handle) {
-        return m_deformation.set_target_weight(handle, weight);
+    require_values(handles, "handles", weights, "weights", 1);
+    all_or_none(handles, [&] {
+      for_each(handles, [&](auto handle, std::size_t k) {
+        return m_deformation.set_target_weight(handle, *row(weights, k));
       });
-    }
-    catch(const Deformation_error&) // as of a set, which cannot be hard
-    {
-      auto next = before.begin();
-      for_each(handles, [&](auto handle) {
-        return m_deformation.set_target_weight(handle, *next++);
-      });
-      throw;
-    }
+    });
   }
-  void set_rotation(Indices vertices, const double* matrix) override
+  void set_rotations(Indices vertices, Numbers matrices) override
   {
-    Matrix_3x3 rotation;
-    std::copy(matrix, matrix + rotation.size(), rotation.begin());
-    for(std::size_t v : control_vertices_of(vertices))
-      require(m_deformation.set_target_rotation(v, rotation));
+    require_values(vertices, "vertices", matrices, "matrices", 9);
+    const std::vector<std::size_t> chosen = control_vertices_of(vertices);
+    all_or_none(vertices, [&] {
+      for(std::size_t k = 0; k < chosen.size(); ++k)
+      {
+        Matrix_3x3 rotation;
+        std::copy_n(row(matrices, k), rotation.size(), rotation.begin());
+        require(m_deformation.set_target_rotation(chosen[k], rotation));
+      }
+    });
   }
   void set_rotations_of_motion(Indices vertices) override
   {
@@ -409,17 +431,12 @@ public:
 
   std::vector<double> velocities() const override
   {
-    std::vector<double> result;
-    for(std::size_t v : domain().vertices())
-    {
-      const Coordinates velocity = m_deformation.velocity(v);
-      result.insert(result.end(), velocity.begin(), velocity.end());
-    }
-    return result;
+    return coordinates_of(domain().vertices(),
+                          [this](std::size_t v) { return m_deformation.velocity(v); });
   }
   void set_velocities(Indices vertices, Numbers velocities) override
   {
-    require_rows(vertices, "vertices", velocities, "velocities");
+    require_rows(vertices, "vertices", velocities, "velocities", 3);
     refuse_in_a_run();
     const std::vector<std::size_t> chosen = vertices_of(vertices);
     for(std::size_t v : chosen)
@@ -438,18 +455,15 @@ public:
   {
     refuse_in_a_run();
     m_deformation.overwrite_initial_geometry();
-    m_rest = m_points;
   }
-  std::any state() const override { return State{m_deformation.state(), m_rest}; }
+  std::any state() const override { return m_deformation.state(); }
   void restore(const std::any& state) override
   {
-    const State* known = std::any_cast<State>(&state);
+    const auto* known = std::any_cast<typename Deformation::State>(&state);
     if(known == nullptr)
       throw Deformation_error(
         Outcome(Status::foreign_state, "the state is of another kind of shape"));
-    Points rest = known->rest;
-    require(m_deformation.restore(known->session));
-    m_rest = std::move(rest);
+    require(m_deformation.restore(*known));
   }
 
   double energy() const override { return m_deformation.energy(); }
@@ -465,7 +479,7 @@ public:
     }
     return result;
   }
-  Quality quality() const override { return ARAP::quality(domain(), m_rest); }
+  Quality quality() const override { return ARAP::quality(domain(), rest_map()); }
   std::vector<double> quality_at_vertices(const std::string& measure) const override
   {
     using M = Vertex_measure;
@@ -474,7 +488,7 @@ public:
                                      std::pair("angle_change", M::angle_change),
                                      std::pair("spike", M::spike)})
       if(measure == name)
-        return ARAP::quality_at_vertices(domain(), known, m_rest);
+        return ARAP::quality_at_vertices(domain(), known, rest_map());
     throw std::invalid_argument("the measure '" + measure + "' is not known; use one of "
                                 "edge_length_error, size_change, angle_change, spike");
   }
@@ -484,17 +498,27 @@ private:
   using Traits = ARAP_deformation_traits<Default, Chosen_edge_weight>;
   using Deformation = ARAP_deformation<Domain, Traits>;
 
-  struct State
-  {
-    typename Deformation::State session;
-    Points rest;
-  };
-
   template <typename Handle>
   static constexpr bool is_point = std::is_same_v<std::decay_t<Handle>, Control_point>;
 
   const Domain& domain() const { return m_deformation.domain(); }
+  auto rest_map() const
+  {
+    return [this](std::size_t v) { return m_deformation.rest_position(v); };
+  }
   static Point point_at(const double* p) { return {p[0], p[1], p[2]}; }
+  // the coordinates of the points that a function has for each of a range
+  template <typename Range, typename Function>
+  static std::vector<double> coordinates_of(const Range& range, const Function& f)
+  {
+    std::vector<double> result;
+    for(const auto& x : range)
+    {
+      const Point p = f(x);
+      result.insert(result.end(), p.begin(), p.end());
+    }
+    return result;
+  }
   static std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& vertices)
   {
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
@@ -532,64 +556,111 @@ private:
     return result;
   }
 
-  static void require_rows(Indices indices, const char* what, Numbers points, const char* values)
+  static void require_rows(Indices indices, const char* what, Numbers rows, const char* values,
+                           std::size_t columns)
   {
-    require(points.rows == indices.rows && points.columns == 3,
+    require(rows.rows == indices.rows && rows.columns == columns,
             "there are " + std::to_string(indices.rows) + " " + what + ", but " +
-            std::to_string(points.rows) + " " + values + " of " + std::to_string(points.columns) +
-            " coordinates");
+            std::to_string(rows.rows) + " " + values +
+            (columns == 1 ? "" : " of " + std::to_string(rows.columns) + " numbers"));
   }
+  // one row may also be for all
+  static void require_values(Indices indices, const char* what, Numbers rows, const char* values,
+                             std::size_t columns)
+  {
+    require_rows(rows.rows == 1 ? Indices{indices.data, 1} : indices, what, rows, values, columns);
+  }
+  static const double* row(Numbers rows, std::size_t k) { return rows[rows.rows == 1 ? 0 : k]; }
 
   bool is_vertex(std::int32_t handle) const
   {
     return handle >= 0 && static_cast<std::size_t>(handle) < number_of_vertices();
   }
+  // what a function of a control vertex or a control point returns
   template <typename Function>
-  void visit_handle(std::int32_t handle, const Function& f) const
+  auto visit_handle(std::int32_t handle, const Function& f) const
   {
-    if(is_vertex(handle))
-      f(static_cast<std::size_t>(handle));
-    else
-      f(control_point(handle));
+    return is_vertex(handle) ? f(static_cast<std::size_t>(handle)) : f(control_point(handle));
   }
-  void require_handle(std::int32_t handle) const
+  double weight(std::int32_t handle) const
   {
-    require(is_vertex(handle) ? m_deformation.is_control_vertex(static_cast<std::size_t>(handle))
-                              : m_deformation.is_control_point(control_point(handle)),
-            name(handle) + " is neither a control vertex nor a control point");
+    return visit_handle(handle, [&](auto known) { return m_deformation.target_weight(known); });
   }
-  // All handles are known before the first one is changed.
+  std::vector<std::int32_t> required_handles(Indices handles) const
+  {
+    std::vector<std::int32_t> result(handles.data, handles[handles.rows]);
+    for(std::int32_t handle : result)
+      require(is_vertex(handle) ? m_deformation.is_control_vertex(static_cast<std::size_t>(handle))
+                                : m_deformation.is_control_point(control_point(handle)),
+              name(handle) + " is neither a control vertex nor a control point");
+    return result;
+  }
+  // Calls f(handle, k) for the k-th handle. All are known before the first one is changed.
   template <typename Function>
   void for_each(Indices handles, const Function& f) const
   {
-    for(std::size_t k = 0; k < handles.rows; ++k)
-      require_handle(*handles[k]);
-    for(std::size_t k = 0; k < handles.rows; ++k)
-      visit_handle(*handles[k], [&](auto handle) { require(f(handle)); });
+    std::size_t k = 0;
+    for(std::int32_t handle : required_handles(handles))
+    {
+      require(visit_handle(handle, [&](auto known) { return f(known, k); }));
+      ++k;
+    }
   }
-
-  // a finite point, and a direction of length 1
-  static std::pair<Point, Point> point_and_direction(Numbers rows, const char* what)
+  // Calls f(), which changes something for each index. If it fails, all is as it was.
+  template <typename Function>
+  void all_or_none(Indices indices, const Function& f)
   {
-    const Points points = points_of(rows);
-    require(points.size() == 2 && is_finite(points[0]), "the point must have finite coordinates");
-    const Point& d = points[1];
-    const double length = std::hypot(d[0], d[1], d[2]);
-    require(std::isfinite(length) && length > 0,
-            std::string("the ") + what + " must be finite, and not zero");
-    return {points[0], {d[0] / length, d[1] / length, d[2] / length}};
+    if(indices.rows < 2)
+      return f();
+    auto before = m_deformation.state();
+    try
+    {
+      f();
+    }
+    catch(...)
+    {
+      require(m_deformation.restore(std::move(before)));
+      throw;
+    }
   }
 
+  // Finite points and directions of length 1, of planes or lines. What is set for a handle is
+  // `projection` with those of its row.
+  template <typename Projection>
+  void set_target_sets(Indices handles, Numbers points, Numbers directions, const char* what,
+                       const Projection& projection)
+  {
+    require_values(handles, "handles", points, "points", 3);
+    require_values(handles, "handles", directions, "directions", 3);
+    Points origins = points_of(points), units = points_of(directions);
+    for(const Point& origin : origins)
+      require(is_finite(origin), "the point must have finite coordinates");
+    for(Point& d : units)
+    {
+      const double length = std::hypot(d[0], d[1], d[2]);
+      require(std::isfinite(length) && length > 0,
+              std::string("the ") + what + " must be finite, and not zero");
+      d = {d[0] / length, d[1] / length, d[2] / length};
+    }
+    set_target_sets(handles, [&](std::size_t k) {
+      return [origin = origins[points.rows == 1 ? 0 : k],
+              unit = units[directions.rows == 1 ? 0 : k], projection](const Point& p) {
+        return projection(p, origin, unit);
+      };
+    });
+  }
+
+  // `projection(k)` is that onto the set of the k-th handle
   template <typename Projection>
   void set_target_sets(Indices handles, const Projection& projection)
   {
-    for(std::size_t k = 0; k < handles.rows; ++k) // all, before the first one is changed
-      if(std::isinf(weight(*handles[k])))
-        throw Deformation_error(Outcome(Status::invalid_weight, name(*handles[k]) +
+    for(std::int32_t handle : required_handles(handles)) // all, before the first one is changed
+      if(std::isinf(weight(handle)))
+        throw Deformation_error(Outcome(Status::invalid_weight, name(handle) +
                                         " has a hard target, which cannot be a set: give it a "
                                         "finite weight first"));
-    for_each(handles, [&](auto handle) {
-      return m_deformation.set_target_set(handle, projection);
+    for_each(handles, [&](auto handle, std::size_t k) {
+      return m_deformation.set_target_set(handle, projection(k));
     });
   }
 
@@ -631,7 +702,7 @@ private:
     };
   }
 
-  Points m_points, m_rest;
+  Points m_points;
   Simplices m_simplices;
   Deformation m_deformation;
   bool m_has_stiffness = false, m_has_groups = false;

@@ -85,7 +85,7 @@ public:
   // the rest shape is not finite it becomes the new one.
   virtual void set_points(Numbers points) = 0;
   // n x 3: the rest shape
-  virtual const double* rest_points() const = 0;
+  virtual std::vector<double> rest_points() const = 0;
 
   // Options are texts by their names. All of them are set, or none.
   using Named_options = std::map<std::string, std::string>;
@@ -102,26 +102,29 @@ public:
   virtual void insert_handles(Indices vertices) = 0;
   virtual void erase_handles(Indices handles) = 0;
   virtual void clear_handles() = 0;
+  virtual void clear_points() = 0; // the handles that are control points
   virtual std::vector<std::int32_t> handles() const = 0;
 
   // the places nearest to k points where the shape is now, if there are any; builds a search tree
   virtual std::vector<std::optional<Place>> locate(Numbers points) const = 0;
-  // returns the handle of a new control point
-  virtual std::int32_t insert_point(std::int32_t simplex, Numbers coordinates) = 0;
-  virtual void point_position(std::int32_t handle, double* point) const = 0;
+  // returns the handles of new control points, with a row of barycentric coordinates for each
+  // simplex; zeros fill the rows of those that have fewer corners
+  virtual std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) = 0;
+  virtual std::vector<double> point_positions(Indices handles) const = 0; // k x 3
 
   virtual void set_targets(Indices handles, Numbers targets) = 0; // k x 3
-  // Soft targets become sets: a plane or a line, given by two rows, a point and a normal or a
-  // direction; or a surface, given by points and polygons, which are copied.
-  virtual void set_target_plane(Indices handles, Numbers plane) = 0;
-  virtual void set_target_line(Indices handles, Numbers line) = 0;
+  // Where values of k handles or vertices are asked for, one row is for all of them.
+  // Soft targets become sets: planes or lines, given by points and normals or directions; or a
+  // surface, given by points and polygons, which are copied.
+  virtual void set_target_planes(Indices handles, Numbers points, Numbers normals) = 0;
+  virtual void set_target_lines(Indices handles, Numbers points, Numbers directions) = 0;
   virtual void set_target_surface(Indices handles, Numbers points, Indices polygons) = 0;
-  virtual void target(std::int32_t handle, double* point) const = 0;
-  virtual double weight(std::int32_t handle) const = 0; // infinite: hard
+  virtual std::vector<double> targets(Indices handles) const = 0; // k x 3
   // targets p to A p, with a 3 x 4 or 4 x 4 matrix; of the rest shape or of the present targets
   virtual void transform(Indices handles, Numbers matrix, bool from_rest) = 0;
-  virtual void set_weight(Indices handles, double weight) = 0; // infinite: hard
-  virtual void set_rotation(Indices vertices, const double* matrix) = 0; // 3 x 3
+  virtual std::vector<double> weights(Indices handles) const = 0; // infinite: hard
+  virtual void set_weights(Indices handles, Numbers weights) = 0;
+  virtual void set_rotations(Indices vertices, Numbers matrices) = 0; // rows of 3 x 3
   virtual void set_rotations_of_motion(Indices vertices) = 0;
   virtual void erase_rotations(Indices vertices) = 0;
 

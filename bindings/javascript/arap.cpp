@@ -73,10 +73,6 @@ void add(const Range& numbers)
 {
   answer.numbers.insert(answer.numbers.end(), numbers.begin(), numbers.end());
 }
-void add(const double* numbers, std::size_t size)
-{
-  answer.numbers.insert(answer.numbers.end(), numbers, numbers + size);
-}
 
 void add(const Report& report)
 {
@@ -120,17 +116,6 @@ Array_deformation::Named_options options_of(const char* texts, std::size_t n)
     options[name] = next();
   }
   return options;
-}
-
-// the three coordinates that a function of a handle writes
-bool point_of(const Array_deformation* d, std::int32_t handle,
-              void (Array_deformation::*function)(std::int32_t, double*) const)
-{
-  return answer_of([&] {
-    double point[3];
-    (d->*function)(handle, point);
-    add(point, 3);
-  });
 }
 
 } // namespace
@@ -188,7 +173,10 @@ ARAP_EXPORT bool arap_set_points(Array_deformation* d, const double* points, std
 {
   return answer_of([&] { d->set_points({points, rows, 3}); });
 }
-ARAP_EXPORT const double* arap_rest_points(const Array_deformation* d) { return d->rest_points(); }
+ARAP_EXPORT bool arap_rest_points(const Array_deformation* d)
+{
+  return answer_of([&] { add(d->rest_points()); });
+}
 // for the visitor that is called; null if it failed
 ARAP_EXPORT const double* arap_iterate_points(const Array_deformation* d)
 {
@@ -233,6 +221,10 @@ ARAP_EXPORT bool arap_clear_handles(Array_deformation* d)
 {
   return answer_of([&] { d->clear_handles(); });
 }
+ARAP_EXPORT bool arap_clear_points(Array_deformation* d)
+{
+  return answer_of([&] { d->clear_points(); });
+}
 ARAP_EXPORT bool arap_handles(const Array_deformation* d)
 {
   return answer_of([&] { add(d->handles()); });
@@ -253,16 +245,16 @@ ARAP_EXPORT bool arap_locate(const Array_deformation* d, const double* points, s
         add(std::vector<double>{0});
   });
 }
-ARAP_EXPORT bool arap_insert_point(Array_deformation* d, std::int32_t simplex,
-                                   const double* coordinates, std::size_t n)
+// k coordinates for each simplex
+ARAP_EXPORT bool arap_insert_points(Array_deformation* d, const std::int32_t* simplices,
+                                    std::size_t n, const double* coordinates, std::size_t k)
 {
-  return answer_of([&] {
-    add(std::vector<std::int32_t>{d->insert_point(simplex, {coordinates, n})});
-  });
+  return answer_of([&] { add(d->insert_points({simplices, n}, {coordinates, n, k})); });
 }
-ARAP_EXPORT bool arap_point_position(const Array_deformation* d, std::int32_t handle)
+ARAP_EXPORT bool arap_point_positions(const Array_deformation* d, const std::int32_t* handles,
+                                      std::size_t n)
 {
-  return point_of(d, handle, &Array_deformation::point_position);
+  return answer_of([&] { add(d->point_positions({handles, n})); });
 }
 
 ARAP_EXPORT bool arap_set_targets(Array_deformation* d, const std::int32_t* handles, std::size_t n,
@@ -270,16 +262,21 @@ ARAP_EXPORT bool arap_set_targets(Array_deformation* d, const std::int32_t* hand
 {
   return answer_of([&] { d->set_targets({handles, n}, {targets, rows, 3}); });
 }
-// six numbers: a point and a direction
-ARAP_EXPORT bool arap_set_target_plane(Array_deformation* d, const std::int32_t* handles,
-                                       std::size_t n, const double* plane)
+ARAP_EXPORT bool arap_set_target_planes(Array_deformation* d, const std::int32_t* handles,
+                                        std::size_t n, const double* points, std::size_t rows,
+                                        const double* normals, std::size_t normal_rows)
 {
-  return answer_of([&] { d->set_target_plane({handles, n}, {plane, 2, 3}); });
+  return answer_of([&] {
+    d->set_target_planes({handles, n}, {points, rows, 3}, {normals, normal_rows, 3});
+  });
 }
-ARAP_EXPORT bool arap_set_target_line(Array_deformation* d, const std::int32_t* handles,
-                                      std::size_t n, const double* line)
+ARAP_EXPORT bool arap_set_target_lines(Array_deformation* d, const std::int32_t* handles,
+                                       std::size_t n, const double* points, std::size_t rows,
+                                       const double* directions, std::size_t direction_rows)
 {
-  return answer_of([&] { d->set_target_line({handles, n}, {line, 2, 3}); });
+  return answer_of([&] {
+    d->set_target_lines({handles, n}, {points, rows, 3}, {directions, direction_rows, 3});
+  });
 }
 ARAP_EXPORT bool arap_set_target_surface(Array_deformation* d, const std::int32_t* handles,
                                          std::size_t n, const double* points, std::size_t rows,
@@ -289,24 +286,30 @@ ARAP_EXPORT bool arap_set_target_surface(Array_deformation* d, const std::int32_
     d->set_target_surface({handles, n}, {points, rows, 3}, {polygons, m, k});
   });
 }
-ARAP_EXPORT bool arap_target(const Array_deformation* d, std::int32_t handle)
+ARAP_EXPORT bool arap_targets(const Array_deformation* d, const std::int32_t* handles,
+                              std::size_t n)
 {
-  return point_of(d, handle, &Array_deformation::target);
+  return answer_of([&] { add(d->targets({handles, n})); });
 }
 ARAP_EXPORT bool arap_transform(Array_deformation* d, const std::int32_t* handles, std::size_t n,
                                 const double* matrix, std::size_t rows, bool from_rest)
 {
   return answer_of([&] { d->transform({handles, n}, {matrix, rows, 4}, from_rest); });
 }
-ARAP_EXPORT bool arap_set_weight(Array_deformation* d, const std::int32_t* handles, std::size_t n,
-                                 double weight)
+ARAP_EXPORT bool arap_weights(const Array_deformation* d, const std::int32_t* handles,
+                              std::size_t n)
 {
-  return answer_of([&] { d->set_weight({handles, n}, weight); });
+  return answer_of([&] { add(d->weights({handles, n})); });
 }
-ARAP_EXPORT bool arap_set_rotation(Array_deformation* d, const std::int32_t* vertices,
-                                   std::size_t n, const double* matrix)
+ARAP_EXPORT bool arap_set_weights(Array_deformation* d, const std::int32_t* handles, std::size_t n,
+                                  const double* weights, std::size_t rows)
 {
-  return answer_of([&] { d->set_rotation({vertices, n}, matrix); });
+  return answer_of([&] { d->set_weights({handles, n}, {weights, rows}); });
+}
+ARAP_EXPORT bool arap_set_rotations(Array_deformation* d, const std::int32_t* vertices,
+                                    std::size_t n, const double* matrices, std::size_t rows)
+{
+  return answer_of([&] { d->set_rotations({vertices, n}, {matrices, rows, 9}); });
 }
 ARAP_EXPORT bool arap_set_rotations_of_motion(Array_deformation* d, const std::int32_t* vertices,
                                               std::size_t n)
@@ -388,10 +391,6 @@ ARAP_EXPORT bool arap_set_velocities(Array_deformation* d, const std::int32_t* v
                                      std::size_t n, const double* velocities, std::size_t rows)
 {
   return answer_of([&] { d->set_velocities({vertices, n}, {velocities, rows, 3}); });
-}
-ARAP_EXPORT bool arap_weight(const Array_deformation* d, std::int32_t handle)
-{
-  return answer_of([&] { add(std::vector<double>{d->weight(handle)}); });
 }
 ARAP_EXPORT bool arap_rotations(const Array_deformation* d)
 {

@@ -97,7 +97,7 @@ export interface PointsCopy {
 /**
  * Called with the initial guess, as iteration 0, and after each iteration; may end the run, or
  * cancel it, which leaves all as it was. What it throws is thrown. `points` is for a preview: it has the
- * points of the iterate, as long as no other visitor is called.
+ * points of the iterate, until it returns, and while no other visitor is called.
  */
 export type Visitor = (
   iteration: number,
@@ -229,6 +229,8 @@ export interface Session {
   insertHandles(vertices: Indices | number): void;
   eraseHandles(handles: Indices | number): void;
   clearHandles(): void;
+  /** erases the handles that are control points */
+  clearPoints(): void;
   handles(): Int32Array;
 
   /** The place nearest to a point where the shape is now. For a point outside of all tetrahedra the
@@ -240,11 +242,15 @@ export interface Session {
   /** a new control point; returns its handle. Messages number control points from 1: number k is
    *  the handle n + k - 1. */
   insertPoint(simplex: number, coordinates: Numbers): number;
-  pointPosition(handle: number): Float64Array;
+  /** new control points at places, as `locateAll()` returns them: all of them, or none */
+  insertPoints(places: Pick<Place, 'simplex' | 'coordinates'>[]): Int32Array;
+  /** where control points are: 3 numbers for each */
+  pointPosition(handles: Indices | number): Float64Array;
 
   setTargets(handles: Indices | number, targets: Numbers): void;
-  /** Pulls handles, whose weights are finite, toward a plane, along which they can glide. It is
-   *  their target until they get another one. */
+  /** Pulls handles, whose weights are finite, toward a plane, along which they can glide, or each
+   *  toward its own: point and normal have three numbers for all, or for each. It is their target
+   *  until they get another one, or are reset. */
   setTargetPlane(handles: Indices | number, point: Numbers, normal: Numbers): void;
   /** the same, toward a line */
   setTargetLine(handles: Indices | number, point: Numbers, direction: Numbers): void;
@@ -256,17 +262,19 @@ export interface Session {
     faces: Indices,
     options?: { corners?: number | Indices },
   ): void;
-  /** of a target set the point nearest to the handle */
-  target(handle: number): Float64Array;
+  /** 3 numbers for each; of a target set the point nearest to the handle */
+  target(handles: Indices | number): Float64Array;
   /**
    * moves targets by a matrix of 3 x 4 or 4 x 4: by default the matrix is applied to the present
    * targets, so that repeated calls add up; fromRest applies it to the rest shape
    */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
   weight(handle: number): number;
-  /** Infinity: a hard target, which is met exactly */
-  setWeight(handles: Indices | number, weight: number): void;
-  /** of the cells around vertices, 3 x 3, from the rest shape: it is given, and not fitted */
+  weight(handles: Indices): Float64Array;
+  /** one for all or one for each; Infinity: a hard target, which is met exactly */
+  setWeight(handles: Indices | number, weight: number | Numbers): void;
+  /** of the cells around vertices, 3 x 3 for all or for each, from the rest shape: it is given, and
+   *  not fitted */
   setRotation(vertices: Indices | number, matrix: Numbers): void;
   /** the same, with the rotation of the rigid motion that takes these vertices to their targets */
   setRotationsOfMotion(vertices: Indices | number): void;
@@ -295,7 +303,8 @@ export interface Session {
   /** of vertices of the region */
   setVelocities(vertices: Indices | number, velocities: Numbers): void;
 
-  /** back to the rest shape: keeps weights, erases prescribed rotations and velocities */
+  /** back to the rest shape: keeps weights, erases prescribed rotations and velocities, and makes
+   *  points of targets that are sets */
   reset(): void;
   /** of the present positions: keeps targets and weights, erases prescribed rotations */
   makeRestShape(): void;
@@ -303,7 +312,9 @@ export interface Session {
   restore(state: State): void;
 
   energy(): number;
-  /** 3 x 3 for each cell */
+  /** 3 x 3 for each cell; the identity outside the region, where no vertex of the cell is free, as
+   *  inside a handle, and until the first run after a change of the region or the cells, `reset()` or
+   *  `makeRestShape()` */
   rotations(): Float64Array;
   quality(): Quality;
   qualityAtVertices(

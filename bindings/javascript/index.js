@@ -42,12 +42,6 @@ function numbersOf(values, what, Kind) {
   return result;
 }
 
-// one index, not a list
-function indexOf(value, what) {
-  if (typeof value !== 'number') throw new TypeError(`${what} must be a number`);
-  return numbersOf([value], what, Int32Array)[0];
-}
-
 function numberOf(value, what) {
   if (typeof value !== 'number') throw new TypeError(`${what} is ${value}; it must be a number`);
   return value;
@@ -284,19 +278,23 @@ export async function load({ wasmBinary } = {}) {
       const indices = this.#indices(values, what);
       return withCopies([indices], (pointer) => this.#call(name, pointer, indices.length, ...rest));
     }
-    // indices with three numbers for each
-    #callWithRows(name, what, values, of, numbers) {
-      const i = this.#indices(values, what),
-        x = numbersOf(numbers, of, Float64Array);
-      const rows = rowsOf(x, 3, of);
-      withCopies([i, x], (ip, xp) => this.#call(name, ip, i.length, xp, rows));
+    // indices, with rows of numbers: [what they are, the numbers, how many there are in a row]
+    #callWithRows(name, what, values, ...arrays) {
+      const numbers = arrays.map(([of, x]) => numbersOf(x, of, Float64Array)),
+        rows = arrays.map(([of, , columns], k) => rowsOf(numbers[k], columns, of));
+      withCopies(numbers, (...pointers) =>
+        this.#callWithIndices(name, what, values, ...pointers.flatMap((p, k) => [p, rows[k]])),
+      );
     }
-    #copy(name, out) {
-      return this.#copyOf(module[name](this.#this()), out);
+    // what there is of a handle, or of handles
+    #valuesOf(name, handles) {
+      return this.#callWithIndices(name, 'the handle', handles);
     }
     #copyOf(pointer, out) {
       const view = heapNumbers(pointer, 3 * this.numberOfVertices);
-      if (!out) return view.slice();
+      return out ? this.#put(view, out) : view.slice();
+    }
+    #put(view, out) {
       if (!(out instanceof Float64Array || out instanceof Float32Array))
         throw new TypeError('points need a Float64Array or a Float32Array');
       if (out.length !== view.length)
@@ -306,7 +304,7 @@ export async function load({ wasmBinary } = {}) {
     }
 
     points(out) {
-      return this.#copy('_arap_points', out);
+      return this.#copyOf(module._arap_points(this.#this()), out);
     }
     setPoints(points) {
       const p = numbersOf(points, 'points', Float64Array);
@@ -314,7 +312,8 @@ export async function load({ wasmBinary } = {}) {
       withCopies([p], (pointer) => this.#call('set_points', pointer, rows));
     }
     restPoints(out) {
-      return this.#copy('_arap_rest_points', out);
+      const view = this.#call('rest_points');
+      return out ? this.#put(view, out) : view;
     }
 
     setOption(name, value) {
@@ -347,6 +346,9 @@ export async function load({ wasmBinary } = {}) {
     clearHandles() {
       this.#call('clear_handles');
     }
+    clearPoints() {
+      this.#call('clear_points');
+    }
     handles() {
       return Int32Array.from(this.#call('handles'));
     }
@@ -371,26 +373,34 @@ export async function load({ wasmBinary } = {}) {
       return places;
     }
     insertPoint(simplex, coordinates) {
-      const s = indexOf(simplex, 'the simplex'),
-        c = numbersOf(coordinates, 'coordinates', Float64Array);
-      return withCopies([c], (pointer) => this.#call('insert_point', s, pointer, c.length))[0];
+      if (typeof simplex !== 'number') throw new TypeError('the simplex must be a number');
+      return this.insertPoints([{ simplex, coordinates }])[0];
     }
-    pointPosition(handle) {
-      return this.#call('point_position', indexOf(handle, 'the handle'));
+    insertPoints(places) {
+      const of = places.map((place) => numbersOf(place.coordinates, 'coordinates', Float64Array)),
+        k = Math.max(0, ...of.map((c) => c.length)),
+        rows = new Float64Array(k * places.length);
+      of.forEach((c, i) => rows.set(c, i * k));
+      const simplices = places.map(({ simplex }) => simplex);
+      return withCopies([rows], (pointer) =>
+        Int32Array.from(this.#callWithIndices('insert_points', 'the simplex', simplices, pointer, k)),
+      );
+    }
+    pointPosition(handles) {
+      return this.#valuesOf('point_positions', handles);
     }
 
     setTargets(handles, targets) {
-      this.#callWithRows('set_targets', 'handles', handles, 'targets', targets);
+      this.#callWithRows('set_targets', 'handles', handles, ['targets', targets, 3]);
     }
-    #setTargetSet(name, handles, point, direction, what) {
-      const set = Float64Array.of(...vectorOf(point, 'the point'), ...vectorOf(direction, what));
-      withCopies([set], (pointer) => this.#callWithIndices(name, 'handles', handles, pointer));
+    #setTargetSets(name, handles, point, direction, what) {
+      this.#callWithRows(name, 'handles', handles, ['the point', point, 3], [what, direction, 3]);
     }
     setTargetPlane(handles, point, normal) {
-      this.#setTargetSet('set_target_plane', handles, point, normal, 'the normal');
+      this.#setTargetSets('set_target_planes', handles, point, normal, 'the normal');
     }
     setTargetLine(handles, point, direction) {
-      this.#setTargetSet('set_target_line', handles, point, direction, 'the direction');
+      this.#setTargetSets('set_target_lines', handles, point, direction, 'the direction');
     }
     setTargetSurface(handles, points, faces, { corners = 3, ...rest } = {}) {
       refuseUnknown(rest, 'setTargetSurface()');
@@ -401,8 +411,8 @@ export async function load({ wasmBinary } = {}) {
         this.#callWithIndices('set_target_surface', 'handles', handles, pp, n, fp, m, k),
       );
     }
-    target(handle) {
-      return this.#call('target', indexOf(handle, 'the handle'));
+    target(handles) {
+      return this.#valuesOf('targets', handles);
     }
     transform(handles, matrix, { fromRest = false, ...rest } = {}) {
       refuseUnknown(rest, 'transform()');
@@ -412,18 +422,16 @@ export async function load({ wasmBinary } = {}) {
       const rows = rowsOf(m, 4, 'the matrix');
       withCopies([h, m], (hp, mp) => this.#call('transform', hp, h.length, mp, rows, fromRest));
     }
-    weight(handle) {
-      return this.#call('weight', indexOf(handle, 'the handle'))[0];
+    weight(handles) {
+      const weights = this.#valuesOf('weights', handles);
+      return typeof handles === 'number' ? weights[0] : weights;
     }
     setWeight(handles, weight) {
-      this.#callWithIndices('set_weight', 'handles', handles, numberOf(weight, 'the weight'));
+      const weights = typeof weight === 'number' ? [weight] : weight;
+      this.#callWithRows('set_weights', 'handles', handles, ['the weight', weights, 1]);
     }
     setRotation(vertices, matrix) {
-      const m = numbersOf(matrix, 'the matrix', Float64Array);
-      if (m.length !== 9) throw new RangeError('a rotation is a matrix of 3 x 3 numbers');
-      withCopies([m], (pointer) =>
-        this.#callWithIndices('set_rotation', 'vertices', vertices, pointer),
-      );
+      this.#callWithRows('set_rotations', 'vertices', vertices, ['the matrix', matrix, 9]);
     }
     setRotationsOfMotion(vertices) {
       this.#callWithIndices('set_rotations_of_motion', 'vertices', vertices);
@@ -539,7 +547,7 @@ export async function load({ wasmBinary } = {}) {
       return this.#call('velocities');
     }
     setVelocities(vertices, velocities) {
-      this.#callWithRows('set_velocities', 'vertices', vertices, 'velocities', velocities);
+      this.#callWithRows('set_velocities', 'vertices', vertices, ['velocities', velocities, 3]);
     }
     rotations() {
       return this.#call('rotations');

@@ -53,7 +53,6 @@ struct State
 template <typename T> struct Argument { using Type = T; };
 template <> struct Argument<bindings::Indices> { using Type = Integers; };
 template <> struct Argument<bindings::Numbers> { using Type = Doubles; };
-template <> struct Argument<const double*> { using Type = Doubles; };
 template <> struct Argument<const std::any&> { using Type = const State&; };
 template <> struct Argument<const std::string&> { using Type = std::string; };
 
@@ -67,9 +66,7 @@ bindings::Rows<T> rows(const py::array_t<T, py::array::c_style>& array)
 template <typename To, typename From>
 decltype(auto) argument(const From& value)
 {
-  if constexpr(std::is_same_v<To, const double*>)
-    return value.data();
-  else if constexpr(std::is_same_v<To, const std::any&>)
+  if constexpr(std::is_same_v<To, const std::any&>)
     return (value.value);
   else if constexpr(std::is_base_of_v<py::array, From>)
     return rows(value);
@@ -296,37 +293,27 @@ private:
 
 // a function of the flat interface as one of the session
 template <typename Member, typename Result, typename... Arguments>
-auto bound(Member f)
+auto bound(Member f, bool is_long)
 {
-  return [f](Session& session, const typename Argument<Arguments>::Type&... arguments) {
+  return [=](Session& session, const typename Argument<Arguments>::Type&... arguments) {
     const auto call = [&](Array_deformation& d) {
       return (d.*f)(argument<Arguments>(arguments)...);
     };
     if constexpr(std::is_void_v<Result>)
-      session.at_work(call);
+      session.at_work(call, is_long);
     else
-      return result(session.at_work(call));
+      return result(session.at_work(call, is_long));
   };
 }
 template <typename Result, typename... Arguments>
-auto bound(Result (Array_deformation::*f)(Arguments...))
+auto bound(Result (Array_deformation::*f)(Arguments...), bool is_long = false)
 {
-  return bound<decltype(f), Result, Arguments...>(f);
+  return bound<decltype(f), Result, Arguments...>(f, is_long);
 }
 template <typename Result, typename... Arguments>
-auto bound(Result (Array_deformation::*f)(Arguments...) const)
+auto bound(Result (Array_deformation::*f)(Arguments...) const, bool is_long = false)
 {
-  return bound<decltype(f), Result, Arguments...>(f);
-}
-
-// a point that is written to the last argument
-auto bound_point(void (Array_deformation::*f)(std::int32_t, double*) const)
-{
-  return [f](Session& session, std::int32_t handle) {
-    std::vector<double> point(3);
-    session.at_work([&](const Array_deformation& d) { (d.*f)(handle, point.data()); });
-    return result(point);
-  };
+  return bound<decltype(f), Result, Arguments...>(f, is_long);
 }
 
 // with options for this call only
@@ -369,39 +356,34 @@ PYBIND11_MODULE(_core, module)
 
   py::class_<State>(module, "State", "What state() returns, for restore().");
   using D = Array_deformation;
+  constexpr bool is_long = true;
   py::class_<Session>(module, "Session")
     .def(py::init<const Doubles&, const Integers&, bool, const std::string&>())
     .def("points", &Session::points).def("set_points", bound(&D::set_points))
-    .def("rest_points", [](Session& s) {
-      return result(s.at_work([](const D& d) {
-        return std::vector<double>(d.rest_points(), d.rest_points() + 3 * d.number_of_vertices());
-      }));
-    })
+    .def("rest_points", bound(&D::rest_points))
     .def("option", bound(&D::option)).def("set_options", bound(&D::set_options))
     .def("region", bound(&D::region)).def("set_region", bound(&D::set_region))
     .def("handles", bound(&D::handles)).def("clear_handles", bound(&D::clear_handles))
     .def("insert_handles", bound(&D::insert_handles))
-    .def("erase_handles", bound(&D::erase_handles))
-    .def("locate", bound(&D::locate)).def("insert_point", bound(&D::insert_point))
-    .def("point_position", bound_point(&D::point_position))
-    .def("target", bound_point(&D::target)).def("set_targets", bound(&D::set_targets))
-    .def("set_target_plane", bound(&D::set_target_plane))
-    .def("set_target_line", bound(&D::set_target_line))
-    .def("set_target_surface", bound(&D::set_target_surface))
+    .def("erase_handles", bound(&D::erase_handles)).def("clear_points", bound(&D::clear_points))
+    .def("locate", bound(&D::locate, is_long)).def("insert_points", bound(&D::insert_points))
+    .def("point_positions", bound(&D::point_positions))
+    .def("targets", bound(&D::targets)).def("set_targets", bound(&D::set_targets))
+    .def("set_target_planes", bound(&D::set_target_planes))
+    .def("set_target_lines", bound(&D::set_target_lines))
+    .def("set_target_surface", bound(&D::set_target_surface, is_long))
     .def("transform", bound(&D::transform))
-    .def("weight", bound(&D::weight)).def("set_weight", bound(&D::set_weight))
-    .def("set_rotation", bound(&D::set_rotation))
+    .def("weights", bound(&D::weights)).def("set_weights", bound(&D::set_weights))
+    .def("set_rotations", bound(&D::set_rotations))
     .def("set_rotations_of_motion", bound(&D::set_rotations_of_motion))
     .def("erase_rotations", bound(&D::erase_rotations))
     .def("set_stiffness", bound(&D::set_stiffness)).def("set_groups", bound(&D::set_groups))
-    .def("preprocess", [](Session& s) {
-      return s.at_work([](D& d) { return d.preprocess(); }, true);
-    })
+    .def("preprocess", bound(&D::preprocess, is_long))
     .def("deform", &deform).def("advance", &advance)
     .def("velocities", bound(&D::velocities)).def("set_velocities", bound(&D::set_velocities))
     .def("reset", bound(&D::reset)).def("make_rest_shape", bound(&D::make_rest_shape))
     .def("state", bound(&D::state)).def("restore", bound(&D::restore))
     .def("energy", bound(&D::energy)).def("rotations", bound(&D::rotations))
-    .def("quality", bound(&D::quality))
+    .def("quality", bound(&D::quality, is_long))
     .def("quality_at_vertices", bound(&D::quality_at_vertices));
 }

@@ -744,6 +744,10 @@ public:
                           "cells are at vertices: call rotation()");
     return m_session.rotation_of_simplex(s);
   }
+
+  /// returns the point of `v` in the rest shape: of a vertex that has never been in the region of
+  /// interest, nor next to it in a run, the one that the mesh has now.
+  Point rest_position(vertex_descriptor v) const { return m_session.rest_point(v); }
   /// @}
 
 private:

@@ -192,8 +192,8 @@ refuses(() => session.transform([], [], { fromrest: true }), TypeError, /fromres
 refuses(() => session.transform([], [], { fromRest: 'no' }), TypeError, /fromRest/);
 for (const weight of [null, '', '1', undefined])
   refuses(() => session.setWeight([], weight), TypeError, /weight/);
-refuses(() => session.target([]), TypeError, /the handle must be a number/);
-refuses(() => session.pointPosition('0'), TypeError, /the handle must be a number/);
+for (const f of ['target', 'weight', 'pointPosition'])
+  refuses(() => session[f]('0'), TypeError, /the handle must be a/);
 refuses(() => session.insertPoint([], [1, 0, 0]), TypeError, /the simplex must be a number/);
 for (const simplex of [-1, 2])
   refuses(() => session.insertPoint(simplex, [1, 0, 0]), ArapError, /no simplex (-1|2)/);
@@ -386,10 +386,37 @@ assert.equal(session.deform().stages.factor, false);
     [NaN, 0, 0],
   ])
     refuses(() => mixed.setTargetPlane(all, [0, 0, 0], normal), ArapError, /the normal must/);
-  refuses(() => mixed.setTargetLine(all, [0, 0], [0, 0, 1]), RangeError, /the point has 3/);
+  refuses(() => mixed.setTargetLine(all, [0, 0], [0, 0, 1]), RangeError, /the point: 2 numbers/);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 7]), ArapError, /vertex 7/);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 0]), ArapError, /no face with an area/);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 2], { c: 1 }), TypeError, /'c'/);
+  // values for each handle; what fails changes nothing
+  const inside = mixed.insertPoints(places.slice(0, 2));
+  assert.deepEqual([...inside], [5, 6]);
+  assert.deepEqual([...mixed.pointPosition(inside)].length, 6);
+  mixed.setWeight(inside, [2, 3]);
+  assert.deepEqual([...mixed.weight(inside)], [2, 3]);
+  assert.equal(mixed.weight(6), 3);
+  mixed.setTargetPlane(inside, [0, 0, 4, 0, 0, 7], [0, 0, 1, 0, 0, 2]);
+  assert.deepEqual(
+    [...mixed.target(inside)].filter((_, i) => i % 3 === 2),
+    [4, 7],
+  );
+  mixed.deform();
+  const energy = mixed.energy();
+  refuses(() => mixed.setWeight(inside, [5, Infinity]), ArapError, /finite/, 'invalid_weight');
+  refuses(() => mixed.setWeight(all, [1, 2]), ArapError, /5 handles, but 2 weights/);
+  refuses(
+    () => mixed.insertPoints([places[0], { simplex: 1, coordinates: [1, 1, 1] }]),
+    ArapError,
+    /coordinates/,
+    'invalid_coordinates',
+  );
+  assert.deepEqual([...mixed.handles()], [...all, ...inside]);
+  assert.deepEqual([...mixed.weight(inside)], [2, 3]);
+  assert.equal(mixed.energy(), energy);
+  mixed.clearPoints();
+  assert.deepEqual([...mixed.handles()], all);
   mixed.dispose();
 }
 

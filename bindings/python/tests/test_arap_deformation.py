@@ -116,6 +116,16 @@ def test_positions_that_are_set():
     broken[7] = np.nan
     mended = arap.Deformation(broken, SHAPES["bar"][1])
     mended.vertices = start
+    mended.insert_handles(7)
+    mended.transform(7, TURN, from_rest=True)
+    assert np.array_equal(mended.target(7), moved(TURN, start[7]))
+    for points in (start + 1, start):  # it is mended when it is used
+        mended.vertices = points
+        expected = start.copy()
+        expected[7] = points[7]
+        assert np.array_equal(mended.rest_vertices, expected)
+    assert mended.deform()
+    mended.vertices = start + 1
     assert np.array_equal(mended.rest_vertices, start)
 
 
@@ -341,6 +351,8 @@ def test_polygons_of_different_numbers_of_corners():
     for point, place in zip(points, places):
         assert len(place.coordinates) == len(mixed[place.simplex])
         assert place.coordinates @ vertices[mixed[place.simplex]] == pytest.approx(point)
+    assert d.point_position(d.insert_points(places)) == pytest.approx(np.array(points))
+    assert len(d.insert_points([])) == 0
     assert (d.rotations() == np.eye(3)).all() and len(d.rotations()) == len(mixed)
     with pytest.raises(IndexError, match="-1 before other corners"):
         arap.Deformation(vertices, [[0, -1, 2]])
@@ -376,13 +388,63 @@ def test_targets_that_are_sets():
     d.deform()
     assert np.abs(d.vertices[moving, 1:] - 4).max() < 0.05
     assert d.target(moving[0]) == pytest.approx([d.vertices[moving[0], 0], 4, 4])
-    with pytest.raises(arap.DeformationError, match="finite weight"):  # and changes nothing
-        d.set_weight([fixed[0], moving[0]], 7)
+    d.set_weight([fixed[0], moving[0]], 7)
+    d.deform()
+    energy = d.energy
+    with pytest.raises(arap.DeformationError, match="finite one"):  # and changes nothing
         d.set_weight([fixed[0], moving[0]], np.inf)
-    assert d.weight(fixed[0]) == 7 and d.weight(moving[0]) == 7
+    assert d.weight(fixed[0]) == 7 and d.weight(moving[0]) == 7 and d.energy == energy
     d.set_weight(moving[1:], 3)
     with pytest.raises(arap.DeformationError, match="of another object"):
         d.restore(state)
+
+
+def test_values_for_each_handle():
+    d, other = bent(), bent()
+    random = np.random.default_rng(1)
+    points = V[F[::4][:80]].mean(axis=1) + random.normal(size=(80, 3)) * 0.1
+    weights, normals = random.uniform(0.1, 10, size=80), random.normal(size=(80, 3))
+    moving = ends(V)[1]
+    rotations = np.array([motion((1, 1, 0), 60 + k)[:3, :3] for k in range(len(moving))])
+    places = d.locate_all(points)
+    handles = d.insert_points(places)
+    d.set_weight(handles, weights)
+    d.set_target_plane(handles[:60], points[:60], normals[:60])
+    d.set_target_line(handles[60:], points[60:], [1, 2, 3])
+    d.set_rotation(moving, rotations)
+    for k, place in enumerate(places):
+        handle = other.insert_point(place.simplex, place.coordinates)
+        assert handle == handles[k]
+        other.set_weight(handle, weights[k])
+        if k < 60:
+            other.set_target_plane(handle, points[k], normals[k])
+        else:
+            other.set_target_line(handle, points[k], [1, 2, 3])
+    for vertex, rotation in zip(moving, rotations):
+        other.set_rotation(vertex, rotation)
+    for session in (d, other):
+        session.deform(5, 0)
+    assert np.array_equal(d.vertices, other.vertices)
+    assert np.array_equal(d.weight(handles), weights) and other.weight(handles[7]) == weights[7]
+    assert np.array_equal(d.target(handles), [other.target(handle) for handle in handles])
+    assert np.array_equal(d.point_position(handles), [other.point_position(h) for h in handles])
+
+    before, energy = d.handles, d.energy
+    wrong = arap.Place(places[1].simplex, np.ones(3), 0)
+    for call, error in ((lambda: d.insert_points([places[0], wrong]), arap.DeformationError),
+                        (lambda: d.set_weight(handles[:2], [1, -1]), arap.DeformationError),
+                        (lambda: d.set_weight(handles[:3], [1, 2]), ValueError),
+                        (lambda: d.set_rotation(moving[:2], [np.eye(3), TURN[:3, :3] * 2]),
+                         arap.DeformationError)):
+        with pytest.raises(error):
+            call()
+        assert np.array_equal(d.handles, before) and d.energy == energy
+        assert np.array_equal(d.weight(handles), weights)
+    for session in (d, other):
+        session.deform(5, 0)
+    assert np.array_equal(d.vertices, other.vertices)
+    d.clear_points()
+    assert np.array_equal(d.handles, bent().handles)
 
 
 def test_frames_at_all_vertices():

@@ -159,8 +159,10 @@ def _pair(what: str, indices: Any, name: str, points: Any) -> Tuple[NDArray[Any]
     return _indices(what, indices), _floats(name, rows, None, 3)
 
 
-def _two(name: str, point: ArrayLike, other_name: str, other: ArrayLike) -> Floats:
-    return np.stack([_floats(name, point, 3), _floats(other_name, other, 3)])
+def _rows(name: str, value: ArrayLike, *shape: int) -> Floats:
+    """Values of the shape, one for all or one for each, as rows."""
+    values = [value] if np.ndim(value) == len(shape) else value
+    return _floats(name, values, None, *shape).reshape(-1, math.prod(shape))
 
 
 def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
@@ -185,9 +187,10 @@ class Deformation:
     """A session: a shape, of which handles go to targets, and the rest follows as rigidly as
     possible. A handle is a number: that of a vertex, or from n on that of a point in a simplex.
 
-    The constructor, preprocess(), deform() and advance() release Python's global lock while they
-    work. Until they are done, calls from other threads for the same object, and from its visitor,
-    raise ``DeformationError`` with the status ``in_a_run``; only ``vertices`` can be had.
+    What takes long releases Python's global lock: the constructor, preprocess(), deform(),
+    advance(), what searches or measures the whole shape. Until it is done, calls from other threads
+    for the same object, and from its visitor, raise ``DeformationError`` with the status
+    ``in_a_run``; only ``vertices`` can be had.
     """
 
     __slots__ = ("_session", "__weakref__")  # other names are likely misspelled options
@@ -218,6 +221,12 @@ class Deformation:
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError("a Deformation cannot be copied or pickled; construct another one from its "
                         "rest_vertices and set its vertices, or use state() and restore()")
+
+    @staticmethod
+    def _values(function: Callable[[NDArray[Any]], Floats], handles: ArrayLike, *shape: int) -> Any:
+        """What the flat interface has for handles: of this shape for one, (k, ...) for k."""
+        values = function(_indices("handle", handles)).reshape(-1, *shape)
+        return values if np.ndim(handles) else values[0]
 
     @property
     def vertices(self) -> Floats:
@@ -261,6 +270,10 @@ class Deformation:
     def clear_handles(self) -> None:
         self._session.clear_handles()
 
+    def clear_points(self) -> None:
+        """Erases the handles that are control points."""
+        self._session.clear_points()
+
     def locate(self, point: ArrayLike) -> Optional[Place]:
         """The place in a simplex that is nearest to a point (3,) where the shape is now. For a point
         outside of all tetrahedra the coordinates are those of the point itself: some are negative.
@@ -276,16 +289,25 @@ class Deformation:
     def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
         """The handle of a new control point with barycentric coordinates (k,) in a simplex.
         Messages number control points from 1: number k is the handle n + k - 1."""
-        number = _integers("simplex", simplex)
-        return self._session.insert_point(int(number), _floats("coordinates", coordinates, None))
+        return int(self._session.insert_points(_integers("simplex", [simplex], None),
+                                               _floats("coordinates", [coordinates], 1, None))[0])
 
-    def point_position(self, handle: int) -> Floats:
-        """(3,): where a control point is."""
-        return self._session.point_position(int(_integers("handle", handle)))
+    def insert_points(self, places: Sequence[Place]) -> NDArray[np.int32]:
+        """The handles of new control points at places, as ``locate_all()`` returns them; all of them
+        are inserted, or none."""
+        rows = itertools.zip_longest(*(place.coordinates for place in places), fillvalue=0)
+        return self._session.insert_points(
+            _integers("simplices", [place.simplex for place in places], None),
+            _floats("coordinates", list(zip(*rows)), None, None))
 
-    def target(self, handle: int) -> Floats:
-        """(3,): the target of a handle, or of a target set the point nearest to the handle."""
-        return self._session.target(int(_integers("handle", handle)))
+    def point_position(self, handles: ArrayLike) -> Floats:
+        """(3,): where a control point is, or (k, 3) of k control points."""
+        return self._values(self._session.point_positions, handles, 3)
+
+    def target(self, handles: ArrayLike) -> Floats:
+        """(3,): the target of a handle, or of a target set the point nearest to the handle; (k, 3)
+        of k handles."""
+        return self._values(self._session.targets, handles, 3)
 
     def set_targets(self, handles: Union[ArrayLike, Targets],
                     points: Optional[ArrayLike] = None) -> None:
@@ -294,15 +316,16 @@ class Deformation:
         self._session.set_targets(*_targets(handles if points is None else (handles, points)))
 
     def set_target_plane(self, handles: ArrayLike, point: ArrayLike, normal: ArrayLike) -> None:
-        """Pulls handles, whose weights are finite, toward a plane, along which they can glide. It is
-        their target until they get another one."""
-        self._session.set_target_plane(_indices("handles", handles),
-                                       _two("point", point, "normal", normal))
+        """Pulls handles, whose weights are finite, toward a plane, along which they can glide, or
+        each toward its own: point and normal are (3,) or (k, 3). It is their target until they get
+        another one, or are reset."""
+        self._session.set_target_planes(_indices("handles", handles), _rows("point", point, 3),
+                                        _rows("normal", normal, 3))
 
     def set_target_line(self, handles: ArrayLike, point: ArrayLike, direction: ArrayLike) -> None:
         """The same, toward a line."""
-        self._session.set_target_line(_indices("handles", handles),
-                                      _two("point", point, "direction", direction))
+        self._session.set_target_lines(_indices("handles", handles), _rows("point", point, 3),
+                                       _rows("direction", direction, 3))
 
     def set_target_surface(self, handles: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> None:
         """The same, toward the nearest points of a surface with vertices (k, 3) and faces of any
@@ -316,22 +339,23 @@ class Deformation:
         self._session.transform(_indices("handles", handles), _floats("matrix", matrix, None, 4),
                                 bool(from_rest))
 
-    def weight(self, handle: int) -> float:
-        """The weight of a target; infinite: hard."""
-        return float(self._session.weight(int(_integers("handle", handle))))
+    def weight(self, handles: ArrayLike) -> Any:
+        """The weight of a target, or (k,) of k targets; infinite: hard."""
+        return self._values(self._session.weights, handles)
 
-    def set_weight(self, handles: ArrayLike, weight: float = math.inf) -> None:
-        """Makes targets soft, with a weight in the unit of the edge weights; infinite: hard."""
-        self._session.set_weight(_indices("handles", handles), _float("weight", weight))
+    def set_weight(self, handles: ArrayLike, weight: ArrayLike = math.inf) -> None:
+        """Makes targets soft, with a weight in the unit of the edge weights, one for all or (k,);
+        infinite: hard."""
+        self._session.set_weights(_indices("handles", handles), _rows("weight", weight))
 
     def set_rotation(self, vertices: ArrayLike, rotation: Optional[ArrayLike] = None) -> None:
-        """Makes control vertices frames, with a rotation (3, 3) from the rest shape, or that of the
-        rigid motion of their targets."""
+        """Makes control vertices frames, with a rotation (3, 3) from the rest shape, one for each
+        (k, 3, 3), or that of the rigid motion of their targets."""
         if rotation is None:
             self._session.set_rotations_of_motion(_indices("vertices", vertices))
         else:
-            self._session.set_rotation(_indices("vertices", vertices),
-                                       _floats("rotation", rotation, 3, 3))
+            self._session.set_rotations(_indices("vertices", vertices),
+                                        _rows("rotation", rotation, 3, 3))
 
     def erase_rotations(self, vertices: ArrayLike) -> None:
         self._session.erase_rotations(_indices("vertices", vertices))
@@ -386,7 +410,7 @@ class Deformation:
 
     def reset(self) -> None:
         """Moves all vertices and targets back to the rest shape. Keeps the weights of the targets,
-        but erases prescribed rotations and velocities."""
+        but erases prescribed rotations and velocities, and makes points of targets that are sets."""
         self._session.reset()
 
     def make_rest_shape(self) -> None:
@@ -412,8 +436,9 @@ class Deformation:
 
     def rotations(self) -> Floats:
         """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells; identities
-        outside the region, and until the first run after a change of the region or the cells, or
-        after `reset()` or `make_rest_shape()`."""
+        outside the region, where no vertex of the cell is free, as inside a handle, and until the
+        first run after a change of the region or the cells, or after `reset()` or
+        `make_rest_shape()`."""
         return self._session.rotations().reshape(-1, 3, 3)
 
     def quality(self) -> Quality:

@@ -98,8 +98,13 @@ public:
     return point_at(point, [this](vertex_descriptor v) { return present(v); });
   }
 
-  // the point of a vertex of the region of interest in the rest shape
-  const Point& rest_point(vertex_descriptor v) const { return m_vertices.find(v)->rest; }
+  // the point of a vertex in the rest shape: where it is not finite, the one that it has now, which
+  // the next run takes
+  Point rest_point(vertex_descriptor v) const
+  {
+    const Point rest = m_vertices.rest(v);
+    return is_finite(Domain::coordinates(rest)) ? rest : present(v);
+  }
 
   Point rest_point(Control_point point) const
   {
