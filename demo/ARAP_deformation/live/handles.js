@@ -59,6 +59,12 @@ export const isThere = (handle) => handle.size > 0 || !!handle.point;
 export const handlesWithVertices = () =>
   [...page.shape.handles.keys()].filter((k) => page.shape.handles[k].size > 0);
 
+// statuses for files: the handles with these numbers get others, without gaps
+export function withoutGaps(status, numbers) {
+  const place = new Map(numbers.map((k, i) => [k + HANDLE, i + HANDLE]));
+  return status.map((s) => place.get(s) ?? s);
+}
+
 // the number of the first handle that is not there
 export const nextHandle = () =>
   Array.from({ length: page.shape.handles.length + 1 }, (_, k) => k).find(
@@ -86,11 +92,10 @@ export function recountHandles(fits) {
       if (isNew) handle.turns = size === 1;
       handle.pivot = center(shape.points, list);
     }
-    if (!size) handle.matrix = identity();
+    if (!size) Object.assign(handle, newHandle());
     handle.size = size;
   });
-  while (shape.handles.length && !shape.handles.at(-1).size && !shape.handles.at(-1).point)
-    shape.handles.pop();
+  while (shape.handles.length && !isThere(shape.handles.at(-1))) shape.handles.pop();
   shape.fixed = fixed;
   page.isHeld = fixed > 0 || shape.handles.length > 0;
   if (
@@ -102,6 +107,10 @@ export function recountHandles(fits) {
 
 // a matrix for each handle
 export const matrices = () => page.shape.handles.map((h) => h.matrix.slice());
+
+// The key frames, for the handles that there are: those of later handles have none of these.
+export const keyFrames = () =>
+  page.keys.map((key) => page.shape.handles.map((_, k) => key[k] ?? identity()));
 
 export function moveHandles(key) {
   page.shape.handles.forEach((h, k) => {

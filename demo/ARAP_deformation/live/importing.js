@@ -9,29 +9,26 @@ import {
   matrices,
   moveHandles,
   recountHandles,
+  withoutGaps,
 } from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
 import { originOf, shiftedMotion } from './motion.js';
 import { chooseTool, openInTurn, stopAll } from './opening.js';
-import { page } from './state.js';
+import { engine, page } from './state.js';
 import { change, inTurn } from './undo.js';
 
 export const formats = [...meshFormats, 'sel', 'def'];
 
 const mostHandles = 99;
 
-// { status, numbers }: with handles that are numbered without gaps, and which numbers they have in
-// the file
+// with handles that are numbered without gaps, and which numbers they have in the file
 function selectionOf({ name, bytes }, n) {
   const status = readSelection(name, bytes, n),
-    handles = [...new Set(status)].filter((s) => s >= HANDLE).sort((a, b) => a - b),
-    place = new Map(handles.map((s, k) => [s, k + HANDLE]));
-  if (handles.length > mostHandles)
-    throw new Error(`${name} has ${handles.length} handles, this page takes ${mostHandles}`);
-  return {
-    status: status.map((s) => place.get(s) ?? s),
-    numbers: handles.map((s) => s - HANDLE),
-  };
+    handles = [...new Set(status)].filter((s) => s >= HANDLE),
+    numbers = handles.map((s) => s - HANDLE).sort((a, b) => a - b);
+  if (numbers.length > mostHandles)
+    throw new Error(`${name} has ${numbers.length} handles, this page takes ${mostHandles}`);
+  return { status: withoutGaps(status, numbers), numbers };
 }
 
 // Replaces what is painted, and points.
@@ -68,7 +65,7 @@ async function openTogether(mesh, meshName, selection, transforms) {
     });
   if (mesh)
     await openInTurn(
-      { ...mesh, status: selected?.status },
+      { ...mesh, origin, status: selected?.status },
       meshName.replace(/(_rest)?\.\w+$/, ''), // the rest shape that was saved
       { note: mesh.note || (selected ? '' : `${meshName}: paint what stays, then what you hold.`) },
     );
@@ -87,6 +84,11 @@ async function openTogether(mesh, meshName, selection, transforms) {
 export async function openFiles(list) {
   const files = [...list].sort((a, b) => a.name.localeCompare(b.name, 'en', { numeric: true })),
     of = (...endings) => files.filter(({ name }) => endings.includes(endingOf(name)));
+  try {
+    await engine.ready;
+  } catch {
+    return; // the page has said it
+  }
   try {
     const other = files.find(({ name }) => !formats.includes(endingOf(name)));
     if (other) throw new Error(`${other.name}: only .${formats.join(', .')} files are read`);

@@ -21,31 +21,30 @@ export function matrixOf(pivot, q, place) {
 
 // a matrix without its rounding errors; null if it is no rigid motion
 export function rigid(matrix) {
-  const m = new THREE.Matrix4().set(...matrix),
-    p = new THREE.Vector3(),
-    q = new THREE.Quaternion();
-  m.decompose(p, q, new THREE.Vector3());
-  const motion = matrixOf([0, 0, 0], q.normalize(), p);
+  const pivot = [0, 0, 0],
+    { q, place } = rigidParts({ matrix, pivot }),
+    motion = matrixOf(pivot, q.normalize(), place);
   return motion.every((x, i) => Math.abs(x - matrix[i]) < 1e-3) ? motion : null;
 }
 
+const boxOf = (points) => new THREE.Box3().setFromArray(points);
+
 // of the box around points
-export const diagonalOf = (points) =>
-  new THREE.Box3().setFromArray(points).getSize(new THREE.Vector3()).length();
+export const diagonalOf = (points) => boxOf(points).getSize(new THREE.Vector3()).length();
 
 // What is subtracted from coordinates that are far from zero, as they are drawn in single
 // precision. To subtract it, and to add it to the result again, is exact.
 export function originOf(points) {
-  const box = new THREE.Box3().setFromArray(points),
-    size = box.getSize(new THREE.Vector3()).length();
-  return box
+  const size = diagonalOf(points);
+  return boxOf(points)
     .getCenter(new THREE.Vector3())
     .toArray()
     .map((x) => (Math.abs(x) > 10 * size ? x : 0));
 }
 
 // points that are moved by a multiple of a vector
-export const shifted = (points, by, factor) => points.map((x, i) => x + factor * by[i % 3]);
+export const shifted = (points, by, factor) =>
+  by.some((x) => x) ? points.map((x, i) => x + factor * by[i % 3]) : points;
 
 // a motion of points as one of the same points that are moved by a multiple of a vector
 export const shiftedMotion = (m, by, factor) =>

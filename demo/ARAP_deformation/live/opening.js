@@ -33,12 +33,11 @@ export function chooseTool() {
 }
 
 export async function openInTurn(
-  { points: given, simplices, corners, volume, status },
+  { points: given, simplices, corners, volume, status, origin = originOf(given) },
   name,
   { note = '', model = '' } = {},
 ) {
   const n = given.length / 3,
-    origin = originOf(given),
     points = shifted(given, origin, -1),
     starts = startsOf(simplices, corners),
     weights = $('weights').value;

@@ -8,11 +8,7 @@ export const options = () => ({
   bending_length: String(($('bending').value / 100) * (page.shape?.diagonal ?? 1)),
 });
 
-// in an order in which none refuses the other
-export async function sendOptions({ cells, minimizer, bending_length }) {
-  for (const some of [{ bending_length: '0' }, { cells, minimizer }, { bending_length }])
-    await engine.call('options', { options: some });
-}
+export const sendOptions = (wanted) => engine.call('options', { options: wanted });
 
 export function showOptions(kept) {
   $('cells').value = kept.cells;

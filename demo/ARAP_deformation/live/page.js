@@ -2,7 +2,6 @@
 import { FREE, HANDLE } from './colors.js';
 import { pump } from './follow.js';
 import { choose } from './handles.js';
-import { say } from './messages.js';
 import { identity, rigidParts } from './motion.js';
 import { open, openModel } from './opening.js';
 import { setTool } from './painting.js';
@@ -11,7 +10,7 @@ import { actions } from './panel.js';
 import { playFrame } from './playing.js';
 import './pointers.js';
 import { commandLine } from './saving.js';
-import { $, engine, measured, page, view } from './state.js';
+import { $, engine, giveUp, measured, page, view } from './state.js';
 import { steps } from './undo.js';
 
 function frame(time) {
@@ -98,8 +97,4 @@ window.arap = {
   engine,
 };
 
-engine.ready.catch((error) => {
-  $('help').hidden = $('tools').inert = $('panel').inert = true;
-  document.querySelector('main').inert = false; // for the message
-  say(`The engine could not be started: ${error.message}.`, true);
-});
+engine.ready.catch((error) => giveUp(`The engine could not be started: ${error.message}.`));

@@ -10,9 +10,9 @@ import {
 } from './actions.js';
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
-import { choose, handlesMoved, isThere, moveHandles, nextHandle } from './handles.js';
+import { choose, handlesMoved, isThere, keyFrames, moveHandles, nextHandle } from './handles.js';
 import { formats, openFiles } from './importing.js';
-import { closeHelp, say } from './messages.js';
+import { closeHelp } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
 import { openModel } from './opening.js';
@@ -110,12 +110,10 @@ function showPanel() {
   $('up').textContent = `Up: ${view.up}`;
   showButtons(
     $('keys'),
-    page.keys.map((key, i) => ({
+    keyFrames().map((key, i) => ({
       content: String(i + 1),
       title: 'Go there',
       onclick() {
-        if (key.length !== page.shape.handles.length)
-          return say('This key frame is of other handles.', true);
         moveHandles(key);
         handlesMoved();
         commitSoon();

@@ -1,7 +1,7 @@
 // Key frames, and films of them.
 import { placeGizmo } from './drawing.js';
 import { stopPlaying } from './follow.js';
-import { handlesMoved, matrices } from './handles.js';
+import { handlesMoved, keyFrames, matrices } from './handles.js';
 import { say } from './messages.js';
 import { identity, matrixOf, rigidParts } from './motion.js';
 import { save } from './saving.js';
@@ -15,9 +15,8 @@ export function addKey() {
 
 export function play(record) {
   if (page.playing) return stopPlaying();
-  const usable = page.keys.filter((key) => key.length === page.shape.handles.length);
-  if (!usable.length) return say('There is no key frame: move a handle, and choose Add.', true);
-  const path = [page.shape.handles.map(identity), ...usable];
+  if (!page.keys.length) return say('There is no key frame: move a handle, and choose Add.', true);
+  const path = [page.shape.handles.map(identity), ...keyFrames()];
   page.playing = {
     path,
     start: performance.now(),

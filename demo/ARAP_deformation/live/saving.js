@@ -1,9 +1,8 @@
 // Files that are saved, and the command that does the same with them.
-import { HANDLE } from './colors.js';
 import { writeMesh, writeSelection, writeTransforms } from './files.js';
-import { handlesWithVertices } from './handles.js';
+import { handlesWithVertices, keyFrames, withoutGaps } from './handles.js';
 import { complain, say } from './messages.js';
-import { diagonalOf, identity, shifted, shiftedMotion } from './motion.js';
+import { diagonalOf, shifted, shiftedMotion } from './motion.js';
 import { options } from './options.js';
 import { engine, hasUnsavedWork, page, view } from './state.js';
 
@@ -18,9 +17,8 @@ export function save(name, content, note = '') {
 
 // the handles of the files, which are numbered without gaps and have vertices
 function filed() {
-  const numbers = handlesWithVertices(),
-    place = new Map(numbers.map((k, i) => [k + HANDLE, i + HANDLE]));
-  return { numbers, status: page.shape.status.map((s) => place.get(s) ?? s) };
+  const numbers = handlesWithVertices();
+  return { numbers, status: withoutGaps(page.shape.status, numbers) };
 }
 
 // for a shell; where it cannot tell all, a second line has what is left out
@@ -89,10 +87,10 @@ export const saves = {
     const { numbers } = filed();
     if (!page.keys.length)
       return say('There is no key frame: move a handle, and choose Add.', true);
-    page.keys.forEach((key, i) =>
+    keyFrames().forEach((key, i) =>
       save(
         `${page.shape.name}-${i + 1}.def`,
-        writeTransforms(numbers.map((k) => inFile(key[k] ?? identity()))),
+        writeTransforms(numbers.map((k) => inFile(key[k]))),
       ),
     );
   },

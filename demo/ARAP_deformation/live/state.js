@@ -5,15 +5,19 @@ import { View } from './view.js';
 
 export const $ = (id) => document.getElementById(id);
 
+// for what the page cannot do without
+export function giveUp(sentence) {
+  $('help').hidden = $('tools').inert = $('panel').inert = true;
+  document.querySelector('main').inert = $('message').hidden = false;
+  $('message').className = 'error';
+  $('message').firstElementChild.textContent = sentence;
+}
+
 export const view = (() => {
   try {
     return new View($('view'));
   } catch (error) {
-    $('help').hidden = $('tools').inert = $('panel').inert = true;
-    document.querySelector('main').inert = $('message').hidden = false;
-    $('message').className = 'error';
-    $('message').firstElementChild.textContent =
-      'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+    giveUp('This browser does not draw in three dimensions: WebGL 2 is missing or switched off.');
     throw error;
   }
 })();

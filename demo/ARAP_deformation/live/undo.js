@@ -2,7 +2,7 @@
 import { draw } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
 import { heldStatus, recountHandles } from './handles.js';
-import { complain } from './messages.js';
+import { complain, say } from './messages.js';
 import { cellStiffness, heldStiffness, options, sendOptions, showOptions } from './options.js';
 import { changed, engine, page, view } from './state.js';
 
@@ -33,9 +33,12 @@ export async function commit() {
   const { shape } = page;
   if (!shape) return;
   page.isSaved = false;
+  const stiffness = heldStiffness(),
+    before = past[now]?.stiffness;
   const kept = {
     status: heldStatus().slice(),
-    stiffness: heldStiffness()?.slice() ?? null,
+    // the same object where it is the same: to set it costs a factorization
+    stiffness: stiffness && before?.every((k, v) => k === stiffness[v]) ? before : stiffness?.slice(),
     keys: page.keys.slice(),
     chosen: page.chosen,
     handles: structuredClone(shape.handles),
@@ -98,10 +101,15 @@ async function goTo(index) {
   if (index < 0 || index >= past.length || page.dragging || page.stroke) return;
   stopPlaying();
   const kept = past[index],
-    before = past[now];
+    before = past[now],
+    fails = kept === before, // what was tried since may have changed anything
+    state = await kept.state;
+  if (!state) {
+    if (!fails) say('There was not enough memory to keep this step.', true);
+    return;
+  }
   now = index;
-  const state = await kept.state;
-  if (!state) return;
+  if (!fails) page.isSaved = false;
   try {
     Object.assign(page.shape, {
       status: kept.status.slice(),
@@ -112,13 +120,15 @@ async function goTo(index) {
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
-    const hasStiffness = kept.stiffness || before.stiffness; // else the weights stay
-    if (JSON.stringify(kept.options) !== JSON.stringify(before.options)) {
+    const hasStiffness = kept.stiffness || before.stiffness,
+      hasOptions = JSON.stringify(kept.options) !== JSON.stringify(before.options);
+    if (hasOptions) {
       if (hasStiffness) await engine.call('stiffness', { values: [] }); // it may be of other cells
       showOptions(kept.options);
       await sendOptions(kept.options);
     }
-    if (hasStiffness) await engine.call('stiffness', { values: cellStiffness() });
+    if (hasStiffness && (hasOptions || fails || kept.stiffness !== before.stiffness))
+      await engine.call('stiffness', { values: cellStiffness() });
     const { points, rest } = await engine.call('restore', { state });
     page.shape.points = rest;
     page.spare = view.setPositions(points);
@@ -136,7 +146,6 @@ async function goTo(index) {
 const step = (by) =>
   inTurn(async () => {
     await commitNow();
-    page.isSaved = false;
     await goTo(now + by);
   });
 

@@ -67,7 +67,7 @@ function hold(next, handles) {
     pointHandles.push(session.insertPoint(handle.point.simplex, handle.point.coordinates));
     return pointHandles.slice(-1);
   });
-  handles.forEach((handle, k) => session.setWeight(vertices[k], handle.weight ?? Infinity));
+  handles.forEach((handle, k) => session.setWeight(vertices[k], handle.weight));
   move(handles);
 }
 

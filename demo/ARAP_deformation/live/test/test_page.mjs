@@ -127,6 +127,24 @@ const vertexOnPage = async (v) =>
   (await onPage([(await positions()).slice(3 * v, 3 * v + 3)]))[0];
 // where the middle of a bar is
 const middle = async () => vertexOnPage(((await state()).vertices / 2) | 0);
+// the names of what the page calls the engine for, while f is done
+async function callsOf(f) {
+  await page.evaluate(() => {
+    const { engine } = window.arap,
+      call = engine.call.bind(engine);
+    window.calls = [];
+    engine.call = (name, ...others) => {
+      window.calls.push(name);
+      return call(name, ...others);
+    };
+  });
+  await f();
+  await settled();
+  return page.evaluate(() => {
+    delete window.arap.engine.call;
+    return window.calls;
+  });
+}
 async function paintMiddle() {
   const [x, y] = await middle();
   await drag([x - 30, y + 30], [x + 30, y - 30]);
@@ -458,6 +476,16 @@ const steps = {
     const bar = models.bar[1](),
       path = join(files, 'my_bar.off');
     writeFileSync(path, off(bar));
+    // where there is nothing to undo, there is no work to be lost
+    await openFile(path);
+    await page.waitForFunction(() => window.arap.state()?.name === 'my_bar');
+    await settled();
+    await page.keyboard.down('Control');
+    await page.keyboard.press('z');
+    await page.keyboard.up('Control');
+    const { length } = questions;
+    await openModel('sheet');
+    assert.equal(questions.length, length);
     await openFile(path);
     await page.waitForFunction(() => window.arap.state()?.name === 'my_bar');
     let now = await settled();
@@ -634,7 +662,11 @@ const steps = {
     await page.mouse.up();
     await settled();
     // cells without bending, after bending
-    await bend(5);
+    const calls = await callsOf(() => bend(5));
+    assert.deepEqual(
+      calls.filter((name) => name === 'options' || name === 'stiffness'),
+      ['options'],
+    );
     await page.select('#cells', 'elements');
     const { energy } = await settled();
     await twoSteps('#undo');
@@ -665,6 +697,13 @@ const steps = {
     await settled();
     await twoSteps('#undo');
     assert(Math.abs((await state()).energy / stiff - 1) < 1e-2, 'undo after undo');
+    // a drag that is undone costs no factorization, which a stiffness does
+    await page.keyboard.press('g');
+    await dragHandle(30, 0);
+    await page.mouse.up();
+    await settled();
+    assert(!(await callsOf(() => twoSteps('#undo'))).includes('stiffness'));
+    assert(Math.abs((await state()).energy / stiff - 1) < 1e-2, 'undo of a drag');
     // weights that fail when their session is half made: the one before goes on, with its states
     const { energy: kept, undo } = await state();
     await page.evaluate(() => {
@@ -793,6 +832,18 @@ const steps = {
     assert(await page.$eval('#soft', (s) => s.checked));
     assert.equal(await message(), '');
     await page.evaluate(() => document.activeElement.blur());
+    // a new handle is not what one with its number was
+    await page.evaluate(() => window.arap.choose(0));
+    await page.click('#soft');
+    assert.notEqual((await settled()).handles[0].weight, null);
+    await page.keyboard.press('Delete');
+    await settled();
+    await page.keyboard.press('b');
+    await page.keyboard.press('2');
+    await paintMiddle();
+    const [{ vertices, weight }] = (await settled()).handles;
+    assert(vertices > 0);
+    assert.equal(weight, null);
   },
 
   async 'a stroke while a shape is opened'() {
@@ -1087,6 +1138,24 @@ const steps = {
     await page.click('#undo');
     const before = await settled();
     assert.deepEqual([before.keys, before.handles.length], [3, 1]);
+    // in key frames from before, a later handle is at rest
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    await paintMiddle();
+    await settled();
+    await page.keyboard.press('g');
+    await page.keyboard.press('ArrowUp');
+    await rest(600);
+    assert((await settled()).handles[1].matrix[7] !== 0);
+    await page.click('#keys button:nth-child(1)');
+    assert.equal(await message(), '');
+    assert.deepEqual(
+      (await settled()).handles.map(({ matrix }) => [matrix[3] !== 0, matrix[7] !== 0]),
+      [[true, true], [false, false]],
+    );
+    await page.click('#play');
+    await page.waitForFunction(() => window.arap.state().handles[0].matrix[11] === 0.25, { timeout: 20000 });
+    assert.deepEqual((await settled()).handles[1].matrix[7], 0);
   },
 
   async 'rest shape from now'() {
