@@ -391,7 +391,8 @@ public:
   /// surface: it is pulled toward the nearest point of the set, along which it can glide.
   ///
   /// `projection(p)` returns the point of the set that is nearest to `p`, such as
-  /// `ARAP::projection_onto(plane)`. Each evaluation of the energy calls it for the present
+  /// `ARAP::projection_onto(plane)`; with any other point the energy may rise, and the run fail
+  /// with `ARAP::Status::solver_failed`. Each evaluation of the energy calls it for the present
   /// position, one after the other for all targets; it must not change this object. The system
   /// remains as it is, and the energy, with the term \f$m \|p'_v - \pi(p'_v)\|^2\f$, still never
   /// rises. An exception from it ends the run and changes nothing.

@@ -25,6 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 
 #include <Eigen/Dense>
@@ -284,6 +285,11 @@ Array<char> fixed_vertices(const Region& region)
   return result;
 }
 
+Coarse_region coarse_region(const Region& fine, const Array<char>& is_fixed)
+{
+  return Coarse_region(fine, is_fixed, find_free_neighborhood(fine, is_fixed).is_near);
+}
+
 // A coarse surface has the topology of the fine one and its orientation, and the positions of some
 // of its vertices. Where some are fixed, it has all polygons at vertices beside free ones, and no
 // other.
@@ -294,8 +300,8 @@ void test_region(const std::string& name, const Region& fine, int euler_characte
   for(const bool has_fixed : {false, true})
   {
     const Array<char> is_fixed = has_fixed ? fixed_vertices(fine) : Array<char>(n, false);
-    const Coarse_region coarse(fine, is_fixed);
-    const Region& region = coarse.region();
+    Coarse_region coarse = coarse_region(fine, is_fixed);
+    const Region region = coarse.release_region();
     const int m = region.number_of_vertices();
     CHECK(m > 10 && m == coarse.space().number_of_nodes());
     std::set<std::array<int, 2>> edges; // of polygons, from one corner to the next
@@ -366,8 +372,8 @@ void test_order(const Shape& shape)
       CHECK(static_cast<std::size_t>(other.vertex_of(node)) ==
             place[static_cast<std::size_t>(space.vertex_of(node))]);
   };
-  compare(Coarse_region(region, fixed_vertices(region)).space(),
-          Coarse_region(other_region, fixed_vertices(other_region)).space());
+  compare(coarse_region(region, fixed_vertices(region)).space(),
+          coarse_region(other_region, fixed_vertices(other_region)).space());
   Problem problem(region, Energy_model(), 0.01), other(other_region, Energy_model(), 0.01);
   problem.minimization();
   other.minimization();

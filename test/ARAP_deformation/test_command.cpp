@@ -604,6 +604,21 @@ void test_handles()
   CHECK(run("in.off --selection two.sel" + way + "a.off").exit_code == 0);
   CHECK(run("in.off --fix z:..0.49" + picks + way + "b.off").exit_code == 0);
   CHECK(content(folder / "a-0001.off") == content(folder / "b-0001.off"));
+  std::string at_vertices, at_points;
+  const std::vector<std::size_t> held = {shape.points.size() - 1, shape.points.size() / 2};
+  for(std::size_t v : held)
+  {
+    std::ostringstream place;
+    place.precision(17);
+    place << shape.points[v].x() << ',' << shape.points[v].y() << ',' << shape.points[v].z();
+    at_vertices += " --handle list:" + std::to_string(v);
+    at_points += " --handle point:" + place.str();
+  }
+  CHECK(run("in.off --fix z:..0.49" + at_vertices + way + "a.off").exit_code == 0);
+  CHECK(run("in.off --fix z:..0.49" + at_points + way + "b.off").exit_code == 0);
+  const auto as_vertices = read_points("a-0001.off"), as_points = read_points("b-0001.off");
+  for(std::size_t v : held)
+    CHECK_AT_MOST((as_vertices[v] - as_points[v]).norm(), 1e-9);
 
   write("three.def", first + first + second);
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,

@@ -158,7 +158,7 @@ void test_rounded_sets(Region region)
       return p;
     };
     problem.constraints.rows.append(1, 1.5);
-    problem.targets.add_soft({0, 0, 0});
+    problem.targets.soft.push_back({0, 0, 0});
     problem.targets.add_set([=](const Coordinates& p) {
       Coordinates projection = rounded(p);
       add(projection, 0.3 - dot(normal, projection), normal);
@@ -184,7 +184,7 @@ void test_far_target(const Region& region)
   test_case() = "a far target";
   Problem problem(region, Energy_model(), 0.01);
   problem.constraints.rows.append(1, 1e-30);
-  problem.targets.add_soft({1e7, 0, 0});
+  problem.targets.soft.push_back({1e7, 0, 0});
   Minimization run = problem.minimization();
   run.evaluate();
   run.report.energy.push_back(run.value());

@@ -751,6 +751,12 @@ void test_mended_points()
   CHECK(s.d.deform());
   CHECK(s.d.restore(before));
   CHECK(s.mesh.point(v) == sound);
+  const Vertex moved(80);
+  CHECK(s.d.is_roi_vertex(moved) && s.d.deform());
+  CHECK(s.mesh.point(moved) != s.d.rest_position(moved));
+  const Point now = s.mesh.point(moved);
+  s.d.overwrite_initial_geometry();
+  CHECK(s.d.rest_position(moved) == now);
 
   t.mesh.point(v) = broken;
   t.d.insert_roi_vertex(v);
@@ -771,6 +777,15 @@ void test_mended_points()
   CHECK(d.deform());
   d.reset();
   CHECK(output[v] == sound);
+  input.point(v) = broken;
+  CGAL::ARAP_deformation late(CGAL::ARAP::make_face_graph_domain(input, output));
+  late.insert_roi_vertices(vertices(input));
+  input.point(v) = sound;
+  CHECK(late.rest_position(v) == sound);
+  late.insert_control_vertex(v);
+  late.insert_control_vertex(Vertex(168), Point(1, 1, 0.5));
+  CHECK(late.target_position(v) == sound);
+  CHECK(late.deform() && output[v] == sound && late.rest_position(v) == sound);
 }
 
 // What is wrong where nothing can move any more is not asked for.

@@ -899,6 +899,30 @@ void test_failures()
   smoothed.set_sre_arap_alpha(0);
   CHECK(smoothed.deform());
 
+  test_case() = "edges without faces, to vertices without cells";
+  Shape strip = {"strip", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}},
+                 {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}}};
+  Mesh emptied = make_mesh<Mesh>(strip);
+  for(const Mesh::Face_index face : {Mesh::Face_index(1), Mesh::Face_index(2)})
+  {
+    for(Mesh::Halfedge_index h : emptied.halfedges_around_face(emptied.halfedge(face)))
+      emptied.set_face(h, Mesh::null_face());
+    emptied.remove_face(face);
+  }
+  strip.triangles = {strip.triangles[0], strip.triangles[3]};
+  Mesh apart = make_mesh<Mesh>(strip);
+  for(Mesh* cut : {&emptied, &apart})
+  {
+    Our_class<Mesh, CGAL::SRE_ARAP> at_edges(*cut);
+    for(const Mesh::Vertex_index v : {Mesh::Vertex_index(0), Mesh::Vertex_index(1)})
+      CHECK(at_edges.insert_control_vertex(v));
+    CHECK(at_edges.insert_roi_vertex(Mesh::Vertex_index(2)));
+    at_edges.set_target_position(Mesh::Vertex_index(1), Point(0.8, 0.6, 0));
+    CHECK(at_edges.deform(3, 0));
+    CHECK(cut->point(Mesh::Vertex_index(2)) != point(strip.points[2]));
+  }
+  CHECK(same_points(emptied, apart));
+
   for(const double value : {std::nan(""), HUGE_VAL, -1000.0})
   {
     test_case() = "the weight " + std::to_string(value);

@@ -412,8 +412,8 @@ private:
     return region;
   }
 
-  using Solver = typename internal::Select_sparse_solver<ST>::type;
-  using Rotation = typename internal::Select_closest_rotation<CR>::type;
+  using Solver = typename internal::Select_sparse_solver<Sparse_linear_solver>::type;
+  using Rotation = typename internal::Select_closest_rotation<Closest_rotation_traits>::type;
   using Weights = internal::Halfedge_weights<Triangle_mesh, Vertex_index_map, Hedge_index_map,
                                              Vertex_point_map, Weight_calculator>;
   using Domain = std::conditional_t<

@@ -111,21 +111,15 @@ private:
   // the rows of S, and the others
   static Supernodes dense_supernodes(int negative, int n)
   {
-    Supernodes result;
-    result.columns.assign(1, 0);
-    result.rows_begin.assign(1, 0);
-    if(negative > 0)
-    {
-      for(int i = negative; i < n; ++i)
-        result.rows.push_back(i);
-      result.columns.push_back(negative);
-      result.rows_begin.push_back(result.rows.size());
-    }
-    if(negative < n)
-    {
-      result.columns.push_back(n);
-      result.rows_begin.push_back(result.rows.size());
-    }
+    Supernodes result = {{0}, {0}, {}};
+    for(int end : {negative, n})
+      if(end > result.columns.back())
+      {
+        for(int i = end; i < n; ++i)
+          result.rows.push_back(i);
+        result.columns.push_back(end);
+        result.rows_begin.push_back(result.rows.size());
+      }
     return result;
   }
 

@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Multifrontal_cholesky.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodal_structure.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
@@ -87,7 +88,7 @@ private:
   void find_entries(const Sparse_matrix& a, const Supernodes& supernodes,
                     const Array<int>& position)
   {
-    const Array<int> supernode_of = supernode_of_columns(supernodes.columns);
+    const Array<int> supernode_of = list_of_each(supernodes.columns);
     const int* const begin = a.outerIndexPtr();
     const int* const row = a.innerIndexPtr();
     m_entries_begin.assign(supernodes.size() + 2, 0);

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Supernodes.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Tree_blocks.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
@@ -60,7 +61,7 @@ public:
   // `order` has for each column of the factor the row of the matrix that it belongs to.
   Supernodal_structure(const Supernodes& supernodes, const Array<int>& order)
   {
-    const Array<int> supernode_of = supernode_of_columns(supernodes.columns);
+    const Array<int> supernode_of = list_of_each(supernodes.columns);
     Array<int> parent(supernodes.size());
     for(std::size_t s = 0; s < supernodes.size(); ++s)
       parent[s] = supernodes.below(s) == 0

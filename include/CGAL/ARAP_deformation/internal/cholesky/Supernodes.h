@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
 
 #include <Eigen/SparseCore>
@@ -40,15 +41,6 @@ struct Supernodes
   int width(std::size_t s) const { return columns[s + 1] - columns[s]; }
   int below(std::size_t s) const { return static_cast<int>(rows_begin[s + 1] - rows_begin[s]); }
 };
-
-// the supernode of each column, from where the columns of each supernode begin
-inline Array<int> supernode_of_columns(const Array<int>& columns)
-{
-  Array<int> result(columns.back());
-  for(std::size_t s = 0; s + 1 < columns.size(); ++s)
-    std::fill(result.begin() + columns[s], result.begin() + columns[s + 1], static_cast<int>(s));
-  return result;
-}
 
 // Where supernodes begin, and at last the number of columns. Columns with the same rows form
 // supernodes, which are then merged with their parents if that adds few zeros to the factor: fewer
@@ -104,13 +96,13 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
     const int p = unsorted_parent[post[j]];
     parent[j] = p < 0 ? -1 : post_position[p];
   }
-  const Triangle_pattern lower = permuted_triangle(a, inverse_permutation(order), true);
+  const Index_lists lower = permuted_triangle(a, inverse_permutation(order), true);
 
   Supernodes result;
   result.columns = supernode_columns(parent, column_counts(lower, parent));
   const std::size_t n = result.columns.size() - 1;
   result.rows_begin.assign(1, 0);
-  const Array<int> supernode_of = supernode_of_columns(result.columns);
+  const Array<int> supernode_of = list_of_each(result.columns);
   Array<int> first_child(n, -1), next_child(n, -1);
   Array<int> seen(order.size(), -1); // the last supernode that a row was found in
   for(std::size_t s = 0; s < n; ++s)
@@ -125,7 +117,7 @@ inline Supernodes find_supernodes(const Sparse_matrix& a, Array<int>& order)
         }
     };
     const std::size_t rows = result.rows_begin[s];
-    add(lower.rows.data() + lower.begin[begin], lower.rows.data() + lower.begin[end]);
+    add(lower.items.data() + lower.begin[begin], lower.items.data() + lower.begin[end]);
     for(int child = first_child[s]; child >= 0; child = next_child[child])
     {
       // not pointers: the rows grow

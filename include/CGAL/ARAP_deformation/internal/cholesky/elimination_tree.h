@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 
 #include <Eigen/SparseCore>
 
@@ -39,20 +40,13 @@ inline Array<int> inverse_permutation(const Array<int>& order)
   return position;
 }
 
-// The pattern of one triangle of a symmetric matrix without its diagonal, column by column.
-struct Triangle_pattern
-{
-  Array<int> begin, rows;
-};
-
-// A triangle of P A P^T: the lower, or if not so the upper one. The rows are in any order.
-inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const Array<int>& position,
-                                          bool is_lower)
+// The rows of each column of a triangle of P A P^T without its diagonal: the lower triangle, or if
+// not so the upper one. The rows are in any order.
+inline Index_lists permuted_triangle(const Sparse_matrix& a, const Array<int>& position,
+                                     bool is_lower)
 {
   const int n = static_cast<int>(a.cols());
-  Triangle_pattern triangle;
-  triangle.begin = Array<int>(n + 2, 0);
-  const auto for_each_entry = [&](const auto& f) {
+  return lists_of_pairs(n, [&](const auto& f) {
     for(int j = 0; j < n; ++j)
       for(int k = a.outerIndexPtr()[j]; k < a.outerIndexPtr()[j + 1]; ++k)
         if(const int i = a.innerIndexPtr()[k]; i != j)
@@ -60,24 +54,18 @@ inline Triangle_pattern permuted_triangle(const Sparse_matrix& a, const Array<in
           const auto [first, last] = std::minmax(position[i], position[j]);
           is_lower ? f(first, last) : f(last, first);
         }
-  };
-  for_each_entry([&](int column, int) { ++triangle.begin[column + 2]; });
-  std::partial_sum(triangle.begin.begin(), triangle.begin.end(), triangle.begin.begin());
-  triangle.rows = Array<int>(triangle.begin.back());
-  for_each_entry([&](int column, int row) { triangle.rows[triangle.begin[column + 1]++] = row; });
-  triangle.begin.pop_back();
-  return triangle;
+  });
 }
 
 // The parent of each column, or -1 for roots, from the upper triangle. See Liu, The role of
 // elimination trees in sparse factorization.
-inline Array<int> elimination_tree(const Triangle_pattern& upper)
+inline Array<int> elimination_tree(const Index_lists& upper)
 {
-  const int n = static_cast<int>(upper.begin.size()) - 1;
+  const int n = upper.size();
   Array<int> parent(n, -1), ancestor(n, -1);
   for(int j = 0; j < n; ++j)
     for(int k = upper.begin[j]; k < upper.begin[j + 1]; ++k)
-      for(int i = upper.rows[k]; i != -1 && i < j;)
+      for(int i = upper.items[k]; i != -1 && i < j;)
       {
         const int next = ancestor[i];
         ancestor[i] = j;
@@ -123,7 +111,7 @@ inline Array<int> postorder(const Array<int>& parent)
 // The number of rows of each column of the factor, the diagonal included; the columns are in
 // postorder. See Gilbert, Ng and Peyton, An efficient algorithm to compute row and column counts
 // for sparse Cholesky factorization.
-inline Array<int> column_counts(const Triangle_pattern& lower, const Array<int>& parent)
+inline Array<int> column_counts(const Index_lists& lower, const Array<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
   Array<int> count(n, 0), first(n, -1), largest_first(n, -1), previous_leaf(n, -1), ancestor(n);
@@ -140,7 +128,7 @@ inline Array<int> column_counts(const Triangle_pattern& lower, const Array<int>&
       --count[parent[j]];
     for(int k = lower.begin[j]; k < lower.begin[j + 1]; ++k)
     {
-      const int i = lower.rows[k];
+      const int i = lower.items[k];
       if(first[j] <= largest_first[i])
         continue;
       // column j is a leaf of the subtree of row i

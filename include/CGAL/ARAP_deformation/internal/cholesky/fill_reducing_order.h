@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -33,8 +34,12 @@ namespace internal {
 
 // These return the row of the matrix for each row of the factor.
 
+// Throws std::length_error if numbers of the workspace are no indices.
 inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 {
+  const auto n = static_cast<std::size_t>(a.cols());
+  const std::size_t entries = 2 * static_cast<std::size_t>(a.nonZeros()) - n;
+  to_index(entries + entries / 5 + 2 * n); // Eigen's code does not check it
   Eigen::AMDOrdering<int>::PermutationType order;
   Eigen::AMDOrdering<int>()(a.selfadjointView<Eigen::Lower>(), order);
   return Array<int>(order.indices().data(), order.indices().data() + order.size());

@@ -17,13 +17,13 @@
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_blocks.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_pattern.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/solver/Laplacian.h>
 

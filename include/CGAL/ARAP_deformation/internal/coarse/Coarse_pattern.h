@@ -16,12 +16,12 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 
 #include <Eigen/SparseCore>

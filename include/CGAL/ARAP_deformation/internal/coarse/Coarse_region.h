@@ -15,8 +15,8 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 
 #include <algorithm>
@@ -35,10 +35,11 @@ namespace internal {
 class Coarse_region
 {
 public:
-  // `fine` is a surface; `is_fixed` has an entry for each of its movable vertices
-  Coarse_region(const Region& fine, const Array<char>& is_fixed)
-    : m_is_free(free_vertices(fine, is_fixed)), m_is_near(near_vertices(fine)),
-      m_space(graph_of(fine), fine.rest, complement(m_is_free), vertices_of_a_ball)
+  // `fine` is a surface, and `is_fixed` has an entry for each of its movable vertices. `is_near`
+  // tells which vertices are free or beside such: all polygons at these are needed, as fixed
+  // vertices have cells, too.
+  Coarse_region(const Region& fine, const Array<char>& is_fixed, const Array<char>& is_near)
+    : m_is_fixed(is_fixed), m_space(space_of(fine, is_near))
   {
     const int m = m_space.number_of_nodes();
     m_region.is_planar = fine.is_planar;
@@ -50,15 +51,14 @@ public:
     m_region.indices = Array<std::size_t>(m);
     std::iota(m_region.indices.begin(), m_region.indices.end(), std::size_t(0));
     for(int s = 0; s < fine.number_of_simplices(); ++s)
-      if(has_corner(fine, s, m_is_near))
+      if(has_corner(fine, s, is_near))
         add_polygon(fine, s);
     m_region.number_of_movable_simplices = m_region.number_of_simplices();
   }
 
-  const Region& region() const { return m_region; }
   Region release_region() { return std::move(m_region); }
   const Coarse_space& space() const { return m_space; }
-  bool is_fixed(int node) const { return !m_is_free[m_space.vertex_of(node)]; }
+  bool is_fixed(int node) const { return m_is_fixed[m_space.vertex_of(node)] != 0; }
 
 private:
   // makes about one vertex in five a node, as balls overlap
@@ -71,39 +71,18 @@ private:
                        [&](int v) { return is_chosen[v] != 0; });
   }
 
-  static Array<char> free_vertices(const Region& fine, const Array<char>& is_fixed)
+  Coarse_space space_of(const Region& fine, const Array<char>& is_near)
   {
-    Array<char> result(fine.number_of_vertices(), false);
-    for(int v = 0; v < fine.number_of_movable_vertices; ++v)
-      result[v] = !is_fixed[v];
-    return result;
-  }
-
-  // The free vertices and those beside them: all polygons at these are needed, as fixed vertices
-  // have cells, too.
-  Array<char> near_vertices(const Region& fine) const
-  {
-    Array<char> result(fine.number_of_vertices(), false);
-    for(int s = 0; s < fine.number_of_simplices(); ++s)
-      if(has_corner(fine, s, m_is_free))
-        for(int k = 0; k < fine.number_of_corners(s); ++k)
-          result[fine.corners_of(s)[k]] = true;
-    return result;
-  }
-
-  static Array<char> complement(Array<char> chosen)
-  {
-    for(char& is_chosen : chosen)
-      is_chosen = !is_chosen;
-    return chosen;
+    m_is_fixed.resize(static_cast<std::size_t>(fine.number_of_vertices()), true); // the others
+    return Coarse_space(graph_of(fine, is_near), fine.rest, m_is_fixed, vertices_of_a_ball);
   }
 
   // the neighbors of each vertex, twice where they are so in two polygons
-  Index_lists graph_of(const Region& fine) const
+  static Index_lists graph_of(const Region& fine, const Array<char>& is_near)
   {
     return lists_of_pairs(fine.number_of_vertices(), [&](const auto& f) {
       for(int s = 0; s < fine.number_of_simplices(); ++s)
-        if(has_corner(fine, s, m_is_near))
+        if(has_corner(fine, s, is_near))
         {
           const int* const corners = fine.corners_of(s);
           for(int n = fine.number_of_corners(s), k = n - 1, l = 0; l < n; k = l++)
@@ -129,7 +108,7 @@ private:
       m_region.first_corner.push_back(static_cast<int>(corners.size()));
   }
 
-  Array<char> m_is_free, m_is_near; // for each vertex
+  Array<char> m_is_fixed; // for each vertex
   Coarse_space m_space;
   Region m_region;
 };

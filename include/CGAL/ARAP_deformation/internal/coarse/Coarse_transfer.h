@@ -16,9 +16,9 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
@@ -111,18 +111,14 @@ struct Prolongation_kernel
 class Coarse_transfer
 {
 public:
-  explicit Coarse_transfer(Coarse_space space) : m_space(std::move(space))
-  {
-    const int n = m_space.number_of_vertices(), m = m_space.number_of_nodes();
-    Index_lists next; // the node next to each vertex
-    for(int v = 0; v < n; ++v)
-    {
-      if(m_space.has_nodes(v))
-        next.items.push_back(m_space.nodes(v)[0]);
-      next.end_list();
-    }
-    m_vertices_of = lists_with(next, m);
-  }
+  explicit Coarse_transfer(Coarse_space space)
+    : m_space(std::move(space)),
+      m_vertices_of(lists_of_pairs(m_space.number_of_nodes(), [this](const auto& f) {
+        for(int v = 0; v < m_space.number_of_vertices(); ++v)
+          if(m_space.has_nodes(v))
+            f(m_space.nodes(v)[0], v);
+      }))
+  {}
 
   const Coarse_space& space() const { return m_space; }
 

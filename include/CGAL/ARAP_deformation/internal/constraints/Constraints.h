@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <cstddef>
@@ -92,18 +92,11 @@ public:
               m_weights[r] * m_coefficients[k] * m_coefficients[l]);
   }
 
-  // Calls f(v, b) for each vertex of a row and its coefficient.
-  template <typename Function>
-  void for_each_coefficient(int r, const Function& f) const
-  {
-    row(r).for_each_coefficient(f);
-  }
-
   // B_r x
   Coordinates value(int r, const Coordinates* x) const
   {
     Coordinates sum = {0, 0, 0};
-    for_each_coefficient(r, [&](int v, double b) { add(sum, b, x[v]); });
+    row(r).for_each_coefficient([&](int v, double b) { add(sum, b, x[v]); });
     return sum;
   }
 
@@ -136,7 +129,8 @@ public:
   {
     const Array<int> a_order = a.order(), b_order = b.order();
     const auto visit = [&f](const Weighted_rows& rows, int r) {
-      rows.for_each_coefficient(r, [&f](int v, double) { f(v); });
+      for(int v : rows.row(r))
+        f(v);
     };
     auto i = a_order.begin(), j = b_order.begin();
     while(i != a_order.end() || j != b_order.end())
@@ -213,17 +207,11 @@ struct Targets
 
   void project(const Weighted_rows& rows, const Array<Coordinates>& x);
 
-  // the target of the next soft or hard row
-  void add_soft(const Coordinates& target) { soft.push_back(target); }
-  void add_hard(const Coordinates& target) { hard.push_back(target); }
-
   // makes the target of the last soft row a set
   void add_set(std::function<Coordinates(const Coordinates&)> projection)
   {
     sets.push_back({static_cast<int>(soft.size()) - 1, std::move(projection)});
   }
-
-  void add_frame(int vertex, const Matrix_3x3& rotation) { frames.push_back({vertex, rotation}); }
 };
 
 } // namespace internal

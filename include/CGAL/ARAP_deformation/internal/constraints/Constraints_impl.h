@@ -81,7 +81,7 @@ double Weighted_rows::pull(const Array<Coordinates>& targets,
     return sum;
   });
   for(int r = 0; r < size(); ++r) // one after the other: rows may share vertices
-    for_each_coefficient(r, [&](int v, double b) { add(forces[v], b, pulls[r]); });
+    row(r).for_each_coefficient([&](int v, double b) { add(forces[v], b, pulls[r]); });
   return energy;
 }
 

@@ -16,14 +16,10 @@
 
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
-#include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Sparse_linear_algebra_adaptor.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/rotation/closest_rotation_requirements.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
-
-#include <CGAL/Default.h>
 
 #include <tuple>
 #include <type_traits>
@@ -56,9 +52,6 @@ struct Select_sparse_solver
   using type = std::conditional_t<is_sparse_solver<T>, T, Sparse_linear_algebra_adaptor<T>>;
 };
 
-template <>
-struct Select_sparse_solver<Default> { using type = Multifrontal_cholesky_solver; };
-
 // the model of ARAPClosestRotation for what a user gave, which may be a model of CGAL's concept
 template <typename T>
 struct Select_closest_rotation
@@ -70,9 +63,6 @@ struct Select_closest_rotation
   using type =
     std::conditional_t<is_closest_rotation<T>, T, Closest_rotation_traits_adaptor<T>>;
 };
-
-template <>
-struct Select_closest_rotation<Default> { using type = Newton_closest_rotation; };
 
 // What CGAL's class is given for its solver and its rotation where only its types are asked for:
 // it then needs neither Eigen nor a model of these concepts.

@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace CGAL {
@@ -140,7 +141,8 @@ public:
         continue;
       const double factor = m_factors[i] * m_inverse_masses[i];
       const int begin = m_stars.neighbors.begin[i], end = m_stars.neighbors.begin[i + 1];
-      const double own = sum_of_weights(i);
+      const double own = std::accumulate(m_stars.weights.begin() + begin,
+                                         m_stars.weights.begin() + end, 0.0);
       for(int a = begin; a < end; ++a)
       {
         f(i, m_stars.neighbors.items[a], factor * own * m_stars.weights[a]);
@@ -245,14 +247,6 @@ public:
 
 private:
   int size() const { return static_cast<int>(m_factors.size()); }
-
-  double sum_of_weights(int i) const
-  {
-    double sum = 0;
-    for(int e = m_stars.neighbors.begin[i]; e < m_stars.neighbors.begin[i + 1]; ++e)
-      sum += m_stars.weights[e];
-    return sum;
-  }
 
   Form_view view(const Array<double>& factors) const
   {

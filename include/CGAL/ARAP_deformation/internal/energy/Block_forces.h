@@ -16,8 +16,8 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
@@ -51,18 +51,16 @@ struct Gather_kernel
 class Block_forces
 {
 public:
-  Block_forces() = default;
-
   Block_forces(const Index_lists& corners, int number_of_vertices)
     : m_block_size((std::max)(static_cast<int>(default_block_size), corners.size() / 64)),
       m_places(corners.items.size())
   {
     const auto largest = std::max_element(corners.items.begin(), corners.items.end());
     Array<int> place(largest == corners.items.end() ? 0 : *largest + 1, -1); // in the last block
-    Index_lists vertices; // one list, of the vertex at each place
+    Array<int> vertices; // at each place
     for(int s = 0; s < corners.size(); ++s)
     {
-      const auto number_of_places = static_cast<int>(vertices.items.size());
+      const auto number_of_places = static_cast<int>(vertices.size());
       if(s % m_block_size == 0)
         m_first_place.push_back(number_of_places);
       for(int k = corners.begin[s]; k < corners.begin[s + 1]; ++k)
@@ -70,16 +68,15 @@ public:
         const int v = corners.items[k];
         if(place[v] < m_first_place.back())
         {
-          place[v] = static_cast<int>(vertices.items.size());
-          vertices.items.push_back(v);
+          place[v] = static_cast<int>(vertices.size());
+          vertices.push_back(v);
         }
         m_places[k] = place[v];
       }
     }
-    vertices.end_list();
-    m_first_place.push_back(vertices.begin.back());
+    m_first_place.push_back(to_index(vertices.size()));
     m_places_of_vertices = places_of(vertices, number_of_vertices);
-    m_forces = Array<Double4>(vertices.items.size(), Double4::zero());
+    m_forces = Array<Double4>(vertices.size(), Double4::zero());
   }
 
   int block_size() const { return m_block_size; } // in simplices

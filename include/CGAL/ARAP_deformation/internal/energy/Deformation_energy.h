@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
@@ -28,7 +29,6 @@
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Closest_rotations.h>
@@ -58,8 +58,6 @@ namespace internal {
 class Deformation_energy
 {
 public:
-  Deformation_energy() = default;
-
   // `cells` is a Star_energy or a Simplex_energy. The rest shape stays where it is.
   template <typename CellEnergy>
   Deformation_energy(CellEnergy cells, const Array<Coordinates>& rest,

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/energy/edge_weight_requirements.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 
 #include <array>
@@ -68,10 +69,6 @@ using Call_weights_of_halfedges =
   decltype(std::declval<const Weight&>().weights_of_halfedges(std::array<std::size_t, 3>()));
 
 template <typename Weight>
-using Call_tetrahedron_weights_of =
-  decltype(std::declval<const Weight&>().simplex_weights(Edge_weight_model::Tetrahedron()));
-
-template <typename Weight>
 class Edge_weight_model_of : public Edge_weight_model
 {
 public:
@@ -89,7 +86,7 @@ public:
   // a session of tetrahedra does not compile with a model that lacks these weights
   std::array<double, 6> tetrahedron(const Tetrahedron& points) const override
   {
-    if constexpr(is_valid<Call_tetrahedron_weights_of, Weight>)
+    if constexpr(is_valid<Call_tetrahedron_weights, Weight>)
       return m_weight.simplex_weights(points);
     else
       return {};

@@ -16,7 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <utility>

@@ -16,15 +16,15 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/energy/Block_forces.h>
 #include <CGAL/ARAP_deformation/internal/energy/Covariance_coefficients.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Joint_cell.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/simd/Points.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/matrix_3x3.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_ranges.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
 #include <algorithm>
@@ -152,8 +152,6 @@ struct Simplex_residuals_kernel
 class Simplex_energy
 {
 public:
-  Simplex_energy() = default;
-
   Simplex_energy(Simplices simplices, Cells cells, int number_of_movable_vertices)
     : m_simplices(std::move(simplices)), m_cells(std::move(cells)),
       m_cells_of_simplices(lists_with(m_cells.sets, m_simplices.size())),

@@ -118,8 +118,6 @@ struct Star_residuals_kernel
 class Star_energy
 {
 public:
-  Star_energy() = default;
-
   // Cell i is the star of vertex i. All neighbors of the first `number_of_movable_vertices`
   // vertices have stars.
   Star_energy(Stars stars, int number_of_movable_vertices)

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/edge_weights.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/energy/Bending.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
@@ -26,7 +27,6 @@
 #include <CGAL/ARAP_deformation/internal/energy/Smooth_rotations.h>
 #include <CGAL/ARAP_deformation/internal/energy/Star_energy.h>
 #include <CGAL/ARAP_deformation/internal/energy/weighted_edge_sets.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>

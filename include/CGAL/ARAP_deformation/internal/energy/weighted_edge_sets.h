@@ -17,10 +17,10 @@
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_sets.h>
 #include <CGAL/ARAP_deformation/internal/energy/Edge_weight_model.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -197,8 +197,8 @@ inline Stars star_edge_sets(const Edge_weight_model& model, const Simplices& sim
 {
   const auto n = static_cast<std::size_t>(region.number_of_centers);
   const Index_lists places = // the corners at each center
-    places_of(simplices.corners, region.number_of_centers);
-  const Array<int> simplex_of_place = list_of_each(simplices.corners);
+    places_of(simplices.corners.items, region.number_of_centers);
+  const Array<int> simplex_of_place = list_of_each(simplices.corners.begin);
 
   // the neighbors of a center, with the sum of the weights of all simplices at the edge
   using Neighbor = std::pair<int, double>;

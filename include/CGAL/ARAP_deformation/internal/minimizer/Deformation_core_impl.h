@@ -45,6 +45,7 @@
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -293,8 +294,10 @@ bool Deformation_core::can_have_coarse_start(const Options& options) const
 {
   constexpr std::size_t least_vertices = 20000; // with fewer it takes longer than it saves
   constexpr unsigned int least_iterations = 20;
+  constexpr std::size_t most_neighbors = INT_MAX; // of all vertices: two at each corner
   return m_region.dimension == 2 && has_vertex_cells() && options.iterations >= least_iterations &&
          m_constraints.number_of_free_vertices() >= least_vertices &&
+         2 * m_region.corners.size() <= most_neighbors &&
          m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
          m_energy_model.stiffness.empty();
 }
@@ -305,7 +308,7 @@ CGAL_ARAP_INLINE_FUNCTION
 Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
                                                      const Array<Coordinates>& x) const
 {
-  Coarse_region coarse(m_region, m_constraints.is_fixed);
+  Coarse_region coarse(m_region, m_constraints.is_fixed, m_state->free_neighborhood.is_near);
   const Coarse_space& space = coarse.space();
   if(space.number_of_nodes() > space.number_of_vertices() / 2)
     return {};

@@ -16,11 +16,11 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
-#include <CGAL/ARAP_deformation/internal/region/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
@@ -93,7 +93,7 @@ bool is_torn(const Constraints& constraints, double size, const Targets& targets
       forces = &force();
     Coordinates sum = {0, 0, 0};
     double factor = 0;
-    constraints.rows.for_each_coefficient(r, [&](int v, double b) {
+    constraints.rows.row(r).for_each_coefficient([&](int v, double b) {
       if(!constraints.is_fixed[v])
       {
         add(sum, b, (*forces)[v]);
@@ -254,7 +254,7 @@ private:
       const Coordinates pull = m_unknown.value(r, pulls_of_vectors.data());
       const double one = m_unknown.value(r, pulls_of_ones.data())[0];
       if(one > 0 && dot(pull, pull) <= largest * largest * one * one)
-        m_unknown.for_each_coefficient(r, [&](int v, double b) {
+        m_unknown.row(r).for_each_coefficient([&](int v, double b) {
           sums[v] += b * b;
           add(vectors[v], b * b / one, pull);
         });

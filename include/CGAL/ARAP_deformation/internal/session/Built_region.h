@@ -122,7 +122,7 @@ struct Built_region : Built_core
       const bool is_isolated = can_move ? core->is_isolated(v)
                                         : entry.is_control && domain.is_isolated(entry.vertex);
       if(entry.is_control && is_isolated)
-        constraints.add_isolated_control(domain.index(entry.vertex));
+        constraints.rows().isolated_controls.push_back(domain.index(entry.vertex));
       if(!can_move)
         continue;
       if(vertices.is_pulled(entry))

@@ -79,9 +79,11 @@ public:
     model.group = m_group.of(is_at_vertices, domain, region, flat);
     if(!is_finite(m_neighbor_weight))
       return {Status::invalid_option, "alpha of SRE_ARAP, times the area, is not finite"};
-    if(m_fit_order)
+    if(m_fit_order) // edges without faces may lead to vertices without cells
       for(vertex_descriptor v : m_fit_order())
-        model.fit_order.push_back(region.find_vertex(domain, v));
+        if(const int cell = region.find_vertex(domain, v);
+           cell >= 0 && cell < flat.number_of_centers)
+          model.fit_order.push_back(cell);
     model.neighbor_weight = m_neighbor_weight;
     return check_stiffness(model, flat);
   }

@@ -68,8 +68,6 @@ public:
   // weight for a unit of their area or volume.
   void add_inertia(double weight);
 
-  void add_isolated_control(std::size_t index) { m_rows.isolated_controls.push_back(index); }
-
   // prepares the core for these constraints, which are gone then
   Outcome prepare(Unconstrained_components unconstrained, unsigned int number_of_threads,
                   Stages& stages);

@@ -79,7 +79,7 @@ public:
         if(points == &rows.soft_points)
           append_target(held.target, fixed, targets);
         else
-          targets.add_hard(difference(Domain::coordinates(held.target.point), fixed));
+          targets.hard.push_back(difference(Domain::coordinates(held.target.point), fixed));
       }
     add_frames(targets);
     return outcome(Status::success);
@@ -106,7 +106,7 @@ public:
       if(!is_finite(step.goals[v]))
         return outcome_of_vertex(Status::non_finite_point, domain().index(vertex),
                                  "where velocity and forces take ");
-      targets.add_soft(step.goals[v]);
+      targets.soft.push_back(step.goals[v]);
     }
     positions = step.goals;
     return outcome(Status::success);
@@ -140,7 +140,7 @@ private:
     for(std::size_t k : m_prepared.rows().controls)
       if(const auto& rotation = m_vertices.whole_target(m_vertices.entries()[k]).rotation)
         if(const int v = m_prepared.number_of_entry(k); v >= 0)
-          targets.add_frame(v, *rotation);
+          targets.frames.push_back({v, *rotation});
   }
 
   // What corners that are not movable add to the position of a control point: they are no part of
@@ -163,7 +163,7 @@ private:
   static void append_target(const typename Vertices::Target& target, const Coordinates& share,
                             Targets& targets)
   {
-    targets.add_soft(difference(Domain::coordinates(target.point), share));
+    targets.soft.push_back(difference(Domain::coordinates(target.point), share));
     if(!target.set)
       return;
     if(Domain::coordinates(Domain::make_point({1 + 1e-10, 0, 0}))[0] == 1)

@@ -37,7 +37,6 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -88,9 +87,14 @@ public:
 
   const Vertices& vertices() const { return m_vertices; }
 
+  // Where results are written elsewhere, an input that was not finite may have been mended.
   Point present(vertex_descriptor v) const
   {
-    return takes_points() ? Point(domain().point(v)) : m_vertices.present(v);
+    if(takes_points())
+      return domain().point(v);
+    const Point present = m_vertices.present(v);
+    return domain().is_in_place() || is_finite(Domain::coordinates(present))
+             ? present : Point(domain().point(v));
   }
 
   Point present(Control_point point) const
@@ -148,10 +152,7 @@ public:
     if(refuse_in_a_run())
       return false;
     const bool was_roi = m_vertices.is_roi(v);
-    std::optional<Point> moved; // others may have moved it
-    if(takes_points() && m_vertices.find_known(v) != nullptr)
-      moved = domain().point(v);
-    if(!m_vertices.insert_control(v, moved))
+    if(!m_vertices.insert_control(v, [this](vertex_descriptor u) { return present(u); }))
       return false;
     return was_roi ? constraints_changed() : region_changed();
   }

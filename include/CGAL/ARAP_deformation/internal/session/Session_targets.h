@@ -170,8 +170,8 @@ protected:
   {
     if(refuse_in_a_run())
       return outcome(Status::in_a_run);
-    return m_vertices.is_control(handle) ? f(*m_vertices.find_target(handle))
-                                         : refuse_without_target(handle);
+    auto* const target = m_vertices.find_target(handle);
+    return target != nullptr ? f(*target) : refuse_without_target(handle);
   }
 
   Outcome refuse_without_target(vertex_descriptor v) const

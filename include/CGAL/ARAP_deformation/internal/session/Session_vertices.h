@@ -28,7 +28,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -84,7 +83,7 @@ public:
 
   const Target* find_target(vertex_descriptor v) const
   {
-    const Entry* entry = find(v);
+    const Entry* entry = find_known(v);
     return entry != nullptr && entry->is_control ? &m_targets[entry->target] : nullptr;
   }
 
@@ -188,27 +187,27 @@ public:
     return entry != nullptr && entry->is_roi;
   }
 
-  bool is_control(vertex_descriptor v) const
+  // a control vertex or a control point
+  template <typename Handle>
+  bool is_control(Handle handle) const
   {
-    const Entry* entry = find_known(v);
-    return entry != nullptr && entry->is_control;
+    return find_target(handle) != nullptr;
   }
-
-  bool is_control(Control_point point) const { return find_target(point) != nullptr; }
 
   // The functions that change the sets return whether they did.
 
   bool insert_roi(vertex_descriptor v) { return is_vertex(v) && enter_roi(find_or_insert(v)); }
 
-  // The target is the present point, or another one.
-  bool insert_control(vertex_descriptor v, const std::optional<Point>& point = {})
+  // The target is what `present(v)` returns.
+  template <typename Function>
+  bool insert_control(vertex_descriptor v, const Function& present)
   {
     if(!is_vertex(v) || is_control(v))
       return false;
     // what can throw comes before what is changed
     if(m_targets.size() == m_targets.capacity())
       m_targets.reserve(2 * m_targets.size() + 1);
-    Target target = {point ? *point : present(v)};
+    Target target = {present(v)};
     Entry& entry = find_or_insert(v);
     if(entry.target == no_target)
     {

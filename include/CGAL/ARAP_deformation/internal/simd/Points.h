@@ -30,7 +30,6 @@ inline namespace CGAL_ARAP_SIMD {
 class Points
 {
 public:
-  Points() = default; // none
   Points(const Array<Coordinates>& points)
     : m_numbers(points.empty() ? nullptr : points.front().data())
   {}

@@ -94,7 +94,7 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
     Array<double> coefficients;
     bool is_needed = false;
     double weight = 0;
-    constraints.hard_rows.for_each_coefficient(r, [&](int v, double b) {
+    constraints.hard_rows.row(r).for_each_coefficient([&](int v, double b) {
       vertices.push_back(v);
       coefficients.push_back(b);
       is_needed |= components.is_unconstrained(v);

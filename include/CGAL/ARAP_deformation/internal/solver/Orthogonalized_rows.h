@@ -51,7 +51,7 @@ public:
     {
       m_scale.push_back(reciprocal(rows.row(r).length));
       Row row;
-      rows.for_each_coefficient(r, [&](int v, double b) {
+      rows.row(r).for_each_coefficient([&](int v, double b) {
         if(!is_fixed[v])
           row[v] = b * m_scale.back();
       });

@@ -9,8 +9,8 @@
 //
 // Author(s)     : The ARAP_deformation authors
 
-#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H
-#define CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H
+#ifndef CGAL_ARAP_DEFORMATION_INTERNAL_INDEX_LISTS_H
+#define CGAL_ARAP_DEFORMATION_INTERNAL_INDEX_LISTS_H
 
 #include <CGAL/license/ARAP_deformation.h>
 
@@ -92,37 +92,34 @@ Index_lists lists_of_pairs(int n, const For_each_pair& for_each_pair)
   return result;
 }
 
-// For each number below n what name(k, place) is where list k has it, at that place in `items`.
-template <typename Naming>
-Index_lists inverse(const Index_lists& lists, int n, const Naming& name)
+// for each item its list, from where the lists begin
+inline Array<int> list_of_each(const Array<int>& begin)
 {
-  return lists_of_pairs(n, [&](const auto& f) {
-    for(int k = 0; k < lists.size(); ++k)
-      for(int place = lists.begin[k]; place < lists.begin[k + 1]; ++place)
-        if(const int item = lists.items[place]; item < n)
-          f(item, name(k, place));
-  });
-}
-
-// for each place in `items` its list
-inline Array<int> list_of_each(const Index_lists& lists)
-{
-  Array<int> list_of(lists.items.size());
-  for(int k = 0; k < lists.size(); ++k)
-    std::fill(list_of.begin() + lists.begin[k], list_of.begin() + lists.begin[k + 1], k);
+  Array<int> list_of(begin.back());
+  for(int k = 0; k + 1 < static_cast<int>(begin.size()); ++k)
+    std::fill(list_of.begin() + begin[k], list_of.begin() + begin[k + 1], k);
   return list_of;
 }
 
 // for each number below n the lists that have it
 inline Index_lists lists_with(const Index_lists& lists, int n)
 {
-  return inverse(lists, n, [](int list, int) { return list; });
+  return lists_of_pairs(n, [&](const auto& f) {
+    for(int list = 0; list < lists.size(); ++list)
+      for(int k = lists.begin[list]; k < lists.begin[list + 1]; ++k)
+        if(lists.items[k] < n)
+          f(lists.items[k], list);
+  });
 }
 
-// for each number below n the places in `items` that have it
-inline Index_lists places_of(const Index_lists& lists, int n)
+// for each number below n the places of it among the items
+inline Index_lists places_of(const Array<int>& items, int n)
 {
-  return inverse(lists, n, [](int, int place) { return place; });
+  return lists_of_pairs(n, [&](const auto& f) {
+    for(std::size_t k = 0; k < items.size(); ++k)
+      if(items[k] < n)
+        f(items[k], static_cast<int>(k));
+  });
 }
 
 // Sorts pairs of a number and a value, in place, adds the values of those that have the same number
@@ -154,4 +151,4 @@ int sort_and_add_up(Iterator begin, Iterator end)
 } // namespace ARAP
 } // namespace CGAL
 
-#endif // CGAL_ARAP_DEFORMATION_INTERNAL_REGION_INDEX_LISTS_H
+#endif // CGAL_ARAP_DEFORMATION_INTERNAL_INDEX_LISTS_H
