@@ -259,26 +259,31 @@ public:
     }
     return places;
   }
+  std::vector<double> positions(Indices simplices, Numbers coordinates) const override
+  {
+    return coordinates_of(places_of(simplices, coordinates), [this](const auto& place) {
+      const auto corners = m_simplices[place.first];
+      require(place.second.size() == static_cast<std::size_t>(corners.size()),
+              "a place has coordinates for " + std::to_string(place.second.size()) +
+              " corners, but simplex " + std::to_string(place.first) + " has " +
+              std::to_string(corners.size()));
+      const Point& first = m_points[static_cast<std::size_t>(corners[0])];
+      Point result = first; // differences keep digits where coordinates are large
+      for(std::size_t k = 1; k < place.second.size(); ++k)
+      {
+        const Point& corner = m_points[static_cast<std::size_t>(corners[k])];
+        result = combined(1, result, place.second[k], combined(1, corner, -1, first));
+      }
+      return result;
+    });
+  }
   std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) override
   {
-    require(coordinates.rows == simplices.rows,
-            "there are " + std::to_string(simplices.rows) + " simplices, but " +
-            std::to_string(coordinates.rows) + " rows of coordinates");
-    for(std::size_t k = 0; k < simplices.rows; ++k)
-      if(const std::int32_t s = *simplices[k];
-         s < 0 || static_cast<std::size_t>(s) >= m_simplices.size())
-        throw std::out_of_range("there is no simplex " + std::to_string(s));
     std::vector<std::int32_t> result;
     all_or_none(simplices, [&] {
-      for(std::size_t k = 0; k < simplices.rows; ++k)
+      for(const auto& [simplex, own] : places_of(simplices, coordinates))
       {
-        const auto s = static_cast<std::size_t>(*simplices[k]);
-        const double* end = coordinates[k + 1];
-        const double* const filled = (std::min)(coordinates[k] + m_simplices[s].size(), end);
-        if(std::all_of(filled, end, [](double c) { return c == 0; }))
-          end = filled;
-        const auto inserted = m_deformation.insert_control_point(
-          s, boost::make_iterator_range(coordinates[k], end));
+        const auto inserted = m_deformation.insert_control_point(simplex, own);
         require(inserted);
         result.push_back(handle_of(inserted.point));
       }
@@ -522,6 +527,27 @@ private:
   static std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& vertices)
   {
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
+  }
+
+  // simplices, with as many coordinates as they have corners where only zeros follow
+  std::vector<std::pair<std::size_t, std::vector<double>>> places_of(Indices simplices,
+                                                                     Numbers coordinates) const
+  {
+    require(coordinates.rows == simplices.rows,
+            "there are " + std::to_string(simplices.rows) + " simplices, but " +
+            std::to_string(coordinates.rows) + " rows of coordinates");
+    std::vector<std::pair<std::size_t, std::vector<double>>> result;
+    for(std::size_t k = 0; k < simplices.rows; ++k)
+    {
+      const auto s = static_cast<std::size_t>(*simplices[k]); // negative ones are too large
+      if(s >= m_simplices.size())
+        throw std::out_of_range("there is no simplex " + std::to_string(*simplices[k]));
+      std::vector<double> own(coordinates[k], coordinates[k + 1]);
+      while(own.size() > static_cast<std::size_t>(m_simplices[s].size()) && own.back() == 0)
+        own.pop_back();
+      result.emplace_back(s, std::move(own));
+    }
+    return result;
   }
 
   static std::string name(std::int32_t handle) { return "handle " + std::to_string(handle); }

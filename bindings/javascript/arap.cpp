@@ -251,6 +251,11 @@ ARAP_EXPORT bool arap_insert_points(Array_deformation* d, const std::int32_t* si
 {
   return answer_of([&] { add(d->insert_points({simplices, n}, {coordinates, n, k})); });
 }
+ARAP_EXPORT bool arap_positions(const Array_deformation* d, const std::int32_t* simplices,
+                                std::size_t n, const double* coordinates, std::size_t k)
+{
+  return answer_of([&] { add(d->positions({simplices, n}, {coordinates, n, k})); });
+}
 ARAP_EXPORT bool arap_point_positions(const Array_deformation* d, const std::int32_t* handles,
                                       std::size_t n)
 {

@@ -244,6 +244,9 @@ export interface Session {
   insertPoint(simplex: number, coordinates: Numbers): number;
   /** new control points at places, as `locateAll()` returns them: all of them, or none */
   insertPoints(places: Pick<Place, 'simplex' | 'coordinates'>[]): Int32Array;
+  /** Where places are now, k x 3. What was located in the rest shape follows the shape, as a fine
+   *  surface does that is located in tetrahedra. */
+  positions(places: Pick<Place, 'simplex' | 'coordinates'>[]): Float64Array;
   /** where control points are: 3 numbers for each */
   pointPosition(handles: Indices | number): Float64Array;
 

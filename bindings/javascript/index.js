@@ -376,15 +376,22 @@ export async function load({ wasmBinary } = {}) {
       if (typeof simplex !== 'number') throw new TypeError('the simplex must be a number');
       return this.insertPoints([{ simplex, coordinates }])[0];
     }
-    insertPoints(places) {
+    // simplices, and coordinates in rows of the same length
+    #callWithPlaces(name, places) {
       const of = places.map((place) => numbersOf(place.coordinates, 'coordinates', Float64Array)),
-        k = Math.max(0, ...of.map((c) => c.length)),
+        k = of.reduce((most, c) => Math.max(most, c.length), 0),
         rows = new Float64Array(k * places.length);
       of.forEach((c, i) => rows.set(c, i * k));
       const simplices = places.map(({ simplex }) => simplex);
       return withCopies([rows], (pointer) =>
-        Int32Array.from(this.#callWithIndices('insert_points', 'the simplex', simplices, pointer, k)),
+        this.#callWithIndices(name, 'the simplex', simplices, pointer, k),
       );
+    }
+    insertPoints(places) {
+      return Int32Array.from(this.#callWithPlaces('insert_points', places));
+    }
+    positions(places) {
+      return this.#callWithPlaces('positions', places);
     }
     pointPosition(handles) {
       return this.#valuesOf('point_positions', handles);

@@ -393,7 +393,7 @@ assert.equal(session.deform().stages.factor, false);
   // values for each handle; what fails changes nothing
   const inside = mixed.insertPoints(places.slice(0, 2));
   assert.deepEqual([...inside], [5, 6]);
-  assert.deepEqual([...mixed.pointPosition(inside)].length, 6);
+  mixed.positions(places.slice(0, 2)).forEach((x, i) => near(x, mixed.pointPosition(inside)[i]));
   mixed.setWeight(inside, [2, 3]);
   assert.deepEqual([...mixed.weight(inside)], [2, 3]);
   assert.equal(mixed.weight(6), 3);

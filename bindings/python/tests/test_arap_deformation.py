@@ -399,6 +399,22 @@ def test_targets_that_are_sets():
         d.restore(state)
 
 
+def test_a_surface_that_follows_tetrahedra():
+    d = bent("solid")
+    inside = np.random.default_rng(2).uniform(V.min(axis=0) - 0.2, V.max(axis=0) + 0.2, (50, 3))
+    places = d.locate_all(inside)
+    assert d.positions(places) == pytest.approx(inside, abs=1e-12)
+    assert d.positions([]).shape == (0, 3)
+    d.deform()
+    corners = d.vertices[SHAPES["solid"][1][[place.simplex for place in places]]]
+    expected = np.einsum("kc,kcx->kx", [place.coordinates for place in places], corners)
+    assert d.positions(places) == pytest.approx(expected, abs=1e-12)
+    d.vertices = moved(TURN, d.rest_vertices)
+    assert d.positions(places) == pytest.approx(moved(TURN, inside), abs=1e-12)
+    with pytest.raises(ValueError, match="coordinates for 3 corners, but simplex 7 has 4"):
+        d.positions([arap.Place(7, np.array([0, 0, 1]), 0)])
+
+
 def test_values_for_each_handle():
     d, other = bent(), bent()
     random = np.random.default_rng(1)

@@ -173,6 +173,13 @@ def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
     return _pair("handles of targets", targets[0], "targets", targets[1])
 
 
+def _places(places: Sequence[Place]) -> Tuple[NDArray[Any], Floats]:
+    """Simplices, and coordinates in rows of the same length."""
+    columns = itertools.zip_longest(*(place.coordinates for place in places), fillvalue=0)
+    return (_integers("simplices", [place.simplex for place in places], None),
+            _floats("coordinates", list(zip(*columns)), None, None))
+
+
 def _text(value: Any) -> str:
     """An option as C++ reads it."""
     return str(value).lower() if isinstance(value, (bool, np.bool_)) else str(value)
@@ -295,10 +302,12 @@ class Deformation:
     def insert_points(self, places: Sequence[Place]) -> NDArray[np.int32]:
         """The handles of new control points at places, as ``locate_all()`` returns them; all of them
         are inserted, or none."""
-        rows = itertools.zip_longest(*(place.coordinates for place in places), fillvalue=0)
-        return self._session.insert_points(
-            _integers("simplices", [place.simplex for place in places], None),
-            _floats("coordinates", list(zip(*rows)), None, None))
+        return self._session.insert_points(*_places(places))
+
+    def positions(self, places: Sequence[Place]) -> Floats:
+        """(k, 3): where places are now. What was located in the rest shape follows the shape, as a
+        fine surface does that is located in tetrahedra."""
+        return self._session.positions(*_places(places)).reshape(-1, 3)
 
     def point_position(self, handles: ArrayLike) -> Floats:
         """(3,): where a control point is, or (k, 3) of k control points."""
