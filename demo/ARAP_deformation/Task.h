@@ -39,7 +39,6 @@ namespace CGAL::ARAP::demo {
 struct Handle
 {
   std::vector<std::size_t> vertices;
-  std::vector<Kernel::Point_3> points; // inside simplices
   std::optional<double> weight; // of its targets, if they are soft
   std::optional<Kernel::Plane_3> plane; // which they are, before it moves, if they are no points
   bool is_frame = false;        // it turns the cells at its vertices, too
@@ -73,12 +72,6 @@ inline Transform transform(const Affine& m)
 }
 
 inline const Transform identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-// the rotation of its polar decomposition
-inline Eigen::Matrix3d rotation_of(const Transform& m)
-{
-  return affine(m).rotation();
-}
 
 // The map at the share s of the way from a to b, both included: the center moves along a straight
 // line, the rotation of the polar decomposition turns at constant speed, and the stretch is
@@ -134,13 +127,12 @@ inline Transform of_steps(double share, const std::vector<Motion_step>& steps, c
   return transform(result);
 }
 
-inline Eigen::Vector3d centroid(const std::vector<Kernel::Point_3>& points,
-                                const std::vector<std::size_t>& vertices)
+inline Eigen::Vector3d centroid(const std::vector<Kernel::Point_3>& points)
 {
   Eigen::Vector3d sum(0, 0, 0);
-  for(std::size_t v : vertices)
-    sum += Eigen::Vector3d(points[v].x(), points[v].y(), points[v].z());
-  return sum / static_cast<double>((std::max)(vertices.size(), std::size_t(1)));
+  for(const Kernel::Point_3& p : points)
+    sum += Eigen::Vector3d(p.x(), p.y(), p.z());
+  return sum / static_cast<double>((std::max)(points.size(), std::size_t(1)));
 }
 
 inline std::vector<int> make_selection(const Command_line& line,
@@ -194,16 +186,21 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   const int largest = *std::max_element(task.selection.begin(), task.selection.end());
   task.handles.resize((std::max)(line.handles.size(),
                                  std::size_t(largest < HANDLE ? 0 : largest - HANDLE + 1)));
-  for(const auto& [status, place] : held)
-    if(status >= HANDLE)
-      task.handles[status - HANDLE].points.push_back(place);
-  std::vector<std::size_t> all;
+  std::vector<Kernel::Point_3> all; // that handles hold
+  std::vector<std::vector<Kernel::Point_3>> places(task.handles.size());
+  const auto add_place = [&](int status, const Kernel::Point_3& place) {
+    places[status - HANDLE].push_back(place);
+    all.push_back(place);
+  };
   for(std::size_t v = 0; v < points.size(); ++v)
     if(task.selection[v] >= HANDLE)
     {
       task.handles[task.selection[v] - HANDLE].vertices.push_back(v);
-      all.push_back(v);
+      add_place(task.selection[v], points[v]);
     }
+  for(const auto& [status, place] : held)
+    if(status >= HANDLE)
+      add_place(status, place);
 
   const bool is_moved = !line.transforms.empty() || !line.all_handles.steps.empty() ||
                         line.all_handles.plane;
@@ -224,10 +221,7 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
   {
     Handle& handle = task.handles[k];
     const Handle_options& options = line.handles.empty() ? line.all_handles : line.handles[k];
-    const Eigen::Vector3d center =
-      are_together && !all.empty() ? internal::centroid(points, all)
-      : handle.points.empty()      ? internal::centroid(points, handle.vertices)
-                                   : internal::centroid(handle.points, {0});
+    const Eigen::Vector3d center = internal::centroid(are_together ? all : places[k]);
     handle.weight = options.weight;
     handle.is_frame = options.is_frame;
     if(options.plane)

@@ -131,7 +131,7 @@ void move_handle(Deformation& deformation, const Command_line& line, const Handl
   if(handle.is_frame)
     for(auto v : controls.vertices)
       expect_success(line, deformation.set_target_rotation(
-        v, CGAL::ARAP::demo::internal::rotation_of(map)));
+        v, CGAL::ARAP::demo::internal::affine(map).rotation()));
 }
 
 // Deforms the shape of a domain, each frame from the one before; after_frame(report) follows each.
