@@ -103,6 +103,12 @@ public:
     return object.contains(key) ? whole(object[key]) : otherwise;
   }
 
+  static void refuse_compression(const Json& object, const char* extension, const char* what)
+  {
+    if(object.contains("extensions") && object["extensions"].contains(extension))
+      throw std::runtime_error(std::string("has ") + what + " that are compressed by " + extension);
+  }
+
   // Throws if the accessor is not in a buffer, or needs what is not supported.
   Array array(std::size_t index, const std::string& type) const
   {
@@ -113,8 +119,7 @@ public:
                                type);
     const Json& view = json.at("bufferViews").at(whole(accessor["bufferView"]));
     for(const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      if(view.contains("extensions") && view["extensions"].contains(extension))
-        throw std::runtime_error(std::string("has arrays that are compressed by ") + extension);
+      refuse_compression(view, extension, "arrays");
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
     const std::size_t bytes = (result.component == BYTE_INDEX    ? 1

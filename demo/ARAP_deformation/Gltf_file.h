@@ -15,6 +15,7 @@
 #include "Corner_rotation.h"
 #include "Gltf.h"
 #include "Output_file.h"
+#include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
 
@@ -104,7 +105,7 @@ public:
     set_vertex_property(m_mesh, name, values);
   }
 
-  void write(Output_file& output, const std::string& format) const
+  void write(Output_file& output, const std::string& format, const Skin&) const
   {
     if(!is_gltf_format(format))
       return write_mesh(output, m_mesh, format);
@@ -197,9 +198,7 @@ private:
     const std::size_t triangles = 4;
     if(Gltf::whole(primitive, "mode", triangles) != triangles)
       throw std::runtime_error("has a primitive that is no list of triangles");
-    const char* const draco = "KHR_draco_mesh_compression";
-    if(primitive.contains("extensions") && primitive["extensions"].contains(draco))
-      throw std::runtime_error(std::string("has triangles that are compressed by ") + draco);
+    Gltf::refuse_compression(primitive, "KHR_draco_mesh_compression", "triangles");
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");

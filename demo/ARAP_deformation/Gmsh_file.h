@@ -59,8 +59,6 @@ public:
     for(const char* keyword : {"$Nodes", "$Elements"})
       if(find_section(keyword, words.end()))
         refuse(std::string("has a second section ") + keyword);
-    if(m_mesh.tetrahedra.empty())
-      refuse_without_tetrahedra();
   }
 
 private:
@@ -247,8 +245,7 @@ private:
     }
     if(type != tetrahedron)
       return;
-    check_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
-    m_mesh.tetrahedra.push_back(vertices);
+    add_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
   }
 
   bool m_has_blocks = false; // of nodes and elements: version 4.1

@@ -47,8 +47,6 @@ public:
     read_vertices(words);
     if(sections.count("Tetrahedra") > 0)
       read_tetrahedra(words = find("Tetrahedra"));
-    if(m_mesh.tetrahedra.empty())
-      refuse_without_tetrahedra();
   }
 
 private:
@@ -152,9 +150,8 @@ private:
         corner = static_cast<int>(read_integer(words, 1, largest, [&] {
           return "a vertex from 1 to " + std::to_string(largest) + ", a corner in " + row.name();
         }) - 1);
-      check_tetrahedron(words, corners, [&row] { return row.name(); });
+      add_tetrahedron(words, corners, [&row] { return row.name(); });
       read_reference(words, row);
-      m_mesh.tetrahedra.push_back(corners);
     });
   }
 };

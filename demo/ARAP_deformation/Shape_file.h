@@ -63,12 +63,10 @@ public:
   Domain domain() { return Domain(m_mesh); }
 
   // Throws if a file of this format cannot hold the surface.
-  void check_output(const std::string& file, const std::string& format)
+  void check_output(const std::string& file, const std::string& format) const
   {
     if(!m_is_kept)
       check_format(file, format, m_mesh);
-    if(is_gltf_format(format))
-      m_skin = skin(m_mesh); // at rest, so that all frames have the same triangles
   }
 
   // what an output of this format does not keep
@@ -90,7 +88,8 @@ public:
     return result;
   }
 
-  void write(Output_file& output, const std::string& format)
+  // `skin` is that at rest, so that all frames in glTF have the same triangles.
+  void write(Output_file& output, const std::string& format, const Skin& skin)
   {
     if(!m_is_kept)
     {
@@ -99,7 +98,7 @@ public:
       if(is_gltf_format(format))
       {
         const Panel all =
-          panel(m_skin, points_of(m_mesh), std::vector<int>(m_rest_points.size()), "");
+          panel(skin, points_of(m_mesh), std::vector<int>(m_rest_points.size()), "");
         return output.write([&](std::ostream& out) {
           make_gltf(all.points, all.triangles).write(out, format == ".glb");
         });
@@ -166,7 +165,6 @@ private:
   Mesh m_mesh; // deformed
   std::vector<Kernel::Point_3> m_rest_points;
   Source_text m_source;
-  Skin m_skin; // for glTF
   std::string m_property; // of the vertices, and its values
   std::vector<double> m_values;
   bool m_is_kept = false; // the text is written with other coordinates
@@ -176,13 +174,19 @@ private:
 inline std::unique_ptr<Tetrahedra_text> read_tetrahedra(const std::string& file)
 {
   const std::string format = lower_case_extension(file);
+  std::unique_ptr<Tetrahedra_text> result;
   if(format == ".msh")
-    return std::make_unique<Gmsh_file>(file);
-  if(format == ".vtk")
-    return std::make_unique<Vtk_file>(file);
-  if(format == ".vtu")
-    return std::make_unique<Vtu_file>(file);
-  return std::make_unique<Medit_file>(file);
+    result = std::make_unique<Gmsh_file>(file);
+  else if(format == ".vtk")
+    result = std::make_unique<Vtk_file>(file);
+  else if(format == ".vtu")
+    result = std::make_unique<Vtu_file>(file);
+  else
+    result = std::make_unique<Medit_file>(file);
+  if(result->mesh().tetrahedra.empty())
+    throw std::runtime_error(file + ": has no tetrahedra; surfaces are read from .off, .obj, .ply, "
+                             ".stl and glTF files");
+  return result;
 }
 
 // Tetrahedra in a .mesh, .msh, .vtk or .vtu file, the rest of which is kept.
@@ -212,7 +216,7 @@ public:
                               : std::set<std::string>{"all but points and tetrahedra"};
   }
 
-  void write(Output_file& output, const std::string& format)
+  void write(Output_file& output, const std::string& format, const Skin&)
   {
     if(format == m_format)
       output.write([this](std::ostream& out) { m_file->write(out, m_mesh.points); });

@@ -89,11 +89,6 @@ protected:
                                : word.empty() ? " nothing" : ' ' + in_quotes(word)));
   }
 
-  [[noreturn]] void refuse_without_tetrahedra() const
-  {
-    refuse("has no tetrahedra; surfaces are read from .off, .obj, .ply, .stl and glTF files");
-  }
-
   // The words after a line that starts with a keyword, the first one after a place.
   std::optional<Words> find_section(const std::string& keyword, std::size_t place) const
   {
@@ -180,11 +175,12 @@ protected:
 
   // Throws if a tetrahedron has a vertex twice.
   template <typename Description>
-  void check_tetrahedron(const Words& words, const std::array<int, 4>& corners,
-                         const Description& description) const
+  void add_tetrahedron(const Words& words, const std::array<int, 4>& corners,
+                       const Description& description)
   {
     if(has_vertex_twice(corners))
       refuse(words, description() + " has a vertex twice; the last word is");
+    m_mesh.tetrahedra.push_back(corners);
   }
 
   std::string m_name;

@@ -100,8 +100,6 @@ private:
       if(!has_offsets)
         cells = connectivity;
     }
-    if(m_mesh.tetrahedra.empty())
-      refuse_without_tetrahedra();
   }
 
   void read_cell(Words& words, long long size, long long type)
@@ -120,8 +118,7 @@ private:
     }
     if(type != vtk_tetrahedron)
       return;
-    check_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
-    m_mesh.tetrahedra.push_back(vertices);
+    add_tetrahedron(words, vertices, [] { return std::string("a tetrahedron"); });
   }
 };
 

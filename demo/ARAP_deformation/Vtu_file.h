@@ -464,8 +464,6 @@ private:
         refuse_cell("has a vertex twice");
       m_mesh.tetrahedra.push_back(vertices);
     }
-    if(m_mesh.tetrahedra.empty())
-      refuse_without_tetrahedra();
   }
 
   std::vector<Array> m_arrays;

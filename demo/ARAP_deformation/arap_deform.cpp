@@ -337,7 +337,7 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
   Outputs outputs(line);
   write_task(outputs, task);
 
-  const Skin boundary = skin(shape.mesh()); // before tetrahedra are inverted
+  const Skin boundary = skin(shape.mesh()); // at rest
   const auto panel_of = [&](const std::vector<Kernel::Point_3>& points,
                             const std::string& caption) {
     return panel(boundary, points, task.selection, caption);
@@ -362,7 +362,7 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
       shape.set_property(line.color, measures);
     }
     if(Output_file* file = outputs.mesh(line, static_cast<int>(result.frames.size())))
-      shape.write(*file, format);
+      shape.write(*file, format, boundary);
     if(outputs.film)
       film.add_frame(panel_of(points_of(shape.mesh()), ""));
   });
