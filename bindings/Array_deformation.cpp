@@ -75,6 +75,18 @@ Point combined(double a, const Point& p, double b, const Point& q)
   return {a * p[0] + b * q[0], a * p[1] + b * q[1], a * p[2] + b * q[2]};
 }
 
+// the point with barycentric coordinates in a simplex
+template <typename Corners>
+Point place_in(const Corners& corners, const std::vector<double>& coordinates, const Points& points)
+{
+  const Point& first = points[static_cast<std::size_t>(corners[0])];
+  Point result = first; // differences keep digits where coordinates are large
+  for(std::size_t k = 1; k < coordinates.size(); ++k)
+    result = combined(1, result, coordinates[k],
+                      combined(1, points[static_cast<std::size_t>(corners[k])], -1, first));
+  return result;
+}
+
 // simplices as a range of ranges
 class Simplices
 {
@@ -127,12 +139,7 @@ public:
     const auto place = m_locator.locate(p);
     if(!place) // the run finds that p is too far away
       return p;
-    Point result = {0, 0, 0};
-    const auto corners = m_polygons[place->simplex];
-    for(std::size_t k = 0; k < place->coordinates.size(); ++k)
-      result = combined(1, result, place->coordinates[k],
-                        m_points[static_cast<std::size_t>(corners[k])]);
-    return result;
+    return place_in(m_polygons[place->simplex], place->coordinates, m_points);
   }
 
 private:
@@ -262,26 +269,15 @@ public:
   std::vector<double> positions(Indices simplices, Numbers coordinates) const override
   {
     return coordinates_of(places_of(simplices, coordinates), [this](const auto& place) {
-      const auto corners = m_simplices[place.first];
-      require(place.second.size() == static_cast<std::size_t>(corners.size()),
-              "a place has coordinates for " + std::to_string(place.second.size()) +
-              " corners, but simplex " + std::to_string(place.first) + " has " +
-              std::to_string(corners.size()));
-      const Point& first = m_points[static_cast<std::size_t>(corners[0])];
-      Point result = first; // differences keep digits where coordinates are large
-      for(std::size_t k = 1; k < place.second.size(); ++k)
-      {
-        const Point& corner = m_points[static_cast<std::size_t>(corners[k])];
-        result = combined(1, result, place.second[k], combined(1, corner, -1, first));
-      }
-      return result;
+      return place_in(m_simplices[place.first], place.second, m_points);
     });
   }
   std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) override
   {
+    const auto places = places_of(simplices, coordinates);
     std::vector<std::int32_t> result;
-    all_or_none(simplices, [&] {
-      for(const auto& [simplex, own] : places_of(simplices, coordinates))
+    all_or_none(simplices.rows > 1, [&] {
+      for(const auto& [simplex, own] : places)
       {
         const auto inserted = m_deformation.insert_control_point(simplex, own);
         require(inserted);
@@ -367,7 +363,14 @@ public:
   void set_weights(Indices handles, Numbers weights) override
   {
     require_values(handles, "handles", weights, "weights", 1);
-    all_or_none(handles, [&] {
+    bool can_fail = false; // those of sets cannot be hard
+    std::size_t number = 0;
+    for(std::int32_t handle : required_handles(handles))
+    {
+      const double next = *row(weights, number++);
+      can_fail |= !(next >= 0) || (std::isinf(next) && !std::isinf(weight(handle)));
+    }
+    all_or_none(can_fail && handles.rows > 1, [&] {
       for_each(handles, [&](auto handle, std::size_t k) {
         return m_deformation.set_target_weight(handle, *row(weights, k));
       });
@@ -377,7 +380,7 @@ public:
   {
     require_values(vertices, "vertices", matrices, "matrices", 9);
     const std::vector<std::size_t> chosen = control_vertices_of(vertices);
-    all_or_none(vertices, [&] {
+    all_or_none(matrices.rows > 1, [&] {
       for(std::size_t k = 0; k < chosen.size(); ++k)
       {
         Matrix_3x3 rotation;
@@ -529,7 +532,7 @@ private:
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
   }
 
-  // simplices, with as many coordinates as they have corners where only zeros follow
+  // Simplices and coordinates, without what fills the rows. Throws if they are no places.
   std::vector<std::pair<std::size_t, std::vector<double>>> places_of(Indices simplices,
                                                                      Numbers coordinates) const
   {
@@ -543,8 +546,13 @@ private:
       if(s >= m_simplices.size())
         throw std::out_of_range("there is no simplex " + std::to_string(*simplices[k]));
       std::vector<double> own(coordinates[k], coordinates[k + 1]);
-      while(own.size() > static_cast<std::size_t>(m_simplices[s].size()) && own.back() == 0)
+      while(!own.empty() && std::isnan(own.back()))
         own.pop_back();
+      const auto corners = static_cast<std::size_t>(m_simplices[s].size());
+      require(own.size() == corners, "place " + std::to_string(k) + " has " +
+                                     std::to_string(own.size()) + " coordinates, but simplex " +
+                                     std::to_string(s) + " has " + std::to_string(corners) +
+                                     " corners");
       result.emplace_back(s, std::move(own));
     }
     return result;
@@ -632,11 +640,11 @@ private:
       ++k;
     }
   }
-  // Calls f(), which changes something for each index. If it fails, all is as it was.
+  // Calls f(), which may change something before it fails if `can_fail`: then all is as it was.
   template <typename Function>
-  void all_or_none(Indices indices, const Function& f)
+  void all_or_none(bool can_fail, const Function& f)
   {
-    if(indices.rows < 2)
+    if(!can_fail)
       return f();
     auto before = m_deformation.state();
     try
@@ -659,13 +667,18 @@ private:
     require_values(handles, "handles", points, "points", 3);
     require_values(handles, "handles", directions, "directions", 3);
     Points origins = points_of(points), units = points_of(directions);
-    for(const Point& origin : origins)
-      require(is_finite(origin), "the point must have finite coordinates");
-    for(Point& d : units)
+    const auto of_handle = [&](std::size_t k, const Points& rows) {
+      return rows.size() == 1 ? std::string() : " of " + name(*handles[k]);
+    };
+    for(std::size_t k = 0; k < origins.size(); ++k)
+      require(is_finite(origins[k]),
+              "the point" + of_handle(k, origins) + " must have finite coordinates");
+    for(std::size_t k = 0; k < units.size(); ++k)
     {
+      Point& d = units[k];
       const double length = std::hypot(d[0], d[1], d[2]);
       require(std::isfinite(length) && length > 0,
-              std::string("the ") + what + " must be finite, and not zero");
+              std::string("the ") + what + of_handle(k, units) + " must be finite, and not zero");
       d = {d[0] / length, d[1] / length, d[2] / length};
     }
     set_target_sets(handles, [&](std::size_t k) {

@@ -107,8 +107,8 @@ public:
 
   // the places nearest to k points where the shape is now, if there are any; builds a search tree
   virtual std::vector<std::optional<Place>> locate(Numbers points) const = 0;
-  // Places have a row of barycentric coordinates for each simplex; zeros fill the rows of those
-  // that have fewer corners.
+  // Places have a row of barycentric coordinates for each simplex; NaN fills the rows of those that
+  // have fewer corners.
   virtual std::vector<double> positions(Indices simplices, Numbers coordinates) const = 0; // k x 3
   virtual std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) = 0;
   virtual std::vector<double> point_positions(Indices handles) const = 0; // k x 3

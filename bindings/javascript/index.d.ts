@@ -176,6 +176,9 @@ export interface Place {
   distance: number;
 }
 
+/** null, for a point that was not located, is refused */
+export type Places = readonly ({ simplex: number; coordinates: Numbers } | null)[];
+
 export interface Quality {
   edgeLengthError: number;
   areaChange: number;
@@ -243,10 +246,10 @@ export interface Session {
    *  the handle n + k - 1. */
   insertPoint(simplex: number, coordinates: Numbers): number;
   /** new control points at places, as `locateAll()` returns them: all of them, or none */
-  insertPoints(places: Pick<Place, 'simplex' | 'coordinates'>[]): Int32Array;
+  insertPoints(places: Places): Int32Array;
   /** Where places are now, k x 3. What was located in the rest shape follows the shape, as a fine
    *  surface does that is located in tetrahedra. */
-  positions(places: Pick<Place, 'simplex' | 'coordinates'>[]): Float64Array;
+  positions(places: Places): Float64Array;
   /** where control points are: 3 numbers for each */
   pointPosition(handles: Indices | number): Float64Array;
 
@@ -316,8 +319,8 @@ export interface Session {
 
   energy(): number;
   /** 3 x 3 for each cell; the identity outside the region, where no vertex of the cell is free, as
-   *  inside a handle, and until the first run after a change of the region or the cells, `reset()` or
-   *  `makeRestShape()` */
+   *  inside a handle (unless rotations are smoothed, or shared), and until the first run after a
+   *  change of the region or the cells, `reset()` or `makeRestShape()` */
   rotations(): Float64Array;
   quality(): Quality;
   qualityAtVertices(

@@ -378,9 +378,11 @@ export async function load({ wasmBinary } = {}) {
     }
     // simplices, and coordinates in rows of the same length
     #callWithPlaces(name, places) {
+      const none = places.indexOf(null);
+      if (none >= 0) throw new TypeError(`place ${none} is null: the point was not located`);
       const of = places.map((place) => numbersOf(place.coordinates, 'coordinates', Float64Array)),
         k = of.reduce((most, c) => Math.max(most, c.length), 0),
-        rows = new Float64Array(k * places.length);
+        rows = new Float64Array(k * places.length).fill(NaN);
       of.forEach((c, i) => rows.set(c, i * k));
       const simplices = places.map(({ simplex }) => simplex);
       return withCopies([rows], (pointer) =>

@@ -386,5 +386,5 @@ PYBIND11_MODULE(_core, module)
     .def("state", bound(&D::state)).def("restore", bound(&D::restore))
     .def("energy", bound(&D::energy)).def("rotations", bound(&D::rotations))
     .def("quality", bound(&D::quality, is_long))
-    .def("quality_at_vertices", bound(&D::quality_at_vertices));
+    .def("quality_at_vertices", bound(&D::quality_at_vertices, is_long));
 }

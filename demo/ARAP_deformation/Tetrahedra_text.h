@@ -173,7 +173,7 @@ protected:
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
   }
 
-  // Throws if a tetrahedron has a vertex twice.
+  // Appends a tetrahedron; throws if it has a vertex twice.
   template <typename Description>
   void add_tetrahedron(const Words& words, const std::array<int, 4>& corners,
                        const Description& description)

@@ -391,7 +391,7 @@ public:
   /// surface: it is pulled toward the nearest point of the set, along which it can glide.
   ///
   /// `projection(p)` returns the point of the set that is nearest to `p`, such as
-  /// `ARAP::projection_onto(plane)`; with any other point the energy may rise, and the run fail
+  /// `ARAP::projection_onto(plane)`; with any other point the energy may rise, and the run may fail
   /// with `ARAP::Status::solver_failed`. Each evaluation of the energy calls it for the present
   /// position, one after the other for all targets; it must not change this object. The system
   /// remains as it is, and the energy, with the term \f$m \|p'_v - \pi(p'_v)\|^2\f$, still never
@@ -746,9 +746,14 @@ public:
     return m_session.rotation_of_simplex(s);
   }
 
-  /// returns the point of `v` in the rest shape: of a vertex that has never been in the region of
-  /// interest, nor next to it in a run, the one that the mesh has now.
-  Point rest_position(vertex_descriptor v) const { return m_session.rest_point(v); }
+  /// returns the point of `v` in the rest shape. Of a vertex that has never been in the region of
+  /// interest, nor next to it in a run, this is the one that the mesh has now, and so it is where
+  /// the point in the rest shape is not finite. \pre `v` is a vertex of the mesh.
+  Point rest_position(vertex_descriptor v) const
+  {
+    CGAL_precondition(ARAP::internal::is_vertex_of(domain(), v));
+    return m_session.rest_point(v);
+  }
   /// @}
 
 private:

@@ -393,7 +393,16 @@ assert.equal(session.deform().stages.factor, false);
   // values for each handle; what fails changes nothing
   const inside = mixed.insertPoints(places.slice(0, 2));
   assert.deepEqual([...inside], [5, 6]);
-  mixed.positions(places.slice(0, 2)).forEach((x, i) => near(x, mixed.pointPosition(inside)[i]));
+  const found = places.slice(0, 2);
+  assert.deepEqual(mixed.positions(found), mixed.pointPosition(inside));
+  assert.equal(mixed.positions(found).length, 6);
+  refuses(() => mixed.positions(places), TypeError, /place 2 is null/);
+  for (const f of ['positions', 'insertPoints'])
+    refuses(
+      () => mixed[f]([places[1], { simplex: 0, coordinates: [0, 0, 1] }]),
+      ArapError,
+      /place 1 has 3 coordinates, but simplex 0 has 4 corners/,
+    );
   mixed.setWeight(inside, [2, 3]);
   assert.deepEqual([...mixed.weight(inside)], [2, 3]);
   assert.equal(mixed.weight(6), 3);

@@ -13,6 +13,11 @@ session.setOption('coarse_metric', true);
 session.transform([0], [], { fromRest: true });
 session.setTargetSurface(0, [], [], { corners: [3, 4] });
 const simplices: (number | undefined)[] = session.locateAll([]).map((place) => place?.simplex);
+const handles: Int32Array = session.insertPoints(session.locateAll([]));
+session.positions([{ simplex: 0, coordinates: new Float64Array(3) }]);
+session.setWeight(handles, [1, 2]);
+const weight: number = session.weight(0),
+  weights: Float64Array = session.weight(handles);
 const report: Report = session.deform({
   iterations: 3,
   tolerance: 0,

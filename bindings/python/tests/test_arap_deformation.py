@@ -411,8 +411,11 @@ def test_a_surface_that_follows_tetrahedra():
     assert d.positions(places) == pytest.approx(expected, abs=1e-12)
     d.vertices = moved(TURN, d.rest_vertices)
     assert d.positions(places) == pytest.approx(moved(TURN, inside), abs=1e-12)
-    with pytest.raises(ValueError, match="coordinates for 3 corners, but simplex 7 has 4"):
-        d.positions([arap.Place(7, np.array([0, 0, 1]), 0)])
+    for short in ([arap.Place(7, np.array([0, 0, 1]), 0)] * 2, [places[0], arap.Place(7, [0, 0, 1], 0)]):
+        with pytest.raises(ValueError, match="place . has 3 coordinates, but simplex 7 has 4 corn"):
+            d.positions(short)
+    with pytest.raises(ValueError, match="place 1 is None: the point was not located"):
+        d.insert_points(d.locate_all([inside[0], np.full(3, np.nan)]))
 
 
 def test_values_for_each_handle():

@@ -1,7 +1,6 @@
 // What buttons and keys do with the shape that is open.
 import { FREE } from './colors.js';
 import { placeGizmo } from './drawing.js';
-import { pump } from './follow.js';
 import {
   handlesMoved,
   hold,
@@ -10,39 +9,29 @@ import {
   placeOf,
   recountHandles,
 } from './handles.js';
-import { busy, complain, say } from './messages.js';
+import { busy, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { chooseTool } from './opening.js';
-import { cellStiffness, options, sendOptions, showOptions } from './options.js';
+import { cellStiffness, options, sendOptions } from './options.js';
 import { cancelStroke, painted, setTool } from './painting.js';
-import { $, changed, engine, page, view } from './state.js';
-import { changing, commit, commitSoon, forgetPast, inTurn, optionsOfNow } from './undo.js';
+import { $, engine, page, view } from './state.js';
+import { changing, commitSoon, forgetPast, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
 
-export const optionsChanged = () => inTurn(sendChangedOptions);
-
-async function sendChangedOptions() {
-  const before = optionsOfNow();
-  if ($('cells').value === 'elements') $('bending').value = 0;
-  const wanted = options();
-  try {
-    if ((wanted.cells === 'elements') !== (before.cells === 'elements') && page.shape.stiffness) {
+export const optionsChanged = () =>
+  changing(async () => {
+    if ($('cells').value === 'elements') $('bending').value = 0;
+    const wanted = options(),
+      isOfElements = wanted.cells === 'elements',
+      wasOfElements = optionsOfNow().cells === 'elements';
+    if (isOfElements !== wasOfElements && page.shape.stiffness) {
       cancelStroke();
       page.shape.stiffness = null;
       await engine.call('stiffness', { values: [] });
       say('The painted stiffness was of other cells, and is cleared.');
     }
     await sendOptions(wanted);
-    page.isSettled = false;
-    await commit();
-    pump();
-  } catch (error) {
-    complain(error);
-    showOptions(before);
-    await sendOptions(before).catch(complain);
-  }
-  changed();
-}
+  });
 
 export async function weightsChanged() {
   await changing(async () => {

@@ -92,7 +92,10 @@ export function recountHandles(fits) {
       if (isNew) handle.turns = size === 1;
       handle.pivot = center(shape.points, list);
     }
-    if (!size) Object.assign(handle, newHandle());
+    if (!size) {
+      Object.assign(handle, newHandle());
+      page.keys = page.keys.map((key) => key.map((m, j) => (j === k ? identity() : m)));
+    }
     handle.size = size;
   });
   while (shape.handles.length && !isThere(shape.handles.at(-1))) shape.handles.pop();

@@ -110,11 +110,11 @@ function showPanel() {
   $('up').textContent = `Up: ${view.up}`;
   showButtons(
     $('keys'),
-    keyFrames().map((key, i) => ({
+    page.keys.map((_, i) => ({
       content: String(i + 1),
       title: 'Go there',
       onclick() {
-        moveHandles(key);
+        moveHandles(keyFrames()[i]);
         handlesMoved();
         commitSoon();
       },

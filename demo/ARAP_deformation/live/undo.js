@@ -8,7 +8,8 @@ import { changed, engine, page, view } from './state.js';
 
 let past = [],
   now = -1,
-  timer = 0; // of a commit to come
+  timer = 0, // of a commit to come
+  isSure = true; // that the engine has the options and the stiffness of now
 
 // how many steps can be undone, and done again
 export const steps = () => ({ undo: now, redo: past.length - 1 - now });
@@ -25,6 +26,7 @@ export function forgetPast() {
   timer = 0;
   past = [];
   now = -1;
+  isSure = true;
 }
 
 export async function commit() {
@@ -91,6 +93,7 @@ export async function change(f) {
     complain(error);
     clearTimeout(timer);
     timer = 0;
+    isSure = false;
     await goTo(now);
   }
 }
@@ -102,14 +105,18 @@ async function goTo(index) {
   stopPlaying();
   const kept = past[index],
     before = past[now],
-    fails = kept === before, // what was tried since may have changed anything
     state = await kept.state;
   if (!state) {
-    if (!fails) say('There was not enough memory to keep this step.', true);
-    return;
+    if (kept === before) return;
+    past.splice(index, 1);
+    if (index < now) --now;
+    changed();
+    return say('There was not enough memory to keep this step.', true);
   }
   now = index;
-  if (!fails) page.isSaved = false;
+  if (kept !== before) page.isSaved = false;
+  const wasSure = isSure;
+  isSure = false;
   try {
     Object.assign(page.shape, {
       status: kept.status.slice(),
@@ -121,14 +128,16 @@ async function goTo(index) {
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
     const hasStiffness = kept.stiffness || before.stiffness,
-      hasOptions = JSON.stringify(kept.options) !== JSON.stringify(before.options);
+      hasOptions = !wasSure || JSON.stringify(kept.options) !== JSON.stringify(before.options);
     if (hasOptions) {
-      if (hasStiffness) await engine.call('stiffness', { values: [] }); // it may be of other cells
+      // it may be of other cells
+      if (hasStiffness || !wasSure) await engine.call('stiffness', { values: [] });
       showOptions(kept.options);
       await sendOptions(kept.options);
     }
-    if (hasStiffness && (hasOptions || fails || kept.stiffness !== before.stiffness))
+    if (hasStiffness && (hasOptions || kept.stiffness !== before.stiffness))
       await engine.call('stiffness', { values: cellStiffness() });
+    isSure = true;
     const { points, rest } = await engine.call('restore', { state });
     page.shape.points = rest;
     page.spare = view.setPositions(points);

@@ -39,12 +39,12 @@ namespace ARAP {
 /// \brief finds the face or the tetrahedron that is nearest to a point, for control points of
 /// `CGAL::ARAP_deformation`.
 ///
-/// It is built for the points that the domain has at construction: those of the rest shape, if a
-/// deformation writes to an output map. Takes \f$O(n \log n)\f$ time for
-/// \f$n\f$ simplices, and typically \f$O(\log n)\f$ time for each point. Polygons are cut into
-/// triangles, as seen along their mean normal; they need not be convex, but non-convex ones with
-/// hundreds of corners take long. Triangles without area are ignored, and so are tetrahedra
-/// without volume and simplices with a point that is not finite.
+/// It is built for the points that the domain has at construction: those of the input map, if a
+/// deformation writes to an output map. Takes \f$O(n \log n)\f$ time for \f$n\f$ simplices, and
+/// typically \f$O(\log n)\f$ time for each point. Polygons are cut into triangles, as seen along
+/// their mean normal; they need not be convex, but non-convex ones with hundreds of corners take
+/// long. Triangles without area are ignored, and so are tetrahedra without volume and simplices
+/// with a point that is not finite.
 ///
 /// \tparam Domain a model of `ARAPDomain`
 template <typename Domain>

@@ -173,10 +173,14 @@ def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
     return _pair("handles of targets", targets[0], "targets", targets[1])
 
 
-def _places(places: Sequence[Place]) -> Tuple[NDArray[Any], Floats]:
+def _places(places: Sequence[Optional[Place]]) -> Tuple[NDArray[Any], Floats]:
     """Simplices, and coordinates in rows of the same length."""
-    columns = itertools.zip_longest(*(place.coordinates for place in places), fillvalue=0)
-    return (_integers("simplices", [place.simplex for place in places], None),
+    found = [place for place in places if place is not None]
+    if len(found) < len(places):
+        none = next(k for k, place in enumerate(places) if place is None)
+        raise ValueError(f"place {none} is None: the point was not located")
+    columns = itertools.zip_longest(*(place.coordinates for place in found), fillvalue=math.nan)
+    return (_integers("simplices", [place.simplex for place in found], None),
             _floats("coordinates", list(zip(*columns)), None, None))
 
 
@@ -299,12 +303,12 @@ class Deformation:
         return int(self._session.insert_points(_integers("simplex", [simplex], None),
                                                _floats("coordinates", [coordinates], 1, None))[0])
 
-    def insert_points(self, places: Sequence[Place]) -> NDArray[np.int32]:
+    def insert_points(self, places: Sequence[Optional[Place]]) -> NDArray[np.int32]:
         """The handles of new control points at places, as ``locate_all()`` returns them; all of them
         are inserted, or none."""
         return self._session.insert_points(*_places(places))
 
-    def positions(self, places: Sequence[Place]) -> Floats:
+    def positions(self, places: Sequence[Optional[Place]]) -> Floats:
         """(k, 3): where places are now. What was located in the rest shape follows the shape, as a
         fine surface does that is located in tetrahedra."""
         return self._session.positions(*_places(places)).reshape(-1, 3)
@@ -445,9 +449,9 @@ class Deformation:
 
     def rotations(self) -> Floats:
         """(n, 3, 3), or (m, 3, 3) if cells are elements: the rotations of the cells; identities
-        outside the region, where no vertex of the cell is free, as inside a handle, and until the
-        first run after a change of the region or the cells, or after `reset()` or
-        `make_rest_shape()`."""
+        outside the region, where no vertex of the cell is free, as inside a handle (unless rotations
+        are smoothed, or shared), and until the first run after a change of the region or the cells,
+        or after `reset()` or `make_rest_shape()`."""
         return self._session.rotations().reshape(-1, 3, 3)
 
     def quality(self) -> Quality:

@@ -1155,7 +1155,22 @@ const steps = {
     );
     await page.click('#play');
     await page.waitForFunction(() => window.arap.state().handles[0].matrix[11] === 0.25, { timeout: 20000 });
-    assert.deepEqual((await settled()).handles[1].matrix[7], 0);
+    assert.equal((await settled()).handles[1].matrix[7], 0);
+    // nor has a new handle the motion of one that had its number
+    await page.evaluate(() => window.arap.choose(1));
+    await page.keyboard.press('ArrowUp');
+    await rest(600);
+    await page.keyboard.press('k');
+    assert.equal((await settled()).keys, 4);
+    await page.keyboard.press('Delete');
+    assert.equal((await settled()).handles.length, 1);
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    await paintMiddle();
+    await settled();
+    await page.click('#keys button:nth-child(4)');
+    const last = (await settled()).handles;
+    assert.deepEqual([last.length, last[1].matrix[7]], [2, 0]);
   },
 
   async 'rest shape from now'() {

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace CGAL {
 namespace ARAP {

@@ -17,7 +17,6 @@
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
-#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -27,6 +26,8 @@
 #endif
 
 #include <cstddef>
+#include <limits>
+#include <stdexcept>
 
 namespace CGAL {
 namespace ARAP {
@@ -34,12 +35,13 @@ namespace internal {
 
 // These return the row of the matrix for each row of the factor.
 
-// Throws std::length_error if numbers of the workspace are no indices.
+// Throws std::length_error if the workspace is too large for its indices.
 inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 {
-  const auto n = static_cast<std::size_t>(a.cols());
-  const std::size_t entries = 2 * static_cast<std::size_t>(a.nonZeros()) - n;
-  to_index(entries + entries / 5 + 2 * n); // Eigen's code does not check it
+  const double n = static_cast<double>(a.cols());
+  const double entries = 2 * static_cast<double>(a.nonZeros()) - n; // without the diagonal, less
+  if(1.2 * entries + 2 * n >= (std::numeric_limits<int>::max)()) // Eigen does not check it
+    throw std::length_error("CGAL::ARAP: the matrix is too large for a minimum degree ordering");
   Eigen::AMDOrdering<int>::PermutationType order;
   Eigen::AMDOrdering<int>()(a.selfadjointView<Eigen::Lower>(), order);
   return Array<int>(order.indices().data(), order.indices().data() + order.size());
@@ -50,6 +52,9 @@ inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 inline Array<int> metis_order(const Sparse_matrix& a)
 {
   // the neighbors of each row, from the lower triangle
+  if(2 * static_cast<std::size_t>(a.nonZeros()) >
+     static_cast<std::size_t>((std::numeric_limits<idx_t>::max)()))
+    return {};
   idx_t n = static_cast<idx_t>(a.cols());
   Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbors;
   const auto for_each_edge = [&](const auto& f) {

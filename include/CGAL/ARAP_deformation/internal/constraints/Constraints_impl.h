@@ -24,10 +24,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 namespace CGAL {
 namespace ARAP {

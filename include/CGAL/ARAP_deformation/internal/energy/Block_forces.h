@@ -103,7 +103,7 @@ public:
   }
 
 private:
-  int m_block_size = 1;
+  int m_block_size;
   Array<int> m_places;              // of each corner
   Array<int> m_first_place;         // of each block
   Index_lists m_places_of_vertices;

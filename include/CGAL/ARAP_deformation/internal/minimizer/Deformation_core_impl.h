@@ -45,10 +45,10 @@
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -294,10 +294,10 @@ bool Deformation_core::can_have_coarse_start(const Options& options) const
 {
   constexpr std::size_t least_vertices = 20000; // with fewer it takes longer than it saves
   constexpr unsigned int least_iterations = 20;
-  constexpr std::size_t most_neighbors = INT_MAX; // of all vertices: two at each corner
+  constexpr auto most_neighbors = static_cast<std::size_t>((std::numeric_limits<int>::max)());
   return m_region.dimension == 2 && has_vertex_cells() && options.iterations >= least_iterations &&
          m_constraints.number_of_free_vertices() >= least_vertices &&
-         2 * m_region.corners.size() <= most_neighbors &&
+         2 * m_region.corners.size() <= most_neighbors && // each corner has two
          m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
          m_energy_model.stiffness.empty();
 }

@@ -47,6 +47,7 @@ public:
 
   using Base::Base;
   using Base::present;
+  using Base::rest_point;
 
   // The target of a control vertex or a control point, the projection of where it is if the target
   // is a set; the point of what is no control.
@@ -139,7 +140,7 @@ public:
       const auto* entry = m_vertices.find_control(v);
       if(entry == nullptr)
         return outcome(Status::not_a_control_vertex, name(v));
-      rest.push_back(Domain::coordinates(entry->rest));
+      rest.push_back(Domain::coordinates(rest_point(v)));
       targets.push_back(Domain::coordinates(target(v)));
     }
     const std::optional<Matrix_3x3> rotation = rotation_of_motion(rest, targets);

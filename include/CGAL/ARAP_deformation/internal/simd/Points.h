@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  const double* m_numbers = nullptr;
+  const double* m_numbers;
 };
 
 } // namespace CGAL_ARAP_SIMD
