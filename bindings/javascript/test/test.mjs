@@ -394,7 +394,8 @@ assert.equal(session.deform().stages.factor, false);
   const inside = mixed.insertPoints(places.slice(0, 2));
   assert.deepEqual([...inside], [5, 6]);
   const found = places.slice(0, 2);
-  assert.deepEqual(mixed.positions(found), mixed.pointPosition(inside));
+  const known = mixed.pointPosition(inside);
+  assert(mixed.positions(found).every((x, i) => Math.abs(x - known[i]) < 1e-12));
   assert.equal(mixed.positions(found).length, 6);
   refuses(() => mixed.positions(places), TypeError, /place 2 is null/);
   for (const f of ['positions', 'insertPoints'])
