@@ -187,7 +187,7 @@ void test_matrix(const std::string& name, const std::vector<Eigen::Vector3d>& po
       {
         for(int k = 1; k < 4; ++k)
           problem.constraints.rows.append(k, 0.7);
-        const int* const corners = region.corners_of(5);
+        const Index_range corners = region.corners_of(5);
         problem.constraints.rows.append({corners[0], corners[1]}, {0.4, 0.6}, 2);
         problem.targets.soft.assign(4, Coordinates{0, 0, 0});
       }
@@ -307,8 +307,8 @@ void test_region(const std::string& name, const Region& fine, int euler_characte
     std::set<std::array<int, 2>> edges; // of polygons, from one corner to the next
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const corners = region.corners_of(s);
-      const int k = region.number_of_corners(s);
+      const Index_range corners = region.corners_of(s);
+      const int k = corners.size();
       CHECK(k >= 3);
       for(int i = 0; i < k; ++i)
         CHECK(edges.insert({corners[i], corners[(i + 1) % k]}).second);
@@ -339,8 +339,7 @@ void test_region(const std::string& name, const Region& fine, int euler_characte
       const Array<char> is_nearer = is_near;
       for(int s = 0; s < fine.number_of_simplices(); ++s)
       {
-        const int* const begin = fine.corners_of(s);
-        const int* const end = begin + fine.number_of_corners(s);
+        const auto [begin, end] = fine.corners_of(s);
         if(std::any_of(begin, end, [&](int v) { return is_nearer[v] != 0; }))
           for(const int* v = begin; v != end; ++v)
             is_near[*v] = true;

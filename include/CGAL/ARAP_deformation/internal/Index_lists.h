@@ -49,6 +49,17 @@ inline void add_up(Array<int>& numbers)
   std::partial_sum(numbers.begin(), numbers.end(), numbers.begin(), checked_sum);
 }
 
+// Indices that follow each other in memory.
+struct Index_range
+{
+  const int *first, *last;
+
+  const int* begin() const { return first; }
+  const int* end() const { return last; }
+  int size() const { return static_cast<int>(last - first); }
+  int operator[](std::size_t k) const { return first[k]; }
+};
+
 // Lists of indices: those of list k are items[begin[k]] to items[begin[k + 1] - 1].
 struct Index_lists
 {
@@ -56,6 +67,11 @@ struct Index_lists
   Array<int> items;
 
   int size() const { return static_cast<int>(begin.size()) - 1; }
+
+  Index_range list(int k) const
+  {
+    return {items.data() + begin[k], items.data() + begin[k + 1]};
+  }
 
   // what has been appended to `items` since the end of the last list is a list
   void end_list() { begin.push_back(to_index(items.size())); }
@@ -105,10 +121,10 @@ inline Array<int> list_of_each(const Array<int>& begin)
 inline Index_lists lists_with(const Index_lists& lists, int n)
 {
   return lists_of_pairs(n, [&](const auto& f) {
-    for(int list = 0; list < lists.size(); ++list)
-      for(int k = lists.begin[list]; k < lists.begin[list + 1]; ++k)
-        if(lists.items[k] < n)
-          f(lists.items[k], list);
+    for(int k = 0; k < lists.size(); ++k)
+      for(int item : lists.list(k))
+        if(item < n)
+          f(item, k);
   });
 }
 

@@ -72,8 +72,8 @@ public:
       const int count = (std::min)(batch_size, m_pattern.cells.size() - first);
       for_each_task(static_cast<std::size_t>(count), [&](std::size_t k) {
         const int group = first + static_cast<int>(k);
-        Array<int> nodes(m_pattern.nodes.items.begin() + m_pattern.nodes.begin[group],
-                         m_pattern.nodes.items.begin() + m_pattern.nodes.begin[group + 1]);
+        const Index_range list = m_pattern.nodes.list(group);
+        Array<int> nodes(list.begin(), list.end());
         std::vector<Double4> origins;
         for(int node : nodes)
           origins.push_back(transfer.origin(node));

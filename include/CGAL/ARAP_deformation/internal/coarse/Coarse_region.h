@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -66,9 +67,8 @@ private:
 
   static bool has_corner(const Region& fine, int s, const Array<char>& is_chosen)
   {
-    const int* const begin = fine.corners_of(s);
-    return std::any_of(begin, begin + fine.number_of_corners(s),
-                       [&](int v) { return is_chosen[v] != 0; });
+    const auto [begin, end] = fine.corners_of(s);
+    return std::any_of(begin, end, [&](int v) { return is_chosen[v] != 0; });
   }
 
   Coarse_space space_of(const Region& fine, const Array<char>& is_near)
@@ -84,11 +84,12 @@ private:
       for(int s = 0; s < fine.number_of_simplices(); ++s)
         if(has_corner(fine, s, is_near))
         {
-          const int* const corners = fine.corners_of(s);
-          for(int n = fine.number_of_corners(s), k = n - 1, l = 0; l < n; k = l++)
+          int last = *std::prev(fine.corners_of(s).end());
+          for(int v : fine.corners_of(s))
           {
-            f(corners[k], corners[l]);
-            f(corners[l], corners[k]);
+            f(last, v);
+            f(v, last);
+            last = v;
           }
         }
     });
@@ -98,8 +99,8 @@ private:
   {
     Array<int>& corners = m_region.corners;
     const auto first = static_cast<std::ptrdiff_t>(corners.size());
-    for(int k = 0; k < fine.number_of_corners(s); ++k)
-      if(const int node = m_space.nodes(fine.corners_of(s)[k])[0];
+    for(int v : fine.corners_of(s))
+      if(const int node = m_space.nodes(v)[0];
          std::find(corners.begin() + first, corners.end(), node) == corners.end())
         corners.push_back(node);
     if(corners.size() < static_cast<std::size_t>(first) + 3)

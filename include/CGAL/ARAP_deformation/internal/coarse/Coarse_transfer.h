@@ -126,8 +126,8 @@ public:
   template <typename Function>
   void for_each_vertex(int group, const Function& f) const
   {
-    for(int k = m_vertices_of.begin[group]; k < m_vertices_of.begin[group + 1]; ++k)
-      f(m_vertices_of.items[k]);
+    for(int v : m_vertices_of.list(group))
+      f(v);
   }
 
   // Takes the positions. Fixed vertices do not move, and neither do nodes at them. These, and what

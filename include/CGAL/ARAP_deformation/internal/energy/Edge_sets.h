@@ -46,11 +46,10 @@ struct Stars
   // the place of the neighbor j of i
   int find(int i, int j) const
   {
-    const auto begin = neighbors.items.begin() + neighbors.begin[i];
-    const auto end = neighbors.items.begin() + neighbors.begin[i + 1];
-    const auto found = std::lower_bound(begin, end, j);
+    const auto [begin, end] = neighbors.list(i);
+    const int* const found = std::lower_bound(begin, end, j);
     CGAL_assertion(found != end && *found == j);
-    return static_cast<int>(found - neighbors.items.begin());
+    return static_cast<int>(found - neighbors.items.data());
   }
 
   // whether no star has a negative energy, up to rounding

@@ -39,8 +39,8 @@ public:
     : m_cells(std::move(cells)), m_group_of(number_of_cells, none)
   {
     for(int g = 0; g < m_cells.size(); ++g)
-      for(int k = m_cells.begin[g]; k < m_cells.begin[g + 1]; ++k)
-        m_group_of[m_cells.items[k]] = g;
+      for(int c : m_cells.list(g))
+        m_group_of[c] = g;
   }
 
   // The rotations of some cells; a group has the mean of those of its cells.
@@ -64,14 +64,14 @@ public:
   bool is_alone(int c) const { return group_of(c) == none; }
 
   // the first of the cells that share a rotation with c
-  int leader(int c) const { return is_alone(c) ? c : m_cells.items[m_cells.begin[group_of(c)]]; }
+  int leader(int c) const { return is_alone(c) ? c : m_cells.list(group_of(c))[0]; }
 
   // calls f(begin, end) for the cells of each group
   template <typename Function>
   void for_each_group(const Function& f) const
   {
     for(int g = 0; g < m_cells.size(); ++g)
-      f(m_cells.items.data() + m_cells.begin[g], m_cells.items.data() + m_cells.begin[g + 1]);
+      f(m_cells.list(g).begin(), m_cells.list(g).end());
   }
 
   // calls f for c and all cells that share its rotation
@@ -81,8 +81,8 @@ public:
     if(is_alone(c))
       f(c);
     else
-      std::for_each(m_cells.items.begin() + m_cells.begin[group_of(c)],
-                    m_cells.items.begin() + m_cells.begin[group_of(c) + 1], f);
+      for(int other : m_cells.list(group_of(c)))
+        f(other);
   }
 
   // gives c and all cells that share its rotation this one

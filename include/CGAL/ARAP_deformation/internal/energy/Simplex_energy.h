@@ -203,11 +203,10 @@ public:
     Array<char> vertices;
     for(int s = 0; s < m_cells.size(); ++s)
       if(is_chosen[s])
-        for(int k = m_simplices.corners.begin[s]; k < m_simplices.corners.begin[s + 1]; ++k)
+        for(int v : m_simplices.corners.list(s))
         {
-          const auto v = static_cast<std::size_t>(m_simplices.corners.items[k]);
-          if(v >= vertices.size())
-            vertices.resize(v + 1, false);
+          if(static_cast<std::size_t>(v) >= vertices.size())
+            vertices.resize(static_cast<std::size_t>(v) + 1, false);
           vertices[v] = true;
         }
     return vertices;
@@ -220,15 +219,11 @@ public:
   template <typename Predicate>
   bool is_moving(int c, const Predicate& is_free) const
   {
-    for(int k = m_cells.sets.begin[c]; k < m_cells.sets.begin[c + 1]; ++k)
-    {
-      const int s = m_cells.sets.items[k];
-      const auto corners = m_simplices.corners.items.begin();
-      if(std::any_of(corners + m_simplices.corners.begin[s],
-                     corners + m_simplices.corners.begin[s + 1], is_free))
-        return true;
-    }
-    return false;
+    const auto [begin, end] = m_cells.sets.list(c);
+    return std::any_of(begin, end, [&](int s) {
+      const Index_range corners = m_simplices.corners.list(s);
+      return std::any_of(corners.begin(), corners.end(), is_free);
+    });
   }
 
   // the cells that count
@@ -239,10 +234,8 @@ public:
       if(!is_chosen[c])
         m_stiffness[c] = 0;
     m_chosen.choose(m_simplices.size(), [&](int s) {
-      const auto cells = m_cells_of_simplices.items.begin();
-      return std::any_of(cells + m_cells_of_simplices.begin[s],
-                         cells + m_cells_of_simplices.begin[s + 1],
-                         [&](int c) { return is_chosen[c] != 0; });
+      const auto [begin, end] = m_cells_of_simplices.list(s);
+      return std::any_of(begin, end, [&](int c) { return is_chosen[c] != 0; });
     }, m_forces.block_size());
     m_forces.clear();
   }

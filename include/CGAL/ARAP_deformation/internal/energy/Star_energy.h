@@ -155,15 +155,13 @@ public:
   bool is_moving(int c, const Predicate& is_free) const
   {
     const auto is_star_moving = [&](int i) {
-      const auto begin = m_stars.neighbors.items.begin();
-      return is_free(i) || std::any_of(begin + m_stars.neighbors.begin[i],
-                                       begin + m_stars.neighbors.begin[i + 1], is_free);
+      const auto [begin, end] = m_stars.neighbors.list(i);
+      return is_free(i) || std::any_of(begin, end, is_free);
     };
     if(has_stars_as_cells())
       return is_star_moving(c);
-    const auto begin = m_cells.sets.items.begin();
-    return std::any_of(begin + m_cells.sets.begin[c], begin + m_cells.sets.begin[c + 1],
-                       is_star_moving);
+    const auto [begin, end] = m_cells.sets.list(c);
+    return std::any_of(begin, end, is_star_moving);
   }
 
   // over the cells that count
@@ -202,9 +200,8 @@ public:
         m_weights_of_cells[e] *= stiffness[i];
     m_opposite_weights = opposite_weights(m_weights_of_cells);
     m_chosen.choose(m_stars.size(), [&](int i) {
-      const auto begin = m_cells_of_stars.items.begin();
-      return std::any_of(begin + m_cells_of_stars.begin[i], begin + m_cells_of_stars.begin[i + 1],
-                         [&](int c) { return is_chosen[c] != 0; });
+      const auto [begin, end] = m_cells_of_stars.list(i);
+      return std::any_of(begin, end, [&](int c) { return is_chosen[c] != 0; });
     }, block_size);
   }
 

@@ -49,8 +49,8 @@ namespace internal {
 template <typename Function>
 void for_each_facet(const Region& region, int s, const Function& f)
 {
-  const int* const corners = region.corners_of(s);
-  const int n = region.number_of_corners(s);
+  const Index_range corners = region.corners_of(s);
+  const int n = corners.size();
   for(int k = 0; k < n; ++k)
   {
     std::array<int, 3> facet = {corners[k], corners[(k + 1) % n], -1};
@@ -75,9 +75,8 @@ inline Array<char> find_border(const Region& region)
                    [&](const std::array<int, 3>& facet) { facets.emplace_back(facet, s); });
   std::sort(facets.begin(), facets.end());
   const auto have_same_corners = [&](const Facet& f, const Facet& g) {
-    const int *const a = region.corners_of(f.second), *const b = region.corners_of(g.second);
-    return std::is_permutation(a, a + region.number_of_corners(f.second), b,
-                               b + region.number_of_corners(g.second));
+    const Index_range a = region.corners_of(f.second), b = region.corners_of(g.second);
+    return std::is_permutation(a.begin(), a.end(), b.begin(), b.end());
   };
   Array<char> is_on_border(region.number_of_centers, false);
   for(auto begin = facets.begin(); begin != facets.end();)
@@ -166,9 +165,9 @@ inline Smooth_rotations make_smooth_rotations(const Energy_model& energy_model,
   }
   const auto centroid = [&](int s, const Coordinates& origin) {
     Coordinates sum = {0, 0, 0};
-    const int n = region.number_of_corners(s);
-    for(int k = 0; k < n; ++k)
-      add(sum, 1.0 / n, difference(region.rest[region.corners_of(s)[k]], origin));
+    const Index_range corners = region.corners_of(s);
+    for(int v : corners)
+      add(sum, 1.0 / corners.size(), difference(region.rest[v], origin));
     return sum;
   };
   std::vector<std::vector<std::pair<int, double>>> lists(static_cast<std::size_t>(number_of_cells));
@@ -237,10 +236,10 @@ inline Sequential_fit make_sequential_fit(const Energy_model& energy_model, cons
 {
   std::vector<std::pair<int, int>> edges; // each from a cell to a vertex
   for(int s = 0; s < region.number_of_simplices(); ++s)
-    for(int k = 0; k < region.number_of_corners(s); ++k)
-      for(int l = 0; l < region.number_of_corners(s); ++l)
-        if(const int c = region.corners_of(s)[k]; k != l && c < number_of_cells)
-          edges.emplace_back(c, region.corners_of(s)[l]);
+    for(const int& c : region.corners_of(s))
+      for(const int& v : region.corners_of(s))
+        if(&c != &v && c < number_of_cells)
+          edges.emplace_back(c, v);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   Index_lists neighbors;

@@ -87,8 +87,8 @@ constexpr int most_corners_of_all = 64;
 inline void compute_polygon_weights(const Edge_weight_model& model, const Region& region, int s,
                                     double* weights)
 {
-  const int n = region.number_of_corners(s);
-  const int* corners = region.corners_of(s);
+  const Index_range corners = region.corners_of(s);
+  const int n = corners.size();
   Array<double> scaled_catalan(n - 1, 1);
   for(int m = 0; m + 2 < n; ++m)
     scaled_catalan[m + 1] = scaled_catalan[m] * (2 * m + 1) / (2 * (m + 2));
@@ -134,11 +134,11 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
 inline void compute_simplex_weights(const Edge_weight_model& model, const Region& region, int s,
                                     double* weights)
 {
-  const int* c = region.corners_of(s);
+  const Index_range c = region.corners_of(s);
   const auto copy = [weights](const auto& w) { std::copy(w.begin(), w.end(), weights); };
   if(region.dimension == 3)
     copy(model.tetrahedron(corner_points<4>(region, {c[0], c[1], c[2], c[3]})));
-  else if(region.number_of_corners(s) == 3)
+  else if(c.size() == 3)
     copy(triangle_weights(model, region, c[0], c[1], c[2]));
   else
     compute_polygon_weights(model, region, s, weights);
@@ -154,7 +154,7 @@ inline Simplices weighted_simplices(const Edge_weight_model& model, const Region
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     simplices.first_weight.push_back(to_index(number_of_weights));
-    const auto k = static_cast<std::size_t>(region.number_of_corners(s));
+    const auto k = static_cast<std::size_t>(region.corners_of(s).size());
     number_of_weights += k * (k - 1) / 2;
   }
   simplices.weights = Array<double>(to_index(number_of_weights));

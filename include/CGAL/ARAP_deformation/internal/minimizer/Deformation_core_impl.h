@@ -233,8 +233,8 @@ std::optional<Matrix_3x3> Deformation_core::mean_at_corners(int s,
 {
   Matrix_3x3 sum{};
   bool has_one = false;
-  for(int k = 0; k < m_region.number_of_corners(s); ++k)
-    if(const Matrix_3x3* const rotation = rotation_at(m_region.corners_of(s)[k]))
+  for(int v : m_region.corners_of(s))
+    if(const Matrix_3x3* const rotation = rotation_at(v))
     {
       has_one = true;
       add(sum, 1, *rotation);

@@ -51,14 +51,15 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
   Free_neighborhood result = {Array<char>(region.number_of_vertices(), false), {}};
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    const int* const begin = region.corners_of(s);
-    const int* const end = begin + region.number_of_corners(s);
-    const int* const free = std::find_if(begin, end, is_free);
-    for(const int* v = begin; v != end && free != end; ++v)
+    const Index_range corners = region.corners_of(s);
+    const int* const free = std::find_if(corners.begin(), corners.end(), is_free);
+    if(free == corners.end())
+      continue;
+    for(int v : corners)
     {
-      result.is_near[*v] = true;
-      if(!is_free(*v))
-        result.ties.push_back({*free, *v});
+      result.is_near[v] = true;
+      if(!is_free(v))
+        result.ties.push_back({*free, v});
     }
   }
   return result;
@@ -137,8 +138,7 @@ public:
     Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
+      const auto [begin, end] = region.corners_of(s);
       if(std::none_of(begin, end, [&](int v) { return is_near[v] != 0; }))
         continue;
       const int* const first = std::find_if(begin, end, is_handle);
@@ -159,18 +159,18 @@ public:
     };
     for(int h = 0; h < handles.size(); ++h)
     {
-      const int begin = handles.begin[h], end = handles.begin[h + 1];
-      if(end - begin < 2)
+      const Index_range handle = handles.list(h);
+      if(handle.size() < 2)
         continue;
       Array<Coordinates> rest, places;
-      for(int k = begin; k < end; ++k)
+      for(int v : handle)
       {
-        rest.push_back(region.rest[handles.items[k]]);
-        places.push_back(place(handles.items[k]));
+        rest.push_back(region.rest[v]);
+        places.push_back(place(v));
       }
       const Rigid_fit fit(rest, places);
-      for(int k = begin; k < end; ++k)
-        set(handles.items[k], fit.rotation());
+      for(int v : handle)
+        set(v, fit.rotation());
     }
     for(const Frame& frame : targets.frames)
       set(frame.vertex, frame.rotation);

@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -52,28 +53,27 @@ public:
     const auto is_constraint = [&](int v) { return v >= n || components[v] == -1; };
     Disjoint_sets sets(n); // of components
     // unites the components of a range, and returns one of them, or -1
-    const auto unite = [&](auto begin, auto end) {
-      const auto first = std::find_if(begin, end, is_free);
-      for(auto v = first; v != end; ++v)
+    const auto unite = [&](const auto& vertices) {
+      const auto first = std::find_if(vertices.begin(), vertices.end(), is_free);
+      for(auto v = first; v != vertices.end(); ++v)
         if(is_free(*v) && components[*v] != components[*first])
           sets.unite(components[*v], components[*first]);
-      return first == end ? -1 : components[*first];
+      return first == vertices.end() ? -1 : components[*first];
     };
     // All that is in simplices at a vertex, free or not, may share a cell.
     Array<int> around(region.number_of_vertices(), -1); // a component in a simplex there
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
-      if(const int component = unite(begin, end); component >= 0)
-        for(const int* v = begin; v != end; ++v)
+      const Index_range corners = region.corners_of(s);
+      if(const int component = unite(corners); component >= 0)
+        for(int v : corners)
         {
-          if(around[*v] >= 0 && around[*v] != component)
-            sets.unite(around[*v], component);
-          around[*v] = component;
+          if(around[v] >= 0 && around[v] != component)
+            sets.unite(around[v], component);
+          around[v] = component;
         }
     }
-    constraints.for_each_row([&](const Row& row) { unite(row.begin(), row.end()); });
+    constraints.for_each_row([&](const Row& row) { unite(row); });
 
     int count = 0;
     Array<int> number(n, -1);
@@ -85,19 +85,18 @@ public:
         m_part[v] = part;
       }
     Pairs free, fixed, rows; // each with its part
-    const auto add_fixed = [&](int part, auto begin, auto end) {
-      for(auto v = begin; v != end; ++v)
-        if(is_constraint(*v))
-          fixed.emplace_back(part, *v);
+    const auto add_fixed = [&](int part, const auto& vertices) {
+      for(int v : vertices)
+        if(is_constraint(v))
+          fixed.emplace_back(part, v);
     };
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
-      if(std::any_of(begin, end, is_constraint))
-        for(const int* v = begin; v != end; ++v)
-          if(around[*v] >= 0) // those at other corners may be of other parts
-            add_fixed(m_part[around[*v]], begin, end);
+      const Index_range corners = region.corners_of(s);
+      if(std::any_of(corners.begin(), corners.end(), is_constraint))
+        for(int v : corners)
+          if(around[v] >= 0) // those at other corners may be of other parts
+            add_fixed(m_part[around[v]], corners);
     }
     m_can_be_rigid = Array<char>(count, true);
     int r = 0;
@@ -106,7 +105,7 @@ public:
       if(first != row.end())
       {
         const int part = m_part[*first];
-        add_fixed(part, row.begin(), row.end());
+        add_fixed(part, row);
         rows.emplace_back(part, r);
         double excess = -1;
         row.for_each_coefficient([&](int, double b) { excess += b; });
@@ -157,9 +156,8 @@ public:
       find_twisted_parts(region, constraints, x, deformed, motions);
     for(const Motion& motion : motions)
       if(!motion.is_twisted)
-        for(int k = m_free.begin[motion.part]; k < m_free.begin[motion.part + 1]; ++k)
+        for(int v : m_free.list(motion.part))
         {
-          const int v = m_free.items[k];
           if(!motion.is_at_rest)
             x[v] = motion.after(motion.before(region.rest[v]));
           else if(is_from_rest)
@@ -218,16 +216,15 @@ private:
         add(place.back(), 1, product(*frame_of[v], side));
       }
     };
-    for(int k = m_fixed.begin[part]; k < m_fixed.begin[part + 1]; ++k)
+    for(int v : m_fixed.list(part))
     {
-      const int v = m_fixed.items[k];
       rest.push_back(region.rest[v]);
       place.push_back(x[v]);
       add_frame(v);
     }
-    for(int k = m_rows.begin[part]; k < m_rows.begin[part + 1]; ++k)
+    const int number_of_soft = constraints.rows.size();
+    for(int r : m_rows.list(part))
     {
-      const int r = m_rows.items[k], number_of_soft = constraints.rows.size();
       if(r >= number_of_soft)
       {
         rest.push_back(constraints.hard_rows.value(r - number_of_soft, region.rest.data()));
@@ -244,9 +241,8 @@ private:
       return;
 
     Array<Coordinates> free_rest, free_place;
-    for(int k = m_free.begin[part]; k < m_free.begin[part + 1]; ++k)
+    for(int v : m_free.list(part))
     {
-      const int v = m_free.items[k];
       free_rest.push_back(region.rest[v]);
       free_place.push_back(is_from_rest ? region.rest[v] : x[v]);
     }
@@ -280,16 +276,19 @@ private:
     Array<Matrix_3x3> covariances(n, Matrix_3x3{});
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
-      if(!std::all_of(begin, end, is_deformed)) // what is fixed has moved since
+      const Index_range corners = region.corners_of(s);
+      if(!std::all_of(corners.begin(), corners.end(), is_deformed)) // what is fixed has moved
         continue;
       Matrix_3x3 covariance{};
-      for(const int *v = begin, *last = end - 1; v != end; last = v++)
-        add_product(covariance, difference(x[*v], x[*last]),
-                    difference(region.rest[*v], region.rest[*last]));
-      for(const int* v = begin; v != end; ++v)
-        add(covariances[*v], 1, covariance);
+      int last = *std::prev(corners.end());
+      for(int v : corners)
+      {
+        add_product(covariance, difference(x[v], x[last]),
+                    difference(region.rest[v], region.rest[last]));
+        last = v;
+      }
+      for(int v : corners)
+        add(covariances[v], 1, covariance);
     }
     Array<char> is_turned(region.number_of_vertices(), false);
     for_each_block(covariances.size(), [&](std::size_t begin, std::size_t end) {
@@ -305,8 +304,8 @@ private:
     const auto for_each_constraint = [&](const auto& f) { // f(begin, end of its vertices, part)
       for(const Motion& motion : motions)
         if(deformed[motion.part] >= 0)
-          for(int k = m_fixed.begin[motion.part]; k < m_fixed.begin[motion.part + 1]; ++k)
-            f(&m_fixed.items[k], &m_fixed.items[k] + 1, motion.part);
+          for(const int& v : m_fixed.list(motion.part))
+            f(&v, &v + 1, motion.part);
       constraints.for_each_row([&](const Row& row) {
         const auto v = std::find_if(row.begin(), row.end(), is_deformed);
         if(v != row.end())
@@ -320,8 +319,7 @@ private:
     Disjoint_sets sets(region.number_of_vertices());
     for(int s = 0; s < region.number_of_simplices(); ++s)
     {
-      const int* const begin = region.corners_of(s);
-      const int* const end = begin + region.number_of_corners(s);
+      const auto [begin, end] = region.corners_of(s);
       if(std::any_of(begin, end, [&](int v) { return is_free(v) && !is_deformed(v); }))
         continue;
       const int* const first = std::find_if(begin, end, [&](int v) { return !is_turned[v]; });

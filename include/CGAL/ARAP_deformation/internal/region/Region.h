@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 
 #include <cstddef>
 
@@ -49,8 +50,10 @@ struct Region
 
   int number_of_vertices() const { return static_cast<int>(rest.size()); }
   int number_of_simplices() const { return static_cast<int>(first_corner.size()) - 1; }
-  int number_of_corners(int s) const { return first_corner[s + 1] - first_corner[s]; }
-  const int* corners_of(int s) const { return corners.data() + first_corner[s]; }
+  Index_range corners_of(int s) const
+  {
+    return {corners.data() + first_corner[s], corners.data() + first_corner[s + 1]};
+  }
 };
 
 } // namespace internal

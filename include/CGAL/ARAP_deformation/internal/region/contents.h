@@ -70,11 +70,11 @@ bool is_inverted(const Corner& corner, const Other& other)
 // the area or volume of simplex s of the rest shape
 inline double content_of(const Region& region, int s)
 {
-  const auto corner = [&](std::size_t k) { return region.rest[region.corners_of(s)[k]]; };
+  const Index_range corners = region.corners_of(s);
+  const auto corner = [&](std::size_t k) { return region.rest[corners[k]]; };
   if(region.dimension == 3)
     return std::abs(signed_volume(corner));
-  const auto n = static_cast<std::size_t>(region.number_of_corners(s));
-  const Coordinates area = vector_area(n, corner);
+  const Coordinates area = vector_area(static_cast<std::size_t>(corners.size()), corner);
   return std::sqrt(dot(area, area));
 }
 
@@ -84,10 +84,9 @@ inline Array<double> contents_at_centers(const Region& region)
   Array<double> contents(region.number_of_centers, 0);
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
-    const int n = region.number_of_corners(s);
-    const double share = content_of(region, s) / n;
-    for(int k = 0; k < n; ++k)
-      if(const int v = region.corners_of(s)[k]; v < region.number_of_centers)
+    const double share = content_of(region, s) / region.corners_of(s).size();
+    for(int v : region.corners_of(s))
+      if(v < region.number_of_centers)
         contents[v] += share;
   }
   return contents;

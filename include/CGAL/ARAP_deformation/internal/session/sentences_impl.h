@@ -17,6 +17,10 @@
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 #include <CGAL/ARAP_deformation/internal/solver/Hard_rows.h>
 
+#include <cstddef>
+#include <string>
+#include <utility>
+
 namespace CGAL {
 namespace ARAP {
 namespace internal {
@@ -37,9 +41,9 @@ CGAL_ARAP_INLINE_FUNCTION
 std::string simplex_name(const Region& region, int simplex)
 {
   std::string name = region.dimension == 3 ? "the tetrahedron" : "the face";
-  for(int k = 0; k < region.number_of_corners(simplex); ++k)
-    name += (k == 0 ? " with the vertices " : ", ") +
-            std::to_string(region.indices[region.corners_of(simplex)[k]]);
+  const char* before = " with the vertices ";
+  for(int v : region.corners_of(simplex))
+    name += std::exchange(before, ", ") + std::to_string(region.indices[v]);
   return name;
 }
 
