@@ -269,6 +269,15 @@ public:
   std::vector<double> positions(Indices simplices, Numbers coordinates) const override
   {
     return coordinates_of(places_of(simplices, coordinates), [this](const auto& place) {
+      double sum = -1, largest = 0;
+      for(double c : place.second)
+      {
+        sum += c;
+        largest = (std::max)(largest, std::abs(c));
+      }
+      require(std::abs(sum) <= (std::max)(1e-9, 1e-14 * largest),
+              "the coordinates of a place in simplex " + std::to_string(place.first) +
+              " do not add up to one");
       return place_in(m_simplices[place.first], place.second, m_points);
     });
   }
@@ -532,7 +541,8 @@ private:
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
   }
 
-  // Simplices and coordinates, without what fills the rows. Throws if they are no places.
+  // Simplices and coordinates, without what fills the rows. Throws if there is no such simplex, or
+  // if it has another number of corners.
   std::vector<std::pair<std::size_t, std::vector<double>>> places_of(Indices simplices,
                                                                      Numbers coordinates) const
   {

@@ -414,6 +414,9 @@ def test_a_surface_that_follows_tetrahedra():
     for short in ([arap.Place(7, np.array([0, 0, 1]), 0)] * 2, [places[0], arap.Place(7, [0, 0, 1], 0)]):
         with pytest.raises(ValueError, match="place . has 3 coordinates, but simplex 7 has 4 corn"):
             d.positions(short)
+    for wrong in ([np.nan, 0.5, 0.25, 0.25], [1, 1, 1, 0]):
+        with pytest.raises(ValueError, match="a place in simplex 7 do not add up to one"):
+            d.positions([arap.Place(7, np.array(wrong), 0)])
     with pytest.raises(ValueError, match="place 1 is None: the point was not located"):
         d.insert_points(d.locate_all([inside[0], np.full(3, np.nan)]))
 

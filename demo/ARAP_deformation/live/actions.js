@@ -12,12 +12,13 @@ import {
 import { busy, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { chooseTool } from './opening.js';
-import { cellStiffness, options, sendOptions } from './options.js';
+import { cellStiffness, options, sendOptions, showOptions } from './options.js';
 import { cancelStroke, painted, setTool } from './painting.js';
 import { $, engine, page, view } from './state.js';
 import { changing, commitSoon, forgetPast, optionsOfNow } from './undo.js';
 import { THREE } from './view.js';
 
+// while a film goes on
 export const optionsChanged = () =>
   changing(async () => {
     if ($('cells').value === 'elements') $('bending').value = 0;
@@ -30,8 +31,11 @@ export const optionsChanged = () =>
       await engine.call('stiffness', { values: [] });
       say('The painted stiffness was of other cells, and is cleared.');
     }
-    await sendOptions(wanted);
-  });
+    await sendOptions(wanted).catch((error) => {
+      showOptions(optionsOfNow());
+      throw error;
+    });
+  }, false);
 
 export async function weightsChanged() {
   await changing(async () => {

@@ -114,7 +114,9 @@ function showPanel() {
       content: String(i + 1),
       title: 'Go there',
       onclick() {
-        moveHandles(keyFrames()[i]);
+        const key = keyFrames()[i];
+        if (!key) return;
+        moveHandles(key);
         handlesMoved();
         commitSoon();
       },

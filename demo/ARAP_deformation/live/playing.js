@@ -15,8 +15,8 @@ export function addKey() {
 
 export function play(record) {
   if (page.playing) return stopPlaying();
-  if (!page.keys.length || !page.shape.handles.length)
-    return say('There is no key frame: move a handle, and choose Add.', true);
+  if (!page.shape.handles.length) return say('There is no handle that could move.', true);
+  if (!page.keys.length) return say('There is no key frame: move a handle, and choose Add.', true);
   const path = [page.shape.handles.map(identity), ...keyFrames()];
   page.playing = {
     path,

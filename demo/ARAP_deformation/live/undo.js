@@ -79,8 +79,8 @@ export async function commitNow() {
 }
 
 // Runs what changes the shape, which then follows. What fails is undone. For what has its turn.
-export async function change(f) {
-  stopPlaying();
+export async function change(f, stops = true) {
+  if (stops) stopPlaying();
   try {
     await f();
     page.failed = '';
@@ -98,7 +98,7 @@ export async function change(f) {
   }
 }
 
-export const changing = (f) => inTurn(() => change(f));
+export const changing = (f, stops) => inTurn(() => change(f, stops));
 
 async function goTo(index) {
   if (index < 0 || index >= past.length || page.dragging || page.stroke) return;

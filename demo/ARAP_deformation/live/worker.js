@@ -7,7 +7,8 @@ let arap,
   shape,
   states = new Map(),
   statesMade = 0;
-let status = new Int32Array(0),
+let hasStiffness = false,
+  status = new Int32Array(0),
   vertices = [],
   pointHandles = [];
 
@@ -23,7 +24,7 @@ function listOf(values, wanted) {
 // Replaces the session by a new one, after prepare() has made it ready. If that fails, all is as
 // before.
 function newSession(next, points, weights, prepare = () => {}) {
-  const before = { shape, session, status, vertices, pointHandles };
+  const before = { shape, session, hasStiffness, status, vertices, pointHandles };
   try {
     shape = next;
     session = undefined; // not to be disposed of if there is no new one
@@ -32,18 +33,25 @@ function newSession(next, points, weights, prepare = () => {}) {
       volume: shape.volume,
       weights,
     });
+    hasStiffness = false;
     status = new Int32Array(points.length / 3).fill(1);
     vertices = [];
     pointHandles = [];
     prepare();
   } catch (error) {
     session?.dispose();
-    ({ shape, session, status, vertices, pointHandles } = before);
+    ({ shape, session, hasStiffness, status, vertices, pointHandles } = before);
     throw error;
   }
   states.forEach((state) => state.dispose());
   states.clear();
   before.session?.dispose();
+}
+
+// to set none again would cost a factorization
+function setStiffness(values) {
+  if (values.length || hasStiffness) session.setStiffness(values);
+  hasStiffness = values.length > 0;
 }
 
 // the control vertices and points of the painted regions; only what has changed is told to the
@@ -95,7 +103,7 @@ const operations = {
       present = session.points();
     newSession(shape, session.restPoints(), weights, () => {
       session.setOptions(options);
-      session.setStiffness(stiffness);
+      setStiffness(stiffness);
       hold(kept, handles);
       session.setPoints(present);
     });
@@ -104,7 +112,7 @@ const operations = {
     session.setOptions(options);
   },
   stiffness({ values }) {
-    session.setStiffness(values);
+    setStiffness(values);
   },
   hold({ status: next, handles }) {
     hold(next, handles);

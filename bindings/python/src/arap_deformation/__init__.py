@@ -305,7 +305,7 @@ class Deformation:
 
     def insert_points(self, places: Sequence[Optional[Place]]) -> NDArray[np.int32]:
         """The handles of new control points at places, as ``locate_all()`` returns them; all of them
-        are inserted, or none."""
+        are inserted, or none. None, for a point that was not located, is refused."""
         return self._session.insert_points(*_places(places))
 
     def positions(self, places: Sequence[Optional[Place]]) -> Floats:

@@ -49,7 +49,7 @@ inline void add_up(Array<int>& numbers)
   std::partial_sum(numbers.begin(), numbers.end(), numbers.begin(), checked_sum);
 }
 
-// Indices that follow each other in memory.
+// Indices that follow each other in memory. (Index_ranges.h has numbers that follow each other.)
 struct Index_range
 {
   const int *first, *last;

@@ -39,7 +39,7 @@ namespace internal {
 inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 {
   const double n = static_cast<double>(a.cols());
-  const double entries = 2 * static_cast<double>(a.nonZeros()) - n; // without the diagonal, less
+  const double entries = 2 * static_cast<double>(a.nonZeros()) - n; // all of the diagonal is stored
   if(1.2 * entries + 2 * n >= (std::numeric_limits<int>::max)()) // Eigen does not check it
     throw std::length_error("CGAL::ARAP: the matrix is too large for a minimum degree ordering");
   Eigen::AMDOrdering<int>::PermutationType order;
@@ -51,11 +51,11 @@ inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 // empty if METIS fails
 inline Array<int> metis_order(const Sparse_matrix& a)
 {
-  // the neighbors of each row, from the lower triangle
   if(2 * static_cast<std::size_t>(a.nonZeros()) >
      static_cast<std::size_t>((std::numeric_limits<idx_t>::max)()))
     return {};
   idx_t n = static_cast<idx_t>(a.cols());
+  // the neighbors of each row, from the lower triangle
   Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbors;
   const auto for_each_edge = [&](const auto& f) {
     for(int j = 0; j < a.cols(); ++j)

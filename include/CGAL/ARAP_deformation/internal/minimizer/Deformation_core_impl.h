@@ -47,8 +47,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>

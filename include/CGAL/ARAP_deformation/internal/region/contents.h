@@ -16,6 +16,7 @@
 
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 

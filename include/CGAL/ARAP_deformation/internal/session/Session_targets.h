@@ -137,8 +137,7 @@ public:
     Array<Coordinates> rest, targets;
     for(vertex_descriptor v : vertices)
     {
-      const auto* entry = m_vertices.find_control(v);
-      if(entry == nullptr)
+      if(!m_vertices.is_control(v))
         return outcome(Status::not_a_control_vertex, name(v));
       rest.push_back(Domain::coordinates(rest_point(v)));
       targets.push_back(Domain::coordinates(target(v)));
