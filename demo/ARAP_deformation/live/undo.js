@@ -127,15 +127,14 @@ async function goTo(index) {
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
-    const hasStiffness = kept.stiffness || before.stiffness,
-      hasOptions = !wasSure || JSON.stringify(kept.options) !== JSON.stringify(before.options);
+    const hasOptions =
+      !wasSure || JSON.stringify(kept.options) !== JSON.stringify(before.options);
     if (hasOptions) {
-      // it may be of other cells
-      if (hasStiffness || !wasSure) await engine.call('stiffness', { values: [] });
+      await engine.call('stiffness', { values: [] }); // it may be of other cells
       showOptions(kept.options);
       await sendOptions(kept.options);
     }
-    if (hasStiffness && (hasOptions || kept.stiffness !== before.stiffness))
+    if (hasOptions || kept.stiffness !== before.stiffness)
       await engine.call('stiffness', { values: cellStiffness() });
     isSure = true;
     const { points, rest } = await engine.call('restore', { state });
