@@ -75,18 +75,6 @@ Point combined(double a, const Point& p, double b, const Point& q)
   return {a * p[0] + b * q[0], a * p[1] + b * q[1], a * p[2] + b * q[2]};
 }
 
-// the point with barycentric coordinates in a simplex
-template <typename Corners>
-Point place_in(const Corners& corners, const std::vector<double>& coordinates, const Points& points)
-{
-  const Point& first = points[static_cast<std::size_t>(corners[0])];
-  Point result = first; // differences keep digits where coordinates are large
-  for(std::size_t k = 1; k < coordinates.size(); ++k)
-    result = combined(1, result, coordinates[k],
-                      combined(1, points[static_cast<std::size_t>(corners[k])], -1, first));
-  return result;
-}
-
 // simplices as a range of ranges
 class Simplices
 {
@@ -137,9 +125,7 @@ public:
   Point projection(const Point& p) const
   {
     const auto place = m_locator.locate(p);
-    if(!place) // the run finds that p is too far away
-      return p;
-    return place_in(m_polygons[place->simplex], place->coordinates, m_points);
+    return place ? construct_point(m_domain, *place) : p; // the run finds that p is too far away
   }
 
 private:
@@ -270,15 +256,15 @@ public:
   {
     return coordinates_of(places_of(simplices, coordinates), [this](const auto& place) {
       double sum = -1, largest = 0;
-      for(double c : place.second)
+      for(double c : place.coordinates)
       {
         sum += c;
         largest = (std::max)(largest, std::abs(c));
       }
       require(std::abs(sum) <= (std::max)(1e-9, 1e-14 * largest),
-              "the coordinates of a place in simplex " + std::to_string(place.first) +
+              "the coordinates of a place in simplex " + std::to_string(place.simplex) +
               " do not add up to one");
-      return place_in(m_simplices[place.first], place.second, m_points);
+      return construct_point(domain(), place);
     });
   }
   std::vector<std::int32_t> insert_points(Indices simplices, Numbers coordinates) override
@@ -286,9 +272,9 @@ public:
     const auto places = places_of(simplices, coordinates);
     std::vector<std::int32_t> result;
     all_or_none(simplices.rows > 1, [&] {
-      for(const auto& [simplex, own] : places)
+      for(const auto& place : places)
       {
-        const auto inserted = m_deformation.insert_control_point(simplex, own);
+        const auto inserted = m_deformation.insert_control_point(place);
         require(inserted);
         result.push_back(handle_of(inserted.point));
       }
@@ -543,13 +529,12 @@ private:
 
   // Simplices and coordinates, without what fills the rows. Throws if there is no such simplex, or
   // if it has another number of corners.
-  std::vector<std::pair<std::size_t, std::vector<double>>> places_of(Indices simplices,
-                                                                     Numbers coordinates) const
+  std::vector<Location<std::size_t>> places_of(Indices simplices, Numbers coordinates) const
   {
     require(coordinates.rows == simplices.rows,
             "there are " + std::to_string(simplices.rows) + " simplices, but " +
             std::to_string(coordinates.rows) + " rows of coordinates");
-    std::vector<std::pair<std::size_t, std::vector<double>>> result;
+    std::vector<Location<std::size_t>> result;
     for(std::size_t k = 0; k < simplices.rows; ++k)
     {
       const auto s = static_cast<std::size_t>(*simplices[k]); // negative ones are too large
@@ -563,7 +548,7 @@ private:
                                      std::to_string(own.size()) + " coordinates, but simplex " +
                                      std::to_string(s) + " has " + std::to_string(corners) +
                                      " corners");
-      result.emplace_back(s, std::move(own));
+      result.push_back({s, std::move(own)});
     }
     return result;
   }

@@ -1139,6 +1139,7 @@ void test(const Held_shape<Dimension>& shape)
   std::vector<Point> points = points_of(shape.points);
   const Soup<Dimension> domain(points, shape.simplices);
   const CGAL::ARAP::Locator<Soup<Dimension>> locator(domain);
+  std::vector<CGAL::ARAP::Location<std::size_t>> all;
   for(std::size_t s = 0; s < shape.simplices.size(); s += 3)
   {
     const std::size_t corners = shape.simplices[s].size();
@@ -1149,6 +1150,7 @@ void test(const Held_shape<Dimension>& shape)
     CHECK(found && found->simplex == s);
     CHECK_AT_MOST((place(domain, *found) - p).norm(), 1e-14);
     CHECK_AT_MOST(found->distance, 1e-14);
+    all.push_back(*found);
   }
   // from a point outside to the nearest one
   const Point outside(-1, 0.3, 0.2);
@@ -1170,6 +1172,18 @@ void test(const Held_shape<Dimension>& shape)
     CHECK_AT_MOST(distance, 1e-13);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(!CGAL::ARAP::locate(domain, Point(nan, 0, 0)));
+  // places follow an affine map of the shape, as exactly as there are digits
+  all.push_back(*found);
+  const Affine_map map = {Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()) *
+                            Eigen::Matrix3d(Eigen::Vector3d(2, 0.5, 3).asDiagonal()),
+                          Eigen::Vector3d(1e6, 0, -1e6)};
+  std::vector<Eigen::Vector3d> moved;
+  for(const auto& location : all)
+    moved.push_back(map * place(domain, location));
+  for(Point& p : points)
+    p = point(map * vector(p));
+  for(std::size_t k = 0; k < all.size(); ++k)
+    CHECK_AT_MOST((vector(CGAL::ARAP::construct_point(domain, all[k])) - moved[k]).norm(), 1e-9);
 }
 
 // The halfedge of a face may point to any of its corners: coordinates begin there.
@@ -1364,8 +1378,8 @@ void test_function()
     {found->simplex, found->coordinates, Point(0.1, 0.2, 1.5)}};
   const std::map<Mesh::Vertex_index, Point> targets = {{Mesh::Vertex_index(5), Point(0, 0, -1)}};
   CHECK(CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(held)));
-  const CGAL::ARAP::Face_graph_domain<Mesh> domain(mesh);
-  CHECK_AT_MOST((place(domain, *found) - Eigen::Vector3d(0.1, 0.2, 1.5)).norm(), 1e-12);
+  CHECK_AT_MOST((vector(CGAL::ARAP::construct_point(mesh, *found)) -
+                 Eigen::Vector3d(0.1, 0.2, 1.5)).norm(), 1e-12);
   const std::vector<std::tuple<Mesh::Face_index, std::array<double, 3>, Point>> wrong = {
     {found->simplex, {1, 1, 1}, Point(0, 0, 0)}};
   const auto refused = CGAL::arap_deform(mesh, targets, CGAL::parameters::control_points(wrong));

@@ -112,14 +112,9 @@ public:
   Coordinates position(std::size_t k) const
   {
     const Binding& bound = binding(k);
-    const auto corner = [&](std::size_t i) {
+    return internal::affine_combination(bound.coordinates, [&](std::size_t i) {
       return Domain::coordinates(m_domain.point(bound.vertices[i]));
-    };
-    const Coordinates first = corner(0);
-    Coordinates result = first;
-    for(std::size_t i = 1; i < 4; ++i) // differences keep digits where coordinates are large
-      internal::add(result, bound.coordinates[i], internal::difference(corner(i), first));
-    return result;
+    });
   }
 
   /// \brief assigns all positions to the points of a range, in the order of the embedded points.

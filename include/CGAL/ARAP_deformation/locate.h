@@ -25,6 +25,8 @@
 #include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
+#include <CGAL/assertions.h>
+
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -144,6 +146,28 @@ auto locate(const Shape& shape, const Point& point)
 {
   return internal::with_domain(shape, [&](const auto& domain) {
     return Locator<std::decay_t<decltype(domain)>>(domain).locate(point);
+  });
+}
+
+/// \ingroup PkgARAPDeformationDomains
+/// \brief returns the point of a location for the points that a mesh or domain has now: what was
+/// located in the rest shape follows the deformed one. Linear time in the number of corners.
+///
+/// \param shape a mesh or a domain, as for `locate()`
+/// \param location a `Location` in it
+/// \pre The simplex is one of `shape`, has as many corners as there are coordinates, and these add
+///      up to one.
+template <typename Shape, typename Simplex>
+auto construct_point(const Shape& shape, const Location<Simplex>& location)
+{
+  return internal::with_domain(shape, [&](const auto& domain) {
+    using Domain = std::decay_t<decltype(domain)>;
+    std::vector<Coordinates> corners;
+    for(const auto& v : domain.simplex_vertices(location.simplex))
+      corners.push_back(Domain::coordinates(domain.point(v)));
+    CGAL_precondition(corners.size() == location.coordinates.size());
+    return typename Domain::Point(Domain::make_point(internal::affine_combination(
+      location.coordinates, [&](std::size_t k) { return corners.at(k); }))); // throws in Release
   });
 }
 

@@ -55,6 +55,18 @@ void add(std::array<double, n>& target, double factor, const std::array<double, 
     target[k] += factor * a[k];
 }
 
+// The sum of factors that add up to 1 times vectors, which a function of their numbers returns:
+// differences keep digits where the vectors are large.
+template <typename Factors, typename Function>
+Coordinates affine_combination(const Factors& factors, const Function& vector)
+{
+  const Coordinates first = vector(0);
+  Coordinates sum = first;
+  for(std::size_t k = 1; k < factors.size(); ++k)
+    add(sum, factors[k], difference(vector(k), first));
+  return sum;
+}
+
 inline double largest_absolute_value(const Coordinates& a)
 {
   return (std::max)({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});

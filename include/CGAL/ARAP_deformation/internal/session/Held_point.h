@@ -59,10 +59,8 @@ struct Held_point
   template <typename Function>
   Coordinates position(const Function& coordinates_of) const
   {
-    Coordinates sum = {0, 0, 0};
-    for(std::size_t k = 0; k < corners.size(); ++k)
-      add(sum, coordinates[k], coordinates_of(corners[k]));
-    return sum;
+    return affine_combination(coordinates,
+                              [&](std::size_t k) { return coordinates_of(corners[k]); });
   }
 
   std::vector<vertex_descriptor> corners;
