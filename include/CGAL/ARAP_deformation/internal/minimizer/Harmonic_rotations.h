@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -66,14 +67,16 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
 }
 
 // Whether something that is fixed is torn away from its neighbors: by more than a tenth of a size,
-// which is given by its square.
+// which is given by its square. Lengths are compared, as a handle that has turned takes its
+// neighbors with it: where edges are long, it would count as torn in each later frame.
 inline bool is_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
                     double size, const Array<Coordinates>& x)
 {
   return std::any_of(ties.begin(), ties.end(), [&](const std::array<int, 2>& tie) {
     const int i = tie[0], j = tie[1];
-    const Coordinates d = difference(difference(x[i], x[j]), difference(rest[i], rest[j]));
-    return dot(d, d) > 0.01 * size;
+    const Coordinates now = difference(x[i], x[j]), before = difference(rest[i], rest[j]);
+    const double change = std::sqrt(dot(now, now)) - std::sqrt(dot(before, before));
+    return change * change > 0.01 * size;
   });
 }
 
