@@ -1463,6 +1463,66 @@ int number_of_solutions(Counted& d)
   return Counting_solver::count() - before;
 }
 
+// A part that has been turned rigidly, and is settled, stays there, whatever the angle, also where
+// cells of another part share their rotation.
+void test_settled_part()
+{
+  test_case() = "a settled part beside one with a group";
+  const Shape shape = two_components(grid("sheet", 5, 3, [](double u, double v) {
+    return Eigen::Vector3d(5 * u + 0.3 * v * v, 3 * v, 0.2 * std::sin(7 * u * v));
+  }));
+  const int n = int(shape.points.size()) / 2;
+  for(int k = 0; k < 20; ++k)
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::automatic,
+                                    Initial_guess::rotations)));
+    d.insert_roi_vertices(vertices(mesh));
+    d.set_groups([](Mesh::Vertex_index v) { return int(v) == 8 || int(v) == 9 ? 0 : -1; });
+    const Affine_map motion = rigid_motion(0.7 + 0.01 * k, {1, 2, 3}, {0, 0, 0});
+    for(int v = n; v < 2 * n; ++v)
+      mesh.point(Mesh::Vertex_index(v)) = point(motion * shape.points[v]);
+    for(int v : {0, 1, n, 2 * n - 1})
+      d.insert_control_vertex(Mesh::Vertex_index(v));
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    CHECK_AT_MOST(report.energy[0], 1e-20);
+  }
+}
+
+// A frame whose target has no weight is no handle: the guess beside single ones is not made of
+// rounding errors, which depend on the order of the vertices.
+void test_frame_without_weight()
+{
+  test_case() = "a frame of weight 0";
+  const Shape shape = grid("sheet", 11, 7, [](double u, double v) {
+    return Eigen::Vector3d(11 * u + 0.3 * v * v, 7 * v, 0.2 * std::sin(7 * u * v));
+  });
+  std::vector<std::size_t> place;
+  const Shape other = shuffled(shape, place);
+  const auto energy = [&](const Shape& s, const auto& vertex) {
+    Mesh mesh = make_mesh<Mesh>(s);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::automatic,
+                                    Initial_guess::rotations)));
+    d.insert_roi_vertices(vertices(mesh));
+    for(std::size_t v : {0u, 7u, 95u, 40u})
+      d.insert_control_vertex(vertex(v));
+    d.translate(vertex(7), Kernel::Vector_3(0, 0, 1));
+    CHECK(d.set_target_weight(vertex(40), 0));
+    CHECK(d.set_target_rotation(vertex(40), Eigen::AngleAxisd(1.3, Eigen::Vector3d::UnitX())));
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    return report.energy[0];
+  };
+  const double first =
+    energy(shape, [](std::size_t v) { return Mesh::Vertex_index(v); });
+  const double second =
+    energy(other, [&](std::size_t v) { return Mesh::Vertex_index(place[v]); });
+  CHECK_AT_MOST(std::abs(first / second - 1), 1e-9);
+}
+
 // A soft target of little weight that stays far away: the guess is tried once, not in each frame of
 // a drag.
 void test_far_soft_target()
@@ -1552,6 +1612,8 @@ void test_all()
 {
   test_cut_region(Initial_guess::rotations);
   test_cut_region(Initial_guess::automatic);
+  test_settled_part();
+  test_frame_without_weight();
   test_far_soft_target();
   test_turned_handle();
   test_cost_of_guess();

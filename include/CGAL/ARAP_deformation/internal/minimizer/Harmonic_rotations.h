@@ -176,7 +176,8 @@ public:
         set(v, fit.rotation());
     }
     for(const Frame& frame : targets.frames)
-      set(frame.vertex, frame.rotation);
+      if(is_handle(frame.vertex)) // and not one of weight 0, which holds nothing
+        set(frame.vertex, frame.rotation);
     for(int v = 0; v < region.number_of_vertices(); ++v)
       if(is_seen[v] && !m_is_known[v])
         m_unknown.append(v, 1);

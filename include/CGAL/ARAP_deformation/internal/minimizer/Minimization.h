@@ -135,8 +135,8 @@ public:
     return Start::taken;
   }
 
-  // Replaces x by other positions, with rotations that are fitted to these alone, if that lowers
-  // the energy.
+  // Replaces x by other positions, with rotations that are fitted to these alone, unless that makes
+  // the energy rise. Returns whether it has: where both are the same, rounding does not decide.
   bool try_positions(Array<Coordinates> other)
   {
     const double energy = evaluate();
@@ -144,8 +144,9 @@ public:
     x.swap(other);
     m_energy.fit_and_evaluate(m_closest_rotations, x, m_rotations, nullptr, false);
     keep_rotations();
-    const bool is_lower = evaluate_without_fit() < energy;
-    if(!is_lower)
+    const bool is_no_higher =
+      evaluate_without_fit() <= energy + energy_resolution(energy, report);
+    if(!is_no_higher)
     {
       x.swap(other);
       m_rotations.swap(fitted);
@@ -153,7 +154,7 @@ public:
       m_targets.project(m_constraints.rows, x);
     }
     measure();
-    return is_lower;
+    return is_no_higher;
   }
 
   const Array<Coordinates>& rest() const { return m_region.rest; }
