@@ -245,11 +245,7 @@ public:
     const Locator<Domain> locator(domain());
     std::vector<std::optional<Place>> places;
     for(const Point& point : points_of(points))
-    {
-      places.emplace_back();
-      if(const auto found = locator.locate(point))
-        places.back() = Place{found->simplex, found->coordinates, found->distance};
-    }
+      places.push_back(locator.locate(point));
     return places;
   }
   std::vector<double> positions(Indices simplices, Numbers coordinates) const override
@@ -529,12 +525,12 @@ private:
 
   // Simplices and coordinates, without what fills the rows. Throws if there is no such simplex, or
   // if it has another number of corners.
-  std::vector<Location<std::size_t>> places_of(Indices simplices, Numbers coordinates) const
+  std::vector<Place> places_of(Indices simplices, Numbers coordinates) const
   {
     require(coordinates.rows == simplices.rows,
             "there are " + std::to_string(simplices.rows) + " simplices, but " +
             std::to_string(coordinates.rows) + " rows of coordinates");
-    std::vector<Location<std::size_t>> result;
+    std::vector<Place> result;
     for(std::size_t k = 0; k < simplices.rows; ++k)
     {
       const auto s = static_cast<std::size_t>(*simplices[k]); // negative ones are too large

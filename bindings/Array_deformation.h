@@ -15,6 +15,7 @@
 // CGAL::ARAP_deformation for arrays of numbers: what other languages are bound to. It only
 // forwards.
 
+#include <CGAL/ARAP_deformation/Control_point.h>
 #include <CGAL/ARAP_deformation/Default_visitor.h>
 #include <CGAL/ARAP_deformation/Dynamics.h>
 #include <CGAL/ARAP_deformation/Options.h>
@@ -57,12 +58,7 @@ struct Rows
 using Indices = Rows<std::int32_t>;
 using Numbers = Rows<double>;
 
-struct Place // in a face or tetrahedron
-{
-  std::size_t simplex;
-  std::vector<double> coordinates; // barycentric
-  double distance;
-};
+using Place = Location<std::size_t>; // in a face or tetrahedron
 
 // A deformation of n vertices. A handle is a number: that of a vertex, or from n on that of a
 // control point inside a simplex. The coordinates of a point, and the entries of a matrix, follow

@@ -16,6 +16,7 @@
 //               petsc or petsc_cg
 //   TOLERANCE   of conjugate gradients
 
+#include "include/measure.h"
 #include "include/memory.h"
 
 #include <CGAL/ARAP_deformation.h>
@@ -26,7 +27,6 @@
 #include <CGAL/ARAP_deformation/Petsc_solver.h>
 #endif
 #include <CGAL/ARAP_deformation_traits.h>
-#include <CGAL/Real_timer.h>
 
 #include <algorithm>
 #include <array>
@@ -57,18 +57,17 @@ public:
 
   void begin()
   {
-    m_timer.reset();
-    m_timer.start();
+    m_stopwatch = {};
     m_clock = std::clock();
     reset_peak();
   }
 
   void end(const std::string& name)
   {
-    m_timer.stop();
+    const double seconds = m_stopwatch.seconds();
     m_peak = (std::max)(m_peak, megabytes("VmHWM"));
     std::printf("%-28s %8.2f s, %8.2f s of processors, %7.0f MB at its peak, %7.0f MB after it\n",
-                name.c_str(), m_timer.time(), double(std::clock() - m_clock) / CLOCKS_PER_SEC,
+                name.c_str(), seconds, double(std::clock() - m_clock) / CLOCKS_PER_SEC,
                 megabytes("VmHWM"), megabytes("VmRSS"));
     std::fflush(stdout);
     begin();
@@ -77,7 +76,7 @@ public:
   double peak() const { return m_peak; }
 
 private:
-  CGAL::Real_timer m_timer;
+  benchmark::Stopwatch m_stopwatch;
   std::clock_t m_clock = 0;
   double m_peak = 0;
 };

@@ -74,13 +74,7 @@ std::vector<std::pair<int, Kernel::Point_3>> places(const std::vector<Held_point
 {
   std::vector<std::pair<int, Kernel::Point_3>> result;
   for(const auto& point : held)
-  {
-    Kernel::Vector_3 place(0, 0, 0);
-    std::size_t k = 0;
-    for(auto v : domain.simplex_vertices(point.location.simplex))
-      place += point.location.coordinates[k++] * (domain.point(v) - CGAL::ORIGIN);
-    result.emplace_back(point.status, CGAL::ORIGIN + place);
-  }
+    result.emplace_back(point.status, construct_point(domain, point.location));
   return result;
 }
 

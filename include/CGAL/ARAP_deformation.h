@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/domain_requirements.h>
+#include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/session/Session.h>
 #include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
 #include <CGAL/ARAP_deformation/internal/session/rotation_matrix.h>
@@ -502,8 +503,9 @@ public:
   /// those that its cells have. A new rotation costs no preprocessing. It stays when the target
   /// changes, by `rotate()` for example; `erase_target_rotation()`, `reset()` and
   /// `overwrite_initial_geometry()` erase it.
-  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation, or
-  /// turns points with two coordinates out of their plane. \pre `is_control_vertex(v)`
+  /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation up to
+  /// \f$10^{-5}\f$ in each entry of \f$R R^T\f$, or turns points with two coordinates out of their
+  /// plane. The closest rotation to it is taken. \pre `is_control_vertex(v)`
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -587,9 +589,9 @@ public:
   /// \name Deformation
   /// If a call fails or throws, the mesh and the object are as they were before. (If writing the
   /// result throws, only the object is: points written before keep their new values until a
-  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds. Only where `restore()` threw,
-  /// vertices that the state knows, and the object does not, keep theirs until that state is
-  /// restored.) A visitor must not change the object, nor must a map or a function that a run calls
+  /// `deform()`, `advance()`, `reset()` or `restore()` succeeds. But if `restore()` itself threw,
+  /// vertices that are in the state and not in the object keep them until that state is restored.)
+  /// A visitor must not change the object, nor must a map or a function that a run calls
   /// or that points are written by. This is a precondition; in Release such calls fail. An object
   /// and its mesh are for one thread at a time: `ARAP::Status::in_a_run` does not tell that another
   /// thread runs it.
@@ -757,7 +759,7 @@ public:
   /// @}
 
 private:
-  static constexpr bool is_planar = ARAP::internal::is_planar<Domain_>();
+  static constexpr bool is_planar = ARAP::internal::is_planar<Domain_>;
 
   // a handle as the type that the session knows, which is a control vertex or a control point
   template <typename Handle>

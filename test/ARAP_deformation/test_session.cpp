@@ -14,6 +14,7 @@
 // region.
 
 #include "include/check.h"
+#include "include/domains.h"
 #include "include/misuse.h"
 #include "include/shapes.h"
 
@@ -182,8 +183,7 @@ void test_rest_shape()
   const Shape shape = sheet();
   const Scenario s = scenario(shape);
   Mesh mesh = make_mesh<Mesh>(shape);
-  Deformation d(mesh);
-  prepare(d, s, all_vertices(mesh));
+  auto d = prepared(mesh, s);
   CHECK(std::isnan(d.energy()));
   CHECK(d.deform(20, 0));
   CHECK(d.energy() > 0);
@@ -202,8 +202,7 @@ void test_rest_shape()
 
   // the same as a new object on the deformed mesh
   Mesh other = deformed;
-  Deformation fresh(other);
-  prepare(fresh, s, all_vertices(other));
+  auto fresh = prepared(other, s);
   for(Deformation* session : {&d, &fresh})
   {
     for(Vertex v : session->control_vertices())
@@ -220,8 +219,7 @@ void test_frames()
   const Shape shape = sheet();
   const Scenario s = scenario(shape, 0);
   Mesh mesh = make_mesh<Mesh>(shape);
-  Deformation d(mesh);
-  prepare(d, s, all_vertices(mesh));
+  auto d = prepared(mesh, s);
   CHECK(d.preprocess());
   for(int frame = 0; frame < 10; ++frame)
   {
@@ -249,8 +247,7 @@ void test_options()
   test_case() = "options";
   const Shape shape = sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
-  Deformation d(mesh);
-  prepare(d, scenario(shape), all_vertices(mesh));
+  auto d = prepared(mesh, scenario(shape));
   CGAL::ARAP::Options options;
   options.iterations = 1000;
   options.tolerance = 1e-2;
@@ -446,8 +443,7 @@ void test_change_of_sets()
   const Shape shape = sheet();
   const Mesh rest = make_mesh<Mesh>(shape);
   Mesh mesh = rest;
-  Deformation d(mesh);
-  prepare(d, scenario(shape), all_vertices(mesh));
+  auto d = prepared(mesh, scenario(shape));
   CHECK(d.deform(2, 0).free_vertices > 0);
   d.clear_control_vertices(); // all of the region is free, and stays at rest where it can
   CHECK(d.deform(2, 0).free_vertices == d.roi_vertices().size());
@@ -456,8 +452,7 @@ void test_change_of_sets()
 
   // after a reset the rotations are identities, as in the beginning
   Mesh other = rest;
-  Deformation e(other);
-  prepare(e, scenario(shape), all_vertices(other));
+  auto e = prepared(other, scenario(shape));
   const Vertex v(100);
   CHECK(e.rotation(v) == identity);
   CHECK(e.deform(2, 0));
@@ -892,8 +887,7 @@ void test_iterates()
 {
   Mesh mesh = make_mesh<Mesh>(shape);
   const Mesh rest = mesh;
-  Deformation d(mesh);
-  prepare(d, scenario(shape), all_vertices(mesh));
+  auto d = prepared(mesh, scenario(shape));
   std::vector<double> seen;
   Mesh copy = mesh;
   const Report report = d.deform(9, 0, [&](const Deformation::Iterate& iterate) {
@@ -920,13 +914,11 @@ void test_stop()
     };
   };
   Mesh five = make_mesh<Mesh>(shape);
-  Deformation d(five);
-  prepare(d, scenario(shape), all_vertices(five));
+  auto d = prepared(five, scenario(shape));
   CHECK(d.deform(5, 0));
 
   Mesh mesh = make_mesh<Mesh>(shape);
-  Deformation e(mesh);
-  prepare(e, scenario(shape), all_vertices(mesh));
+  auto e = prepared(mesh, scenario(shape));
   const Report stopped = e.deform(100, 0, at(5, Visitor_action::stop));
   CHECK(stopped.status == Status::stopped);
   CHECK(stopped && stopped.iterations == 5);
@@ -1116,8 +1108,7 @@ void test_points()
     Mesh rest = mesh;
     mesh.point(Vertex(20)) = Point(0, bad, 0);
     {
-      CGAL::ARAP_deformation<Mesh> d(mesh);
-      prepare(d, s, all_vertices(mesh));
+      auto d = prepared(mesh, s);
       check_failure(mesh, d, Status::non_finite_point, "vertex 20 ", [&] {
         mesh.point(Vertex(20)) = rest.point(Vertex(20));
         d.overwrite_initial_geometry();
@@ -1125,8 +1116,7 @@ void test_points()
     }
     test_case() = "a target that is not finite";
     mesh = rest;
-    CGAL::ARAP_deformation<Mesh> d(mesh);
-    prepare(d, s, all_vertices(mesh));
+    auto d = prepared(mesh, s);
     const Vertex handle = d.control_vertices()[1];
     const Point target = d.target_position(handle);
     CHECK(d.set_target_position(handle, Point(0, 0, bad)));
@@ -1141,8 +1131,7 @@ void test_overflow()
   test_case() = "overflow";
   const Shape shape = sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
-  CGAL::ARAP_deformation<Mesh> d(mesh);
-  prepare(d, scenario(shape), all_vertices(mesh));
+  auto d = prepared(mesh, scenario(shape));
   const Vertex handle = d.control_vertices()[0];
   d.set_target_position(handle, Point(1e200, 0, 0));
   check_failure(mesh, d, Status::non_finite_energy, "overflow",
@@ -1167,8 +1156,7 @@ void test_faces()
   flat.points[13] = (flat.points[12] + flat.points[14]) / 2; // already collinear in the sheet
   flat.points[18] = flat.points[13];
   Mesh degenerate = make_mesh<Mesh>(flat);
-  CGAL::ARAP_deformation<Mesh> e(degenerate);
-  prepare(e, scenario(flat), all_vertices(degenerate));
+  auto e = prepared(degenerate, scenario(flat));
   const auto report = e.deform();
   CHECK(report);
   CHECK(CGAL::ARAP::first_rise_of_energy(report) == 0);

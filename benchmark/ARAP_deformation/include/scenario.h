@@ -122,13 +122,12 @@ inline Mesh subdivided(const Mesh& mesh, std::size_t parts)
 class Twist
 {
 public:
-  explicit Twist(const Eigen::AlignedBox3d& box, double angle = 1.5)
-    : m_middle(box.center())
+  explicit Twist(const Eigen::AlignedBox3d& box) : m_middle(box.center())
   {
     const double share = 0.03, extent = box.sizes().maxCoeff(&m_axis);
     m_low = box.min()[m_axis] + share * extent;
     m_high = box.max()[m_axis] - share * extent;
-    m_rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(m_axis));
+    m_rotation = Eigen::AngleAxisd(1.5, Eigen::Vector3d::Unit(m_axis));
   }
 
   int axis() const { return m_axis; }
@@ -167,11 +166,11 @@ inline Eigen::AlignedBox3d bounding_box(const Mesh& mesh)
                              Eigen::Vector3d(box.xmax(), box.ymax(), box.zmax()));
 }
 
-inline Scenario make_scenario(Mesh mesh, double angle = 1.5)
+inline Scenario make_scenario(Mesh mesh)
 {
   Scenario scenario;
   const Eigen::AlignedBox3d box = bounding_box(mesh);
-  const Twist twist(box, angle);
+  const Twist twist(box);
   for(vertex_descriptor v : vertices(mesh))
   {
     const Eigen::Vector3d p = to_vector(mesh.point(v));

@@ -22,6 +22,11 @@ import { saves } from './saving.js';
 import { $, page, view, whenChanged } from './state.js';
 import { commitSoon, redo, steps, undo } from './undo.js';
 
+const shown = (id, text) => {
+  $(id).parentElement.querySelector('output').textContent = text;
+};
+const weightText = () => (10 ** $('weight').value).toPrecision(2);
+
 const icon = (path) =>
   `<svg viewBox="0 0 24 24" width="22" height="22" fill="none" stroke="currentColor" ` +
   `stroke-width="1.8" aria-hidden="true">${path}</svg>`;
@@ -99,11 +104,8 @@ function showPanel() {
       : shape.simplices.length === 3 * (shape.starts.length - 1)
         ? 'triangles'
         : 'polygons');
-  const shown = (id, text) => {
-    $(id).parentElement.querySelector('output').textContent = text;
-  };
   shown('brush', `${$('brush').value} px`);
-  shown('weight', handle?.weight != null ? (10 ** $('weight').value).toPrecision(2) : 'hard');
+  shown('weight', handle?.weight != null ? weightText() : 'hard');
   shown('bending', $('bending').value === '0' ? 'none' : `${$('bending').value}%`);
   shown('stiffness', `× ${10 ** $('stiffness').value}`);
   $('bending').disabled = $('cells').value === 'elements';
@@ -198,11 +200,7 @@ $('weight').onchange = () =>
   changeHandle((h) => {
     h.weight = 10 ** $('weight').value;
   });
-$('weight').oninput = () => {
-  $('weight').parentElement.querySelector('output').textContent = (
-    10 ** $('weight').value
-  ).toPrecision(2);
-};
+$('weight').oninput = () => shown('weight', weightText());
 $('frame').onchange = () =>
   changeHandle((h) => {
     h.turns = $('frame').checked;

@@ -65,7 +65,7 @@ namespace ARAP {
 template <typename Domain>
 class Embedding
 {
-  static_assert(internal::Is_domain<Domain>::value,
+  static_assert(internal::is_domain<Domain>,
                 "Embedding: pass a domain, as make_triangulation_domain(triangulation) returns it");
   static_assert(Domain::dimension == 3,
                 "Embedding: the simplices of the domain must be tetrahedra (dimension 3)");

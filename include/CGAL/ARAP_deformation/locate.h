@@ -52,7 +52,7 @@ namespace ARAP {
 template <typename Domain>
 class Locator
 {
-  static_assert(internal::Is_domain<Domain>::value,
+  static_assert(internal::is_domain<Domain>,
                 "Locator: pass a domain, as make_face_graph_domain(mesh) returns it for a mesh");
 
 public:

@@ -55,7 +55,7 @@ inline CGAL::ARAP::Options options_for(
 
 // a deformation of a mesh with these options and the scenario
 template <typename Traits = CGAL::Default>
-auto prepared(Mesh& mesh, const Scenario& s, const CGAL::ARAP::Options& options)
+auto prepared(Mesh& mesh, const Scenario& s, const CGAL::ARAP::Options& options = {})
 {
   CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
   CHECK(d.set_options(options));

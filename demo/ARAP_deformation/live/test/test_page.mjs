@@ -150,16 +150,18 @@ async function paintMiddle() {
   await drag([x - 30, y + 30], [x + 30, y - 30]);
   await page.mouse.up();
 }
-async function bend(share) {
-  await page.$eval(
-    '#bending',
-    (b, value) => {
-      b.value = value;
-      b.dispatchEvent(new Event('input'));
-      b.dispatchEvent(new Event('change'));
+const enter = (selector, value) =>
+  page.$eval(
+    selector,
+    (input, text) => {
+      input.value = text;
+      input.dispatchEvent(new Event('input'));
+      input.dispatchEvent(new Event('change'));
     },
-    share,
+    value,
   );
+async function bend(share) {
+  await enter('#bending', share);
   return settled();
 }
 const openFile = async (...paths) => (await page.$('#file')).uploadFile(...paths);
@@ -630,10 +632,7 @@ const steps = {
     await page.select('#measure', '');
     await bend(0);
     await page.click('#soft');
-    await page.$eval('#weight', (w) => {
-      w.value = -3;
-      w.dispatchEvent(new Event('change'));
-    });
+    await enter('#weight', -3);
     assert((await settled()).energy < energies.safe_cotangent, 'a soft handle gives way');
     await page.click('#soft');
     await settled();
@@ -690,9 +689,7 @@ const steps = {
     await paintMiddle();
     await settled();
     await twoSteps('#undo');
-    await page.$eval('#stiffness', (s) => {
-      s.value = -1;
-    });
+    await enter('#stiffness', -1);
     await paintMiddle();
     await settled();
     await twoSteps('#undo');
@@ -963,10 +960,7 @@ const steps = {
     await page.keyboard.press('r');
     await settled();
     // a handle of one vertex, which turns the cells around it
-    await page.$eval('#brush', (b) => {
-      b.value = 1;
-      b.dispatchEvent(new Event('input'));
-    });
+    await enter('#brush', 1);
     await page.keyboard.press('b');
     await page.keyboard.press('3');
     const [x, y] = await vertexOnPage(71 * 53 + 20);
@@ -988,10 +982,7 @@ const steps = {
     now = await settled();
     assert.equal(now.handles.length, 1);
     assert(now.energy < energy + 1e-4, `the energy is ${now.energy} instead of ${energy}`);
-    await page.$eval('#brush', (b) => {
-      b.value = 26;
-      b.dispatchEvent(new Event('input'));
-    });
+    await enter('#brush', 26);
     // what is painted when a point has been placed is another handle
     await page.keyboard.press('p');
     await page.mouse.click(...place);
@@ -1208,10 +1199,7 @@ const steps = {
     await page.mouse.click(...(await middle()));
     await settled();
     await page.click('#soft');
-    await page.$eval('#weight', (w) => {
-      w.value = -3;
-      w.dispatchEvent(new Event('change'));
-    });
+    await enter('#weight', -3);
     await dragHandle(0, -150, 2);
     await page.mouse.up();
     await settled();

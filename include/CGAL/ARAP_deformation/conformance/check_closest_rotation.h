@@ -143,13 +143,6 @@ private:
     return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
   }
 
-  static Matrix dense(const Matrix_3x3& m)
-  {
-    Matrix result;
-    result << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
-    return result;
-  }
-
   // fits the rotations of all samples, `batch` at a time, starting from `previous`
   std::vector<Matrix> fit_all(const Fit& f, std::size_t batch,
                               const std::vector<Matrix>& previous)
@@ -180,7 +173,8 @@ private:
       m_violations.check(r.front() == untouched && r.back() == untouched,
                          "rotations outside [0, n) are overwritten");
       for(std::size_t k = 0; k < n; ++k)
-        result.push_back(dense(r[k + 1]));
+        result.emplace_back(
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r[k + 1].data()));
     }
     return result;
   }
@@ -319,7 +313,7 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a message for each identity that a model of `ARAPClosestRotation` violates;
+/// \brief returns a message for each requirement of `ARAPClosestRotation` that a model violates;
 /// none if it conforms.
 ///
 /// Tests that the results are the closest rotations, against Eigen's singular value decomposition

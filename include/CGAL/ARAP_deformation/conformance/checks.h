@@ -20,7 +20,6 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
-#include <cmath>
 #include <cstddef>
 
 namespace CGAL {
@@ -30,12 +29,7 @@ namespace ARAP {
 /// returns whether \f$R^T R = I\f$ and \f$\det R = +1\f$, each entry up to `tolerance`.
 inline bool is_rotation(const Matrix_3x3& r, double tolerance = 1e-12)
 {
-  const Coordinates rows[3] = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
-  for(int i = 0; i < 3; ++i)
-    for(int j = 0; j < 3; ++j)
-      if(!(std::abs(internal::dot(rows[i], rows[j]) - (i == j)) <= tolerance))
-        return false;
-  return std::abs(internal::dot(internal::cross(rows[0], rows[1]), rows[2]) - 1) <= tolerance;
+  return internal::is_rotation(r, tolerance);
 }
 
 /// \ingroup PkgARAPDeformationChecks

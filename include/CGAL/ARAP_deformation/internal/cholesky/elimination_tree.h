@@ -40,6 +40,22 @@ inline Array<int> inverse_permutation(const Array<int>& order)
   return position;
 }
 
+// For each row of a symmetric matrix, of which the lower triangle is given, the others that it has
+// entries for.
+inline Index_lists neighbors_of_rows(const Sparse_matrix& a)
+{
+  const int n = static_cast<int>(a.cols());
+  return lists_of_pairs(n, [&](const auto& f) {
+    for(int j = 0; j < n; ++j)
+      for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
+        if(const int i = static_cast<int>(entry.row()); i != j)
+        {
+          f(i, j);
+          f(j, i);
+        }
+  });
+}
+
 // The rows of each column of a triangle of P A P^T without its diagonal: the lower triangle, or if
 // not so the upper one. The rows are in any order.
 inline Index_lists permuted_triangle(const Sparse_matrix& a, const Array<int>& position,
@@ -81,7 +97,7 @@ inline Array<int> elimination_tree(const Index_lists& upper)
 inline Array<int> postorder(const Array<int>& parent)
 {
   const int n = static_cast<int>(parent.size());
-  Array<int> size(n, 1), position(n), next(n + 1, 0), result(n), last(n + 1, -1);
+  Array<int> size(n, 1), position(n), next(n + 1, 0), last(n + 1, -1);
   for(int j = 0; j < n; ++j)
     if(parent[j] >= 0)
       size[parent[j]] += size[j];
@@ -103,9 +119,7 @@ inline Array<int> postorder(const Array<int>& parent)
       next[p] += size[j];
     }
   }
-  for(int j = 0; j < n; ++j)
-    result[position[j]] = j;
-  return result;
+  return inverse_permutation(position);
 }
 
 // The number of rows of each column of the factor, the diagonal included; the columns are in

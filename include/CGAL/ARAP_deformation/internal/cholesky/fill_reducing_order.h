@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
@@ -54,29 +55,13 @@ inline Array<int> metis_order(const Sparse_matrix& a)
   if(2 * static_cast<std::size_t>(a.nonZeros()) >
      static_cast<std::size_t>((std::numeric_limits<idx_t>::max)()))
     return {};
-  idx_t n = static_cast<idx_t>(a.cols());
-  // the neighbors of each row, from the lower triangle
-  Array<idx_t> begin(static_cast<std::size_t>(n) + 2, 0), neighbors;
-  const auto for_each_edge = [&](const auto& f) {
-    for(int j = 0; j < a.cols(); ++j)
-      for(Sparse_matrix::InnerIterator entry(a, j); entry; ++entry)
-        if(entry.row() != j)
-          f(static_cast<int>(entry.row()), j);
-  };
-  for_each_edge([&](int i, int j) {
-    ++begin[i + 2];
-    ++begin[j + 2];
-  });
-  for(std::size_t v = 1; v < begin.size(); ++v)
-    begin[v] += begin[v - 1];
-  neighbors.resize(static_cast<std::size_t>(begin.back()));
-  for_each_edge([&](int i, int j) {
-    neighbors[begin[i + 1]++] = j;
-    neighbors[begin[j + 1]++] = i;
-  });
-  if(neighbors.empty()) // METIS does not take a graph without edges
+  const Index_lists graph = neighbors_of_rows(a);
+  if(graph.items.empty()) // METIS does not take a graph without edges
     return {};
-  Array<idx_t> order(static_cast<std::size_t>(n)), position(order.size());
+  idx_t n = graph.size();
+  Array<idx_t> begin(graph.begin.begin(), graph.begin.end()),
+               neighbors(graph.items.begin(), graph.items.end()), order(graph.size()),
+               position(graph.size());
   if(METIS_NodeND(&n, begin.data(), neighbors.data(), nullptr, nullptr, order.data(),
                   position.data()) != METIS_OK)
     return {};

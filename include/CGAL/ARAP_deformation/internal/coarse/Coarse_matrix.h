@@ -165,11 +165,12 @@ private:
   static void add_columns(int group, const Sparse_matrix& matrix, const Coarse_transfer& transfer,
                           Coarse_blocks& blocks)
   {
-    transfer.for_each_vertex(group, [&](int v) {
+    for(int v : transfer.vertices_of(group))
+    {
       const int begin = matrix.outerIndexPtr()[v], end = matrix.outerIndexPtr()[v + 1];
       blocks.add_column(transfer.view(), matrix.innerIndexPtr() + begin,
                         matrix.valuePtr() + begin, end - begin);
-    });
+    }
   }
 
   void add_blocks(const Coarse_transfer& transfer, const Coarse_blocks& blocks)

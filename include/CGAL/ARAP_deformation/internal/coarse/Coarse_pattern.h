@@ -62,12 +62,13 @@ struct Coarse_pattern
       for(std::size_t k = begin; k < end; ++k)
       {
         const int group = static_cast<int>(k);
-        transfer.for_each_vertex(group, [&](int v) {
+        for(int v : transfer.vertices_of(group))
+        {
           for(Sparse_matrix::InnerIterator entry(laplacian, v); entry; ++entry)
             found.add_vertex(static_cast<int>(entry.row()));
           groups[k].is_sparse &= found.size() <= most_nodes_of_column;
           found.couple(groups[k], most_nodes_of_column);
-        });
+        }
         for(int i = cells_near.begin[group]; i < cells_near.begin[group + 1]; ++i)
         {
           energy.coefficients(cells_near.items[i], coefficients);

@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/cholesky/elimination_tree.h>
 
 #include <Eigen/SparseCore>
 
@@ -39,7 +40,7 @@ public:
   // from the lower triangle of a matrix; the points decide in which order vertices become nodes
   Coarse_space(const Sparse_matrix& matrix, const Array<Coordinates>& points)
   {
-    const Index_lists graph = graph_of(matrix);
+    const Index_lists graph = neighbors_of_rows(matrix);
     // balls overlap: about a hundred vertices for each node
     choose_nodes(graph, vertices_along_an_axis(graph, points), 300);
     weigh(nearest_nodes(graph));
@@ -70,20 +71,6 @@ public:
 private:
   struct Label { int node = -1, distance = 0; };
   static constexpr int most_labels = most_nodes + 1;
-
-  static Index_lists graph_of(const Sparse_matrix& matrix)
-  {
-    const int n = static_cast<int>(matrix.cols());
-    return lists_of_pairs(n, [&](const auto& f) {
-      for(int j = 0; j < n; ++j)
-        for(Sparse_matrix::InnerIterator entry(matrix, j); entry; ++entry)
-          if(const int i = static_cast<int>(entry.row()); i != j)
-          {
-            f(i, j);
-            f(j, i);
-          }
-    });
-  }
 
   // Those with neighbors, in an order that does not depend on their numbers, unless two are at the
   // same point.

@@ -122,13 +122,8 @@ public:
 
   const Coarse_space& space() const { return m_space; }
 
-  // calls f(v) for each vertex of a group: those that the node of this number is next to
-  template <typename Function>
-  void for_each_vertex(int group, const Function& f) const
-  {
-    for(int v : m_vertices_of.list(group))
-      f(v);
-  }
+  // the vertices of a group: those that the node of this number is next to
+  Index_range vertices_of(int group) const { return m_vertices_of.list(group); }
 
   // Takes the positions. Fixed vertices do not move, and neither do nodes at them. These, and what
   // has no nodes, may be too far away for single precision.

@@ -20,6 +20,7 @@
 
 #include <CGAL/tags.h>
 
+#include <cstddef>
 #include <iterator>
 #include <type_traits>
 #include <utility>
@@ -39,30 +40,22 @@ class Linear_cell_complex_domain;
 
 namespace internal {
 
-template <typename T, typename = void>
-struct Is_domain : std::false_type {};
+// the members by which each kind of shape is known
 template <typename T>
-struct Is_domain<T, std::void_t<typename T::Point, typename T::vertex_descriptor,
-                                typename T::simplex_descriptor, decltype(T::dimension)>>
-  : std::true_type {};
+using Types_of_domain = std::void_t<typename T::Point, typename T::vertex_descriptor,
+                                    typename T::simplex_descriptor, decltype(T::dimension)>;
+template <typename T>
+using Types_of_mesh_complex = std::void_t<typename T::Triangulation, typename T::Subdomain_index,
+                                          typename T::Cells_in_complex_iterator>;
+template <typename T>
+using Types_of_triangulation = std::void_t<typename T::Geom_traits, typename T::Cell_handle,
+                                           typename T::Finite_cells_iterator>;
+template <typename T>
+using Types_of_linear_cell_complex = std::void_t<typename T::Vertex_attribute,
+                                                 decltype(T::ambient_dimension)>;
 
-template <typename T, typename = void>
-struct Is_mesh_complex : std::false_type {};
 template <typename T>
-struct Is_mesh_complex<T, std::void_t<typename T::Triangulation, typename T::Subdomain_index,
-                                      typename T::Cells_in_complex_iterator>> : std::true_type {};
-
-template <typename T, typename = void>
-struct Is_triangulation : std::false_type {};
-template <typename T>
-struct Is_triangulation<T, std::void_t<typename T::Geom_traits, typename T::Cell_handle,
-                                       typename T::Finite_cells_iterator>> : std::true_type {};
-
-template <typename T, typename = void>
-struct Is_linear_cell_complex : std::false_type {};
-template <typename T>
-struct Is_linear_cell_complex<T, std::void_t<typename T::Vertex_attribute,
-                                             decltype(T::ambient_dimension)>> : std::true_type {};
+constexpr bool is_domain = is_valid<Types_of_domain, T>;
 
 template <typename T>
 using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangulation
@@ -70,12 +63,8 @@ using Covering_sheets_of = typename T::Covering_sheets; // of a periodic triangu
 template <typename T>
 using Begin_of = decltype(std::begin(std::declval<T&>()));
 
-// only a linear cell complex over a combinatorial map has the member beta()
-template <typename T, typename = void>
-struct Is_generalized_map : std::true_type {};
-template <typename T>
-struct Is_generalized_map<T, std::void_t<
-  decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1))>> : std::false_type {};
+template <typename T> // of a combinatorial map, but not of a generalized one
+using Call_beta = decltype(std::declval<T&>().beta(std::declval<T&>().create_dart(), 1));
 
 // Whether a mesh is a linear cell complex that is not a FaceGraph: its dimension is 3, its map is
 // generalized, or its faces have no attributes. (CGAL defines graph_traits for the first and the
@@ -83,17 +72,15 @@ struct Is_generalized_map<T, std::void_t<
 template <typename Mesh>
 constexpr bool is_complex_without_graph()
 {
-  if constexpr(Is_linear_cell_complex<Mesh>::value)
-    return Mesh::dimension == 3 || Is_generalized_map<Mesh>::value ||
+  if constexpr(is_valid<Types_of_linear_cell_complex, Mesh>)
+    return Mesh::dimension == 3 || !is_valid<Call_beta, Mesh> ||
            std::is_same_v<typename Mesh::template Attribute_type<2>::type, CGAL::Void>;
   else
     return false;
 }
 
-template <typename T, typename = void>
-struct Is_complete : std::false_type {};
 template <typename T>
-struct Is_complete<T, std::void_t<decltype(sizeof(T))>> : std::true_type {};
+using Size_of = std::integral_constant<std::size_t, sizeof(T)>; // of a class that is defined
 
 // the domain if it may be used, No_domain if not
 template <bool is_accepted, typename Domain>
@@ -114,31 +101,31 @@ struct Default_domain
 };
 
 template <typename Domain>
-struct Default_domain<Domain, std::enable_if_t<Is_domain<Domain>::value>>
+struct Default_domain<Domain, std::enable_if_t<is_domain<Domain>>>
 {
   using type = Domain;
 };
 
 template <typename Mesh>
-struct Default_domain<Mesh, std::enable_if_t<Is_triangulation<Mesh>::value>>
+struct Default_domain<Mesh, std::enable_if_t<is_valid<Types_of_triangulation, Mesh>>>
 {
   static constexpr bool is_periodic = is_valid<Covering_sheets_of, Mesh>;
   static_assert(!is_periodic, "periodic triangulations cannot be deformed");
-  static constexpr bool is_included = Is_complete<Triangulation_domain<Mesh>>::value;
+  static constexpr bool is_included = is_valid<Size_of, Triangulation_domain<Mesh>>;
   static_assert(is_included, "to deform a triangulation, "
                              "#include <CGAL/ARAP_deformation/Triangulation_domain.h>");
   using type = typename Domain_if<is_included && !is_periodic, Triangulation_domain<Mesh>>::type;
 };
 
 template <typename Mesh>
-struct Default_domain<Mesh, std::enable_if_t<Is_mesh_complex<Mesh>::value>>
+struct Default_domain<Mesh, std::enable_if_t<is_valid<Types_of_mesh_complex, Mesh>>>
   : Default_domain<typename Mesh::Triangulation>
 {};
 
 template <typename Mesh>
 struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
 {
-  static constexpr bool is_included = Is_complete<Linear_cell_complex_domain<Mesh>>::value;
+  static constexpr bool is_included = is_valid<Size_of, Linear_cell_complex_domain<Mesh>>;
   using type = typename Domain_if<is_included, Linear_cell_complex_domain<Mesh>>::type;
   static_assert(is_included,
                 "to deform this linear cell complex, #include "
@@ -148,7 +135,7 @@ struct Default_domain<Mesh, std::enable_if_t<is_complex_without_graph<Mesh>()>>
 template <typename Domain, typename Mesh>
 Domain make_domain(Mesh& mesh)
 {
-  if constexpr(Is_mesh_complex<Mesh>::value && !std::is_same_v<Domain, No_domain>)
+  if constexpr(is_valid<Types_of_mesh_complex, Mesh> && !std::is_same_v<Domain, No_domain>)
     return make_complex_domain(mesh);
   else
     return Domain(mesh);
@@ -158,7 +145,7 @@ Domain make_domain(Mesh& mesh)
 template <typename Shape, typename Function>
 decltype(auto) with_domain(const Shape& shape, const Function& f)
 {
-  if constexpr(Is_domain<Shape>::value)
+  if constexpr(is_domain<Shape>)
     return f(shape);
   else // domains refer to meshes that can be written
     return f(make_domain<typename Default_domain<Shape>::type>(const_cast<Shape&>(shape)));

@@ -30,18 +30,11 @@ namespace internal {
 template <typename Domain>
 using Triangles_only = decltype(Domain::has_triangles_only);
 
-template <typename Domain>
-using Planar = decltype(Domain::is_planar);
-
 // whether the points of a domain have two coordinates
+template <typename Domain, typename = void>
+constexpr bool is_planar = false;
 template <typename Domain>
-constexpr bool is_planar()
-{
-  if constexpr(is_valid<Planar, Domain>)
-    return Domain::is_planar;
-  else
-    return false;
-}
+constexpr bool is_planar<Domain, std::void_t<decltype(Domain::is_planar)>> = Domain::is_planar;
 
 // A region with the names of its vertices and simplices in a mesh. It is collected by walking over
 // the region only.
@@ -64,7 +57,7 @@ public:
                int cell_rings)
   {
     flat.dimension = Domain::dimension;
-    flat.is_planar = is_planar<Domain>();
+    flat.is_planar = is_planar<Domain>;
     for(vertex_descriptor v : movable_vertices)
       add_movable(domain.index(v));
     vertices.assign(movable_vertices.begin(), movable_vertices.end());

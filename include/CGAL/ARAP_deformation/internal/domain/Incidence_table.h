@@ -14,9 +14,9 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
+
 #include <cstddef>
-#include <numeric>
-#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -30,39 +30,29 @@ public:
   // Each simplex of an array is a range of integers. Corners that are not vertices are ignored.
   template <typename SimplexRange>
   Incidence_table(std::size_t number_of_vertices, const SimplexRange& simplices)
-    : m_begin(number_of_vertices + 1, 0)
-  {
-    for_each_corner(simplices, [this](std::size_t, std::size_t v) { ++m_begin[v + 1]; });
-    std::partial_sum(m_begin.begin(), m_begin.end(), m_begin.begin());
-    m_simplices.resize(m_begin.back());
-    std::vector<std::size_t> next(m_begin.begin(), m_begin.end() - 1);
-    for_each_corner(simplices, [&](std::size_t s, std::size_t v) { m_simplices[next[v]++] = s; });
-  }
+    : m_simplices(lists_of_pairs(to_index(number_of_vertices), [&](const auto& f) {
+        for(std::size_t s = 0; s < simplices.size(); ++s)
+          for(auto corner : simplices[s])
+            if(const std::size_t v = static_cast<std::size_t>(corner); v < number_of_vertices)
+              f(static_cast<int>(v), static_cast<int>(s));
+      }))
+  {}
 
-  std::size_t number_of_vertices() const { return m_begin.size() - 1; }
-
-  bool is_isolated(std::size_t v) const { return m_begin[v] == m_begin[v + 1]; }
+  bool is_isolated(std::size_t v) const { return simplices_at(v).size() == 0; }
 
   template <typename Function>
   void for_each_simplex_at(std::size_t v, const Function& f) const
   {
-    for(std::size_t k = m_begin[v]; k < m_begin[v + 1]; ++k)
-      if(k == m_begin[v] || m_simplices[k] != m_simplices[k - 1]) // else v is a repeated corner
-        f(m_simplices[k]);
+    const Index_range simplices = simplices_at(v);
+    for(const int* s = simplices.begin(); s != simplices.end(); ++s)
+      if(s == simplices.begin() || *s != s[-1]) // else v is a repeated corner
+        f(static_cast<std::size_t>(*s));
   }
 
 private:
-  template <typename SimplexRange, typename Function>
-  void for_each_corner(const SimplexRange& simplices, const Function& f) const
-  {
-    for(std::size_t s = 0; s < simplices.size(); ++s)
-      for(auto corner : simplices[s])
-        if(const std::size_t v = static_cast<std::size_t>(corner); v < number_of_vertices())
-          f(s, v);
-  }
+  Index_range simplices_at(std::size_t v) const { return m_simplices.list(static_cast<int>(v)); }
 
-  // the simplices at vertex v are m_simplices[m_begin[v]] to m_simplices[m_begin[v + 1] - 1]
-  std::vector<std::size_t> m_begin, m_simplices;
+  Index_lists m_simplices; // at each vertex
 };
 
 } // namespace internal

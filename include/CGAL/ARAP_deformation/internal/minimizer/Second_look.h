@@ -82,21 +82,15 @@ public:
 
   Finding step()
   {
-    const std::size_t n = m_run.number_of_vertices;
     m_run.change_of_force(m_p, m_z); // - A p
     const double pap = -dot_product(m_p, m_z);
     if(!(pap > least_curvature * m_p_square))
       return is_finite(pap) ? Finding::negative_curvature : Finding::failure;
     const double alpha = m_r_square / pap;
     m_curvature += alpha * m_r_square;
-    for_each_block(n, [&](std::size_t begin, std::size_t end) {
-      for(std::size_t v = begin; v < end; ++v)
-      {
-        add(m_s[v], alpha, m_p[v]);
-        add(m_ms[v], alpha, m_mp[v]);
-        add(m_r[v], alpha, m_z[v]);
-      }
-    });
+    combine(m_s, 1, m_s, alpha, m_p);
+    combine(m_ms, 1, m_ms, alpha, m_mp);
+    combine(m_r, 1, m_r, alpha, m_z);
     return next_direction();
   }
 
@@ -255,15 +249,8 @@ private:
       m_first_r_square = square;
     m_r_square = square;
     m_p_square = square + beta * beta * m_p_square; // r is orthogonal to the last p
-    for_each_block(m_r.size(), [&](std::size_t begin, std::size_t end) {
-      for(std::size_t v = begin; v < end; ++v)
-      {
-        m_p[v] = scaled(m_p[v], beta);
-        add(m_p[v], 1, m_z[v]);
-        m_mp[v] = scaled(m_mp[v], beta);
-        add(m_mp[v], 1, m_r[v]);
-      }
-    });
+    combine(m_p, beta, m_p, 1, m_z);
+    combine(m_mp, beta, m_mp, 1, m_r);
     if(!(square > 0))
       return square == 0 ? Finding::positive_curvature : Finding::failure;
     // Smaller ones tell the gap better and take more steps, but hardly find more; 0.2 finds less.

@@ -131,20 +131,17 @@ inline double determinant(const Matrix_3x3& m)
 }
 
 // whether a matrix is a rotation, but for what single precision leaves of one
-inline bool is_rotation(const Matrix_3x3& m)
+// whether R^T R = I and det R = 1, each entry up to a tolerance; not if there is an NaN
+inline bool is_rotation(const Matrix_3x3& r, double tolerance)
 {
-  const Coordinates rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
-  double error = 0;
-  for(int r = 0; r < 3; ++r)
-    for(int c = 0; c < 3; ++c)
-    {
-      const double off = dot(rows[r], rows[c]) - (r == c ? 1 : 0);
-      error += off * off;
-    }
-  return error < 1e-10 && determinant(m) > 0; // not if there is an NaN
+  const Coordinates rows[3] = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
+  for(int i = 0; i < 3; ++i)
+    for(int j = 0; j < 3; ++j)
+      if(!(std::abs(dot(rows[i], rows[j]) - (i == j)) <= tolerance))
+        return false;
+  return std::abs(determinant(r) - 1) <= tolerance;
 }
 
-// the index of the first point with a coordinate that is infinite or not a number, or -1
 inline int find_non_finite(const Array<Coordinates>& points)
 {
   for(std::size_t k = 0; k < points.size(); ++k)

@@ -101,7 +101,7 @@ public:
       step.goals[v] = step.goal(positions[v], m_vertices.velocity(m_vertices.find(vertex)));
       if(force)
         add(step.goals[v], step.mobility(contents[v]), force(vertex));
-      if(is_planar<Domain>())
+      if(is_planar<Domain>)
         step.goals[v][2] = 0;
       if(!is_finite(step.goals[v]))
         return outcome_of_vertex(Status::non_finite_point, domain().index(vertex),

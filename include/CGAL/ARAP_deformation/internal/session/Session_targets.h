@@ -118,8 +118,8 @@ public:
       if(rotation)
       {
         closest = Svd_rotation::closest(*rotation);
-        bool is_right = is_rotation(*rotation);
-        if(is_planar<Domain>()) // z must stay an axis, but for what single precision leaves of it
+        bool is_right = is_rotation(*rotation, 1e-5); // as single precision leaves it
+        if(is_planar<Domain>) // z must stay an axis, but for what single precision leaves of it
           for(const std::size_t k : {2u, 5u, 6u, 7u})
             is_right &= std::abs(std::exchange((*closest)[k], 0)) <= 1e-5;
         if(!is_right)

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Default_domain.h>
+#include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>
 #include <CGAL/ARAP_deformation/parameters.h>
 #include <CGAL/ARAP_deformation_traits.h>
@@ -50,7 +51,7 @@ auto domain_from_parameters(Shape& shape, const NamedParameters& np)
                   !has_parameter<NamedParameters, internal_np::vertex_index_t>,
                   "the named parameters output_point_map, vertex_point_map and vertex_index_map "
                   "are for a FaceGraph; a domain or a triangulation has its own points");
-    if constexpr(Is_domain<Mesh>::value)
+    if constexpr(is_domain<Mesh>)
       return Mesh(shape);
     else
       return make_domain<Domain>(shape);
@@ -73,24 +74,30 @@ auto traits_from_parameters(const NamedParameters& np)
   }
 }
 
+// options, but for the number of iterations that is a parameter of its own
 template <typename NamedParameters>
-Options options_from_parameters(const NamedParameters& np)
+Options with_number_of_iterations(Options options, const NamedParameters& np)
 {
-  Options options = parameters::choose_parameter(
-    parameters::get_parameter(np, internal_np::deformation_options), Options());
   options.iterations = static_cast<unsigned int>(parameters::choose_parameter(
     parameters::get_parameter(np, internal_np::number_of_iterations), options.iterations));
   return options;
 }
 
-// the options given, but for the number of iterations that is a parameter of its own
+template <typename NamedParameters>
+Options options_from_parameters(const NamedParameters& np)
+{
+  return with_number_of_iterations(
+    parameters::choose_parameter(parameters::get_parameter(np, internal_np::deformation_options),
+                                 Options()), np);
+}
+
 template <typename NamedParameters>
 Options options_from_parameters(const NamedParameters& np, const Options& options)
 {
   static_assert(!has_parameter<NamedParameters, internal_np::deformation_options_t>,
                 "arap_deform: there are two options, an argument and the named parameter "
                 "deformation_options");
-  return options_from_parameters(parameters::deformation_options(options, np));
+  return with_number_of_iterations(options, np);
 }
 
 // what a map of constrained vertices tells of one of them
