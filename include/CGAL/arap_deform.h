@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
+#include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/session/deform_in_one_call.h>
 #include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
 #include <CGAL/ARAP_deformation/parameters.h>
@@ -41,8 +42,9 @@ namespace CGAL {
 ///
 /// \param shape the shape; as passed, it is the rest shape
 /// \param targets the targets
-/// \param np an optional sequence of named parameters among those below, and of those of
-///        \ref PkgARAPDeformationParameters
+/// \param np an optional sequence of the named parameters below. Those of this package, which are
+///        not known to \cgal, begin it, and have the next one as their second argument:
+///        `parameters::region_of_interest(r, parameters::target_weight(w)).visitor(v)`
 ///
 /// \cgalNamedParamsBegin
 ///   \cgalParamNBegin{vertex_is_constrained_map}
@@ -50,6 +52,58 @@ namespace CGAL {
 ///                          function object, a map, or a vector by the indices of the vertices,
 ///                          which throws `std::out_of_range` if it is too short}
 ///     \cgalParamType{a map from vertices to `bool`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{deformation_options}
+///     \cgalParamDescription{the options}
+///     \cgalParamType{`ARAP::Options`}
+///     \cgalParamDefault{`ARAP::Options()`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{region_of_interest}
+///     \cgalParamDescription{the region of interest. Constrained vertices are in it anyway}
+///     \cgalParamType{a range of vertices}
+///     \cgalParamDefault{all vertices; none in the constructors of `ARAP_deformation`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{target_weight}
+///     \cgalParamDescription{the weight of each target, see
+///                           `ARAP_deformation::set_target_weight()`. A number counts for control
+///                           points, too; of a map they have none, and are hard. Vertices that only
+///                           `vertex_is_constrained_map` constrains are hard}
+///     \cgalParamType{a number, or a map from vertices to numbers as `vertex_is_constrained_map`}
+///     \cgalParamDefault{infinite, also for vertices that a map has no value for}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{target_sets}
+///     \cgalParamDescription{targets that are sets, such as a `std::map<Vertex,
+///                           std::function<Point(const Point&)>>`, see
+///                           `ARAP_deformation::set_target_set()`. Such a vertex needs no other
+///                           target, but a finite `target_weight`}
+///     \cgalParamType{a range of pairs of a vertex and a projection}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{control_points}
+///     \cgalParamDescription{control points, such as a `std::vector<std::tuple<Simplex,
+///                           std::array<double, 3>, Point>>`, see
+///                           `ARAP_deformation::insert_control_point()`}
+///     \cgalParamType{a range of tuples of a simplex, barycentric coordinates and a target}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{target_rotations}
+///     \cgalParamDescription{the rotations that control vertices prescribe, see
+///                           `ARAP_deformation::set_target_rotation()`. The vertices have targets,
+///                           too}
+///     \cgalParamType{a range of pairs of a vertex and a rotation, such as a `std::map`}
+///     \cgalParamDefault{none}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{cell_stiffness}
+///     \cgalParamDescription{the stiffness of cells, see `ARAP_deformation::set_stiffness()`, also
+///                           for generic lambdas}
+///     \cgalParamType{a map from vertices or simplices to numbers}
+///     \cgalParamDefault{1}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{cell_groups}
+///     \cgalParamDescription{the groups of cells that share a rotation, see
+///                           `ARAP_deformation::set_groups()`, also for generic lambdas}
+///     \cgalParamType{a map from vertices or simplices to integers}
 ///     \cgalParamDefault{none}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{vertex_point_map}
@@ -63,6 +117,13 @@ namespace CGAL {
 ///                          Other shapes do not take it}
 ///     \cgalParamType{a model of `ReadablePropertyMap` with an integral value type}
 ///     \cgalParamDefault{the initialized index map of the mesh}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{output_point_map}
+///     \cgalParamDescription{where the new points of a `FaceGraph` are written. Only vertices in
+///                           the region of interest are written: copy the other points first. The
+///                           mesh may be `const`}
+///     \cgalParamType{a model of `WritablePropertyMap`}
+///     \cgalParamDefault{the vertex point map}
 ///   \cgalParamNEnd
 ///   \cgalParamNBegin{number_of_iterations}
 ///     \cgalParamDescription{the maximum number of iterations}
@@ -84,6 +145,12 @@ namespace CGAL {
 ///     \cgalParamDescription{the solver}
 ///     \cgalParamType{a model of `ARAPSparseSolver`}
 ///     \cgalParamDefault{that of `ARAP_deformation_traits`}
+///   \cgalParamNEnd
+///   \cgalParamNBegin{deformation_traits}
+///     \cgalParamDescription{the traits; then `weight_calculator` and `sparse_linear_solver` are
+///                           ignored}
+///     \cgalParamType{a model of `ARAPDeformationTraits`}
+///     \cgalParamDefault{`ARAP_deformation_traits` of these two}
 ///   \cgalParamNEnd
 /// \cgalNamedParamsEnd
 ///

@@ -1326,12 +1326,7 @@ void test_guess()
     Mesh mesh = rest, other = rest;
     Options options;
     options.initial_guess = Initial_guess::laplacian;
-    const auto start = [&](Mesh& m) {
-      CGAL::ARAP_deformation<Mesh, Traits> d(m);
-      CHECK(d.set_options(options));
-      prepare(d, scenario(shape), all_vertices(m));
-      return d;
-    };
+    const auto start = [&](Mesh& m) { return prepared<Traits>(m, scenario(shape), options); };
     auto d = start(mesh);
     const Report report = d.deform(0, 0);
     CHECK(report);

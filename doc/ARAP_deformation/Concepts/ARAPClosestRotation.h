@@ -15,7 +15,7 @@ call it concurrently: a call must not change the state.
 
 The function `CGAL::ARAP::check_closest_rotation()` tests a model.
 
-\cgalRefines{CopyConstructible,Assignable}
+\cgalRefines{CopyConstructible}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::SVD_closest_rotation}

@@ -12,7 +12,7 @@ between these times have an `ARAPEdgeWeight::version()`.
 A model must be `DefaultConstructible` only if a `CGAL::ARAP_deformation` is constructed without
 traits.
 
-\cgalRefines{CopyConstructible,Assignable}
+\cgalRefines{CopyConstructible}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP_deformation_traits}

@@ -10,8 +10,9 @@ connectivity needed is which simplices are incident to a vertex.
 
 The class reads points when vertices are inserted and when it preprocesses. If `is_in_place()`, it
 also reads them at the start of each run, where a control vertex or a control point is inserted, and
-in `state()`, `overwrite_initial_geometry()` and `control_point_position()`, for others may have
-moved them. It computes on arrays of coordinates, and writes the points at the end of a run, in
+in `state()`, `overwrite_initial_geometry()`, `control_point_position()` and, if the target is a set,
+`target_position()`, for others may have moved them. `rest_position()` reads those of vertices that
+it does not know. It computes on arrays of coordinates, and writes the points at the end of a run, in
 `reset()` and in `restore()`. It traverses the simplices of the region of interest from vertex to
 vertex, and never the whole mesh.
 

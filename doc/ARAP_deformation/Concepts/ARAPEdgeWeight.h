@@ -35,7 +35,7 @@ provide. If copies share their state, and it may change, the model tells so by `
 programs linked with TBB several threads call it concurrently: a call must not change
 the state. `CGAL::ARAP::check_edge_weight()` tests a model.
 
-\cgalRefines{CopyConstructible,Assignable}
+\cgalRefines{CopyConstructible}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Safe_cotangent_weight}

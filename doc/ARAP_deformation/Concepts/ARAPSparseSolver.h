@@ -16,15 +16,14 @@ after the other.
 
 `CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each pattern that it
 analyzes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
-need not have it too. A move, on the other hand, keeps the factor and its border, and does not throw.
-Eigen's solvers can be neither copied nor moved; `CGAL::ARAP::Eigen_sparse_solver` makes a model of
-any of them.
+need not have it too. Eigen's solvers cannot be copied; `CGAL::ARAP::Eigen_sparse_solver` makes a
+model of any of them.
 
-The function `CGAL::ARAP::check_sparse_solver()` tells which of these identities a model violates.
+The function `CGAL::ARAP::check_sparse_solver()` tests a model.
 
 A call may throw, for example `std::bad_alloc`; the deformation is then as it was before.
 
-\cgalRefines{CopyConstructible,MoveConstructible,MoveAssignable}
+\cgalRefines{CopyConstructible}
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::ARAP::Multifrontal_cholesky_solver}
@@ -62,17 +61,16 @@ public:
   /// of its rows.
   ///
   /// Returns whether it succeeded. If not, `x` may hold anything, and the run ends with
-  /// `CGAL::ARAP::Status::solver_failed`, as it does where a solution makes the energy rise by far more
-  /// than rounding errors. The iteration solves for corrections, so that rounding errors
-  /// of a solution are made up for by the next one.
+  /// `CGAL::ARAP::Status::solver_failed`, as it does where a solution makes the energy rise by more than
+  /// a hundredth, and by more than rounding errors. The iteration solves for corrections, so that
+  /// rounding errors of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
 
-  /// is not required. If a solver has this function, a change of few control vertices does not need
-  /// another factorization.
+  /// gives the matrix \f$A\f$ of the last call of `factorize()` a border, or removes it if `b` has no
+  /// columns; `factorize()` removes it too. Optional: without it each change of control vertices needs
+  /// a factorization.
   ///
-  /// It gives the matrix \f$A\f$ of the last call of `factorize()` a border, or removes it if `b` has
-  /// no columns; `factorize()` removes it too. With a border, `x` in `solve()` has as many more
-  /// rows as `b` has columns, and the system is
+  /// With a border, `x` in `solve()` has as many more rows as `b` has columns, and the system is
   /// \f[ \begin{pmatrix} A & B \\ B^T & D \end{pmatrix} \begin{pmatrix} x \\ z \end{pmatrix}
   /// = \begin{pmatrix} f \\ g \end{pmatrix}. \f]
   /// All entries of `b` are stored, in Eigen's compressed form; of `d` the lower triangle counts. The

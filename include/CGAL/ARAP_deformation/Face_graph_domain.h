@@ -17,6 +17,7 @@
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
 #include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
+#include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/parameters.h>
 
@@ -69,7 +70,8 @@ using Vertex_point_map_or_default = typename Default::Get<
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationDomains
-/// \brief a surface of triangles or polygons, given by any model of `FaceGraph`.
+/// \brief a surface of triangles or polygons, given by any model of `FaceGraph` and
+/// `VertexListGraph`.
 ///
 /// The faces are the simplices. A polygon with up to 64 corners has the average weights of all its
 /// triangulations, in \f$O(k^3)\f$ time for \f$k\f$ corners. One with more has the average of

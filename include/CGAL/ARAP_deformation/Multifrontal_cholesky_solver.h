@@ -37,8 +37,7 @@ enum class Factor_precision
 
 /// \ingroup PkgARAPDeformationSolvers
 /// \brief a sparse Cholesky factorization \f$P A P^T = L L^T\f$ by the multifrontal method,
-/// parallel over the subtrees of the elimination tree: the default. (J. W. H. Liu,
-/// *The Multifrontal Method for Sparse Matrix Solution: Theory and Practice*, SIAM Review, 1992.)
+/// parallel over the subtrees of the elimination tree: the default \cgalCite{Liu1992Multifrontal}.
 ///
 /// Factorization and substitution work on dense blocks of the factor, its supernodes, and solve for
 /// the three columns of a right-hand side together. In programs that are linked with TBB they run

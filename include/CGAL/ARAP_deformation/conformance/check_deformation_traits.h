@@ -27,7 +27,7 @@ namespace CGAL {
 namespace ARAP {
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a message for each identity that the objects of a model of
+/// \brief returns a message for each requirement that the objects of a model of
 /// `ARAPDeformationTraits` violate; none if they conform.
 ///
 /// Applies `check_sparse_solver()`, `check_edge_weight()` and `check_closest_rotation()`, with

@@ -161,7 +161,7 @@ private:
 } // namespace internal
 
 /// \ingroup PkgARAPDeformationChecks
-/// \brief returns a message for each identity that a model of `ARAPEdgeWeight` violates; none if
+/// \brief returns a message for each requirement of `ARAPEdgeWeight` that a model violates; none if
 /// it conforms.
 ///
 /// In well-shaped triangles, and in tetrahedra if the model supports them, the weights must be

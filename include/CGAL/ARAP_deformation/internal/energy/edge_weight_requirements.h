@@ -53,8 +53,6 @@ struct Edge_weight_requirements
     "double edge_weight(CGAL::ARAP::Edge_set, std::size_t, std::size_t, double) const");
   static_assert(std::is_copy_constructible_v<Weight>,
     "the model of ARAPEdgeWeight lacks: a copy constructor");
-  static_assert(std::is_copy_assignable_v<Weight>,
-    "the model of ARAPEdgeWeight lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

@@ -44,8 +44,6 @@ struct Closest_rotation_requirements
     "const CGAL::ARAP::Matrix_3x3*, CGAL::ARAP::Matrix_3x3*) const");
   static_assert(std::is_copy_constructible_v<Rotation>,
     "the model of ARAPClosestRotation lacks: a copy constructor");
-  static_assert(std::is_copy_assignable_v<Rotation>,
-    "the model of ARAPClosestRotation lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/internal/domain/is_in_domain.h>
+#include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
 #include <CGAL/ARAP_deformation/internal/session/from_parameters.h>
 #include <CGAL/ARAP_deformation/internal/session/vertex_maps.h>

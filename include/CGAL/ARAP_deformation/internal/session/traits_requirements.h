@@ -77,8 +77,6 @@ struct Deformation_traits_requirements
     "Closest_rotation closest_rotation_object() const");
   static_assert(std::is_copy_constructible_v<Traits>,
     "the model of ARAPDeformationTraits lacks: a copy constructor");
-  static_assert(std::is_copy_assignable_v<Traits>,
-    "the model of ARAPDeformationTraits lacks: an assignment");
   static constexpr bool are_met = true;
 };
 

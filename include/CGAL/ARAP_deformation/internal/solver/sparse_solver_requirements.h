@@ -62,10 +62,6 @@ struct Sparse_solver_members
     "the model of ARAPSparseSolver lacks: bool solve(std::size_t, CGAL::ARAP::Coordinates*)");
   static_assert(std::is_copy_constructible_v<Solver>,
     "the model of ARAPSparseSolver lacks: a copy constructor (a copy need not have the factor)");
-  static_assert(std::is_move_constructible_v<Solver>,
-    "the model of ARAPSparseSolver lacks: a move constructor");
-  static_assert(std::is_move_assignable_v<Solver>,
-    "the model of ARAPSparseSolver lacks: a move assignment");
 };
 
 // the members by which solvers of other libraries are known
