@@ -67,7 +67,7 @@ namespace CGAL {
 ///   \cgalParamNBegin{target_weight}
 ///     \cgalParamDescription{the weight of each target, see
 ///                           `ARAP_deformation::set_target_weight()`. A number counts for control
-///                           points, too; of a map they have none, and are hard. Vertices that only
+///                           points, too; with a map they are hard. Vertices that only
 ///                           `vertex_is_constrained_map` constrains are hard}
 ///     \cgalParamType{a number, or a map from vertices to numbers as `vertex_is_constrained_map`}
 ///     \cgalParamDefault{infinite, also for vertices that a map has no value for}
