@@ -23,9 +23,7 @@
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
-#ifdef CGAL_LINKED_WITH_PETSC
 #include <CGAL/ARAP_deformation/Petsc_solver.h>
-#endif
 #include <CGAL/ARAP_deformation_traits.h>
 
 #include <algorithm>

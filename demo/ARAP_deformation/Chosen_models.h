@@ -22,12 +22,8 @@
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/SVD_closest_rotation.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
-#ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
-#ifdef CGAL_LINKED_WITH_PETSC
 #include <CGAL/ARAP_deformation/Petsc_solver.h>
-#endif
 
 #include <cstddef>
 #include <functional>

@@ -11,11 +11,8 @@
 
 #include "include/compiled_solvers.h"
 
-#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
-
-#ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
+#include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 
 #include <memory>
 

@@ -25,9 +25,7 @@
 #include <CGAL/ARAP_deformation/internal/parallel/largest_entry.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/solver/sparse_solver_requirements.h>
-#ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
 
 #include <Eigen/Dense>
 

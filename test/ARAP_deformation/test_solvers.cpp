@@ -19,6 +19,7 @@
 #include "include/term_runs.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Cholmod_solver.h>
 #include <CGAL/ARAP_deformation/Closest_rotation_traits_adaptor.h>
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
@@ -45,10 +46,6 @@
 #include <stdexcept>
 #include <utility>
 #include <vector>
-
-#ifdef CGAL_LINKED_WITH_CHOLMOD
-#include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
 
 // Each solver that ships conforms to the concept, and broken ones are caught.
 namespace conformance {

@@ -22,9 +22,7 @@
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
-#ifdef CGAL_LINKED_WITH_CHOLMOD
 #include <CGAL/ARAP_deformation/Cholmod_solver.h>
-#endif
 
 #include <CGAL/Surface_mesh_deformation.h>
 

@@ -15,6 +15,8 @@
 #include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
+#if defined(CGAL_LINKED_WITH_CHOLMOD) || defined(DOXYGEN_RUNNING)
+
 #include <CGAL/ARAP_deformation/Fill_reducing_ordering.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
@@ -45,8 +47,9 @@ namespace ARAP {
 /// CHOLMOD computes the factor; the substitution, and the order of its values in memory, are those
 /// of `Multifrontal_cholesky_solver`.
 ///
-/// Needs CHOLMOD, a library of SuiteSparse. CHOLMOD calls the BLAS it is built with, whose threads
-/// may make results differ in the last bits from run to run.
+/// Needs CHOLMOD, a library of SuiteSparse, and the macro `CGAL_LINKED_WITH_CHOLMOD`, without which
+/// this header has nothing; the CMake target `CGAL::Cholmod_support` has both. CHOLMOD calls the
+/// BLAS it is built with, whose threads may make results differ in the last bits from run to run.
 ///
 /// A copy has the same ordering and nothing analyzed; a move keeps the factor.
 ///
@@ -216,5 +219,7 @@ private:
 
 } // namespace ARAP
 } // namespace CGAL
+
+#endif // CGAL_LINKED_WITH_CHOLMOD
 
 #endif // CGAL_ARAP_DEFORMATION_CHOLMOD_SOLVER_H

@@ -15,6 +15,8 @@
 #include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
+#if defined(CGAL_LINKED_WITH_PETSC) || defined(DOXYGEN_RUNNING)
+
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/cholesky/Unshared_ptr.h>
 #include <CGAL/ARAP_deformation/internal/solver/Petsc_ranks.h>
@@ -104,9 +106,10 @@ enum class Petsc_method
 /// processes.
 ///
 /// Needs PETSc, a build of it with MUMPS for real numbers with indices of 32 bits; programs that
-/// use it are linked with the CMake target `CGAL::Petsc_support`:
-/// `include(ARAP_deformation/cmake/CGAL_Petsc_support.cmake)` defines it; an installed package does
-/// not have it. The processes are those of a `Petsc_environment`.
+/// use it are linked with the CMake target `CGAL::Petsc_support`, which defines
+/// `CGAL_LINKED_WITH_PETSC`; without that this header has nothing.
+/// `include(ARAP_deformation/cmake/CGAL_Petsc_support.cmake)` defines the target; an installed
+/// package does not have it. The processes are those of a `Petsc_environment`.
 ///
 /// No two calls of the solvers of a program may overlap: PETSc is not thread-safe.
 ///
@@ -197,5 +200,7 @@ private:
 
 } // namespace ARAP
 } // namespace CGAL
+
+#endif // CGAL_LINKED_WITH_PETSC
 
 #endif // CGAL_ARAP_DEFORMATION_PETSC_SOLVER_H

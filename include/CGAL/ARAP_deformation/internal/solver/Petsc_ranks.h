@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#if defined(CGAL_LINKED_WITH_PETSC) || defined(DOXYGEN_RUNNING)
+
 #include <petscksp.h>
 
 #include <chrono>
@@ -137,5 +139,7 @@ private:
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
+
+#endif // CGAL_LINKED_WITH_PETSC
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_PETSC_RANKS_H

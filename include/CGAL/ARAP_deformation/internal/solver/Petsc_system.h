@@ -14,6 +14,8 @@
 
 #include <CGAL/license/ARAP_deformation.h>
 
+#if defined(CGAL_LINKED_WITH_PETSC) || defined(DOXYGEN_RUNNING)
+
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
@@ -445,5 +447,7 @@ private:
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL
+
+#endif // CGAL_LINKED_WITH_PETSC
 
 #endif // CGAL_ARAP_DEFORMATION_INTERNAL_SOLVER_PETSC_SYSTEM_H
