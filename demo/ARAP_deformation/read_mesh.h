@@ -19,6 +19,7 @@
 #include "check_obj_file.h"
 #include "check_off_file.h"
 #include "check_ply_file.h"
+#include "check_stl_file.h"
 #include "shape_files.h"
 
 #include <CGAL/IO/OBJ.h>
@@ -28,6 +29,7 @@
 #include <CGAL/Surface_mesh/IO/OFF.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -47,6 +49,32 @@ namespace internal {
 
 using Polygons = std::vector<std::vector<std::size_t>>;
 
+using Corners = std::vector<Mesh::Vertex_index>;
+
+inline bool has_corner_twice(std::vector<std::size_t> polygon)
+{
+  std::sort(polygon.begin(), polygon.end());
+  return std::adjacent_find(polygon.begin(), polygon.end()) != polygon.end();
+}
+
+// Why a face with these corners cannot be added to the mesh.
+inline std::string reason_against(const std::vector<std::size_t>& polygon, const Corners& corners,
+                                  const Mesh& mesh)
+{
+  if(polygon.size() < 3)
+    return "has fewer than three vertices";
+  if(has_corner_twice(polygon))
+    return "has a vertex twice";
+  for(std::size_t i = 0; i < corners.size(); ++i)
+    if(const auto h = mesh.halfedge(corners[i], corners[(i + 1) % corners.size()]);
+       h != Mesh::null_halfedge() && !mesh.is_border(h))
+      return "has an edge, from vertex " + std::to_string(std::size_t(mesh.source(h))) + " to " +
+             std::to_string(std::size_t(mesh.target(h))) + ", which face " +
+             std::to_string(std::size_t(mesh.face(h))) + " has in the same direction: the surface "
+             "is not an oriented manifold";
+  return "does not form a manifold with the previous faces at one of its vertices";
+}
+
 // Builds a mesh of polygons, as CGAL's readers do; but these assume that all corners exist.
 inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
                        const Polygons& polygons, Mesh& mesh)
@@ -55,7 +83,7 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
     mesh.add_vertex(p);
   for(std::size_t f = 0; f < polygons.size(); ++f)
   {
-    std::vector<Mesh::Vertex_index> corners;
+    Corners corners;
     for(std::size_t v : polygons[f])
     {
       if(v >= points.size())
@@ -64,9 +92,8 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
-      throw std::runtime_error(file + ": face " + std::to_string(f) + " has fewer than three "
-                               "vertices, has one twice, or does not form an oriented manifold "
-                               "with the previous faces");
+      throw std::runtime_error(file + ": face " + std::to_string(f) + ' ' +
+                               reason_against(polygons[f], corners, mesh));
   }
 }
 
@@ -116,16 +143,18 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
     is_binary = check_ply_file(in, file, bytes, dropped);
     rewind();
   }
-  std::stringstream obj;
+  std::stringstream checked;
   if(extension == ".obj")
-    obj = check_obj_file(in, file, dropped);
+    checked = check_obj_file(in, file, dropped);
+  if(extension == ".stl")
+    checked = check_stl_file(in, file);
   std::vector<Kernel::Point_3> points;
   Polygons polygons;
   const auto quiet = CGAL::parameters::verbose(false);
   const bool is_read = extension == ".off"   ? CGAL::IO::read_OFF(in, points, polygons, quiet)
-                       : extension == ".obj" ? CGAL::IO::read_OBJ(obj, points, polygons, quiet)
+                       : extension == ".obj" ? CGAL::IO::read_OBJ(checked, points, polygons, quiet)
                        : extension == ".ply" ? CGAL::IO::read_PLY(in, points, polygons, quiet)
-                       : extension == ".stl" ? CGAL::IO::read_STL(in, points, polygons, quiet)
+                       : extension == ".stl" ? CGAL::IO::read_STL(checked, points, polygons, quiet)
                                              : false;
   if(!is_read && extension == ".ply")
   {
@@ -134,8 +163,13 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
   }
   if(is_read && extension == ".ply")
     check_end(in, file, "the elements that the header announces", is_binary);
-  if(is_read && extension == ".stl") // CGAL reads a text to its end
-    check_end(in, file, "the triangles that the header announces", true);
+  if(extension == ".stl") // programs round corners, also to the same
+    if(const auto end = std::remove_if(polygons.begin(), polygons.end(), has_corner_twice);
+       end != polygons.end())
+    {
+      polygons.erase(end, polygons.end());
+      dropped.insert("triangles with two equal corners");
+    }
   if(is_read)
     build_mesh(file, points, polygons, mesh);
   return is_read && mesh.is_valid(false);

@@ -126,8 +126,12 @@ void test_obj()
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
   accept("isolated.obj", "v 7 7 7\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\n");
   accept("good.obj", square + "f -4 -2 -1\n");
-  for(const std::string corners : {"1 2 3", "2 3 4 2", "1 2 4"})
-    refuse("obj", square + "f " + corners + "\n", "face 1 has fewer than three vertices, has one");
+  for(const std::string corners : {"1 2 3", "1 2 4"})
+    refuse("obj", square + "f " + corners + "\n", "face 1 has an edge, from vertex 0 to 1, which "
+                                                  "face 0 has in the same direction");
+  refuse("obj", square + "f 2 3 4 2\n", "face 1 has a vertex twice");
+  refuse("obj", square + "v 2 0 0\nv 2 1 0\nf 1 3 4\nf 1 4 2\nf 1 5 6\n",
+         "face 3 does not form a manifold with the previous faces at one of its vertices");
   refuse_at(1, "obj", "f 1 2 -3\n" + square, "a face has the vertex '-3', which does not exist");
   for(const std::string corner : {"5", "2147483648", "9223372036854775807"})
     refuse_at(6, "obj", square + "f 1 3 " + corner + "\nf 1 2 4\n",
@@ -243,14 +247,72 @@ void test_ply()
                 "face 0 has 300");
 }
 
+// the bytes of a number
+template <typename Number>
+std::string bytes(Number value, bool is_reversed)
+{
+  std::string result(reinterpret_cast<const char*>(&value), sizeof(value));
+  if(is_reversed)
+    std::reverse(result.begin(), result.end());
+  return result;
+}
+
 void test_stl()
 {
   refuse("stl", std::string(80, 'x') + std::string(4, '\377') + std::string(50, '\0'),
-         "cannot be read");
+         "is no text that starts with 'solid', and ends before the triangles");
   refuse("stl", std::string(80, 'x'), "");
   const std::string one(std::string(80, 'x') + std::string("\1\0\0\0", 4) +
                         std::string(50, '\0'));
-  refuse("stl", one + std::string(50, '\1'), "has more than the triangles that the header");
+  refuse("stl", one + std::string(50, '\1'), "is no text that starts with 'solid', and has more");
+
+  // the same triangles, also in forms that CGAL takes for those of a binary file or misreads
+  const auto text_of = [](const std::string& start, const std::string& end, bool is_upper_case) {
+    const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex ";
+    std::string text = facet + "1 0 0\nvertex 1 1 0\nendloop\nendfacet\n" + facet +
+                       "1 1 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    if(is_upper_case)
+      std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+        return static_cast<char>(std::toupper(c));
+      });
+    return start + text + end;
+  };
+  std::string binary = "solid, but binary" + std::string(63, ' ') + std::string("\2\0\0\0", 4);
+  for(const auto& corners : {std::array<float, 6>{1, 0, 0, 1, 1, 0}, {1, 1, 0, 0, 1, 0}})
+  {
+    binary += std::string(24, '\0'); // the normal, and the first corner
+    for(float coordinate : corners)
+      binary += bytes(coordinate, false);
+    binary += "ab";
+  }
+  std::string expected;
+  for(const std::string& text : {text_of("solid a\n", "endsolid a\n", false),
+                                 text_of("Solid Unity Mesh\n", "endsolid\n", false),
+                                 text_of("SOLID A\r\n", "ENDSOLID A\r\n", true),
+                                 text_of("solid\ta\n", "endsolid\ta\n", false),
+                                 text_of("solid solid facet\n", "endsolid vertex facet\n", false),
+                                 text_of(" solid ", "endsolid", false), binary,
+                                 replaced(binary, "solid,", "solid ")})
+  {
+    test_case() = "an .stl file that starts with " + text.substr(0, 17);
+    write("any.stl", text);
+    CHECK(run("any.stl --handle list:2 --move 0,0,0 -o new.off").exit_code == 0);
+    const std::string read = content(folder / "new.off");
+    if(expected.empty())
+      expected = read;
+    CHECK(read == expected && read.find("\n4 2 0\n") != std::string::npos);
+    fs::remove(folder / "new.off");
+  }
+  refuse("stl", text_of("solid a\n", "", false), "cannot be read");
+
+  test_case() = "a triangle of an .stl file with two equal corners";
+  write("flat.stl", text_of("solid a\nfacet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 1 0 0\n"
+                            "vertex 1 1 0\nendloop\nendfacet\n", "endsolid a\n", false));
+  const Run done = run("flat.stl --handle list:2 --move 0,0,0 -o new.off");
+  CHECK(done.exit_code == 0 && done.err.find("triangles with two equal corners") !=
+                                 std::string::npos);
+  CHECK(content(folder / "new.off").find("\n4 2 0\n") != std::string::npos);
+  fs::remove(folder / "new.off");
 }
 
 void test_text_files()
@@ -371,16 +433,6 @@ void test_notes()
                       "0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n7\n" + faces(""));
   check_note("more.ply", "new.ply", "");
   check_note("more.ply", "new.off", "colors, normals, the element 'edge', the property 'quality'");
-}
-
-// the bytes of a number
-template <typename Number>
-std::string bytes(Number value, bool is_reversed)
-{
-  std::string result(reinterpret_cast<const char*>(&value), sizeof(value));
-  if(is_reversed)
-    std::reverse(result.begin(), result.end());
-  return result;
 }
 
 // In the format of the input only coordinates change, and normals turn. Here two triangles share an
