@@ -42,6 +42,7 @@ struct Result
 {
   std::vector<Step_report> frames;
   std::size_t vertices = 0, simplices = 0; // of the whole shape
+  std::size_t strays = 0;                  // free vertices in no simplex
   Quality quality;
   std::optional<std::size_t> self_intersections; // if they were looked for
   double load_seconds = 0;
@@ -107,6 +108,7 @@ inline void write_report(Output_file& file, const Result& result)
     json["self_intersections"] = *result.self_intersections;
   json["inverted_simplices"] = result.quality.inverted_simplices;
   json["unconstrained_components"] = report.unconstrained_components;
+  json["vertices_in_no_simplex"] = result.strays;
   json["seconds"] = {{"load", result.load_seconds}};
   json["seconds"].update(to_json(seconds(result)));
   json["peak_memory_bytes"] = nullptr;
@@ -147,6 +149,10 @@ inline void print_summary(std::ostream& out, const Command_line& line, const Res
   if(result.quality.inverted_simplices > 0)
     out << result.quality.inverted_simplices << " of " << result.simplices
         << " tetrahedra are inside out\n";
+  if(result.strays > 0)
+    out << "free vertices that are in no "
+        << (is_tetrahedra_format(lower_case_extension(line.mesh)) ? "tetrahedron" : "face")
+        << ", and stay: " << result.strays << '\n';
   const Phase_seconds of_frames = seconds(result);
   out << "seconds: load " << result.load_seconds << ", preprocess " << of_frames.preprocess
       << ", deform " << of_frames.total - of_frames.preprocess << '\n'

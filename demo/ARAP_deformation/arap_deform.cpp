@@ -66,6 +66,20 @@ void expect_success(const Command_line& line, const CGAL::ARAP::Outcome& outcome
     throw std::runtime_error(line.mesh + ": " + with_options(outcome.message));
 }
 
+// How many free vertices are in no simplex: nothing moves them, whatever else in the file has them.
+template <typename Domain>
+std::size_t number_of_strays(const Domain& domain, const std::vector<int>& selection)
+{
+  std::size_t result = 0;
+  for(auto v : domain.vertices())
+  {
+    bool is_stray = selection[domain.index(v)] == FREE;
+    domain.for_each_incident_simplex(v, [&](auto, const auto&) { is_stray = false; });
+    result += is_stray;
+  }
+  return result;
+}
+
 // What a handle holds: vertices, and points inside simplices.
 template <typename Deformation>
 struct Controls
@@ -352,6 +366,7 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
   Result result;
   result.vertices = shape.number_of_vertices();
   result.simplices = shape.number_of_simplices();
+  result.strays = number_of_strays(domain, task.selection);
   result.load_seconds = load_timer.time();
   std::vector<double> measures; // of each vertex
   deform(line, solver, domain, task, held, rest_points, progress, [&](const auto& report) {

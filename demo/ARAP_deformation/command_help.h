@@ -180,7 +180,8 @@ inline void print_help(std::ostream& out)
          "unknown), saddles_left, plateaus_left, edge_length_error (relative root mean\n"
          "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
          "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
-         "first vertex; nothing holds them, and they stay), seconds, and more.\n\n"
+         "first vertex; nothing holds them, and they stay), vertices_in_no_simplex (free, and\n"
+         "they stay), seconds, and more.\n\n"
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
          "is written, and existing files are unchanged.\n";
 }

@@ -199,6 +199,11 @@ void test_success()
   CHECK(unconstrained.out.find("unconstrained component") != std::string::npos);
   CHECK(nlohmann::json::parse(content(folder / "new.json"))["unconstrained_components"] ==
         std::vector<std::size_t>(1, shape.points.size()));
+  degenerate.triangles.pop_back();
+  write("degenerate.off", off(degenerate));
+  const Run strays = run("degenerate.off --selection degenerate.sel --transform in.def -o new.off");
+  CHECK(strays.out.find("\nfree vertices that are in no face, and stay: 3\n") !=
+        std::string::npos);
   for(const std::string file : {"degenerate.off", "degenerate.sel", "new.off", "new.json"})
     fs::remove(folder / file);
 
@@ -1925,6 +1930,12 @@ void test_text()
   CHECK(moved.find("\n1.25 1 1 5\n50 60.0 7e1 6\nTetrahedra\n2\n") != std::string::npos);
   CHECK(moved.find("Vertices 6\n0.0 -0 +0.000 1 ") != std::string::npos);
   CHECK(moved.substr(moved.find("Tetrahedra")) == odd.substr(odd.find("Tetrahedra")));
+  const std::string note = "\nfree vertices that are in no tetrahedron, and stay: ";
+  CHECK(run(odd_call + "--transform shift.def").out.find(note + "1\n") != std::string::npos);
+  CHECK(report()["vertices_in_no_simplex"] == 1);
+  const std::string fixed = odd_call + "--transform shift.def --fix list:5";
+  CHECK(run(fixed).out.find(note) == std::string::npos); // it is not expected to move
+  CHECK(report()["vertices_in_no_simplex"] == 0);
 
   test_case() = "in place, without an End, upper case";
   const std::string end = "\nEnd\nVertices\n";
