@@ -76,6 +76,8 @@ public:
     if(m_is_kept)
       return {};
     std::set<std::string> result = m_dropped;
+    if(format == ".off" && m_format == ".off") // CGAL writes them
+      result.erase("texture coordinates");
     if(format != ".off" && format != ".ply" && has_colors(m_mesh))
       result.insert("colors");
     if(is_gltf_format(format) && !CGAL::is_triangle_mesh(m_mesh))

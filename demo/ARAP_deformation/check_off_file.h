@@ -149,8 +149,8 @@ private:
     if(number > 0 && !has_colors)
       refuse(what, number, "has a color, though those before it have none");
     has_colors = true;
-    if(n > 3)
-      m_dropped.insert("transparency of colors");
+    if(n == 1)
+      m_dropped.insert("indices of colors");
     if(n != 1 && n < 3)
       refuse(what, number, "has a color that is neither one number nor three, or no color though "
                            "others have one");
@@ -163,6 +163,9 @@ private:
       is_integer = is_integer && std::floor(m_row[i]) == m_row[i];
       largest = (std::max)(largest, m_row[i]);
     }
+    const double alpha = n > 3 ? m_row[begin + 3] : 255;
+    if(alpha != 255 && !(alpha == 1 && largest <= 1)) // of integers, and of fractions
+      m_dropped.insert("transparency of colors");
     if(n != 1 && !is_integer && largest > 1)
       refuse(what, number, "has a color that is neither of integers nor of numbers from 0 to 1");
   }
@@ -178,6 +181,24 @@ private:
   std::vector<double> m_row;
 };
 
+// Throws if a header from `begin` to the place of the stream has taken the first number of the
+// first vertex for that of edges, which is not there.
+inline void check_number_of_edges(std::istream& in, std::istream::pos_type begin,
+                                  const std::string& file)
+{
+  const auto end = in.tellg();
+  if(end == std::istream::pos_type(-1))
+    return;
+  std::string head(static_cast<std::size_t>(end - begin), ' '), rest;
+  in.seekg(begin).read(head.data(), end - begin);
+  std::getline(in, rest);
+  const std::size_t last = head.find_last_of(" \t\r\n");
+  if(last != std::string::npos && head[last] == '\n' && !Words(rest).next().empty())
+    throw std::runtime_error(file + ": the header has no number of edges; it may be 0");
+  in.clear();
+  in.seekg(end);
+}
+
 } // namespace internal
 
 // which elements of an .off file have colors
@@ -187,15 +208,18 @@ struct Off_colors
 };
 
 // Throws a std::runtime_error for errors that CGAL's reader of .off files does not detect: missing
-// rows, rows that are too short, and rows that the header does not announce. Files without an .off
-// header are left to the reader. Inserts what it does not read, or is not kept, into `dropped`, and
-// into `source`, whose text is that of the stream, the places of the coordinates.
+// rows, rows that are too short, and rows that the header does not announce. Inserts what it does
+// not read, or is not kept, into `dropped`, and into `source`, whose text is that of the stream,
+// the places of the coordinates.
 inline Off_colors check_off_file(std::istream& in, const std::string& file,
                                  std::set<std::string>& dropped, Source_text* source = nullptr)
 {
+  const auto begin = in.tellg();
   File_header_OFF header(false);
   if(!(in >> header))
-    return {};
+    throw std::runtime_error(file + ": does not start with a header that can be read, such as OFF, "
+                                    "COFF, NOFF, CNOFF or 4OFF, and the numbers of vertices, "
+                                    "faces and edges");
   if(header.binary())
     throw std::runtime_error(file + ": is binary; only .off files in text can be read");
   if(header.has_textures() && !header.has_colors())
@@ -204,6 +228,7 @@ inline Off_colors check_off_file(std::istream& in, const std::string& file,
     dropped.insert("normals");
   if(header.has_textures())
     dropped.insert("texture coordinates");
+  internal::check_number_of_edges(in, begin, file);
   internal::Off_rows rows(in, file, header, dropped, source);
   Off_colors colors;
   colors.are_at_vertices = rows.check_vertices();

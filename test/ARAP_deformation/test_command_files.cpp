@@ -92,6 +92,10 @@ void test_off()
   for(const std::string corner : {"-1", "4", "1e300", "-1e300"})
     refuse("off", "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 " + corner + "\n",
            "face 1 has a vertex that does not exist");
+  refuse("off", "OFF\n4 2\n" + square + "3 0 1 2\n3 0 2 3\n", "the header has no number of edges");
+  accept("lines.off", "OFF\n4\n2\n0\n" + square + "3 0 1 2\n3 0 2 3\n");
+  for(const std::string header : {"4COFF", "C4OFF", "4 2 0", "OFF\nx"})
+    refuse("off", header + "\n4 2 0\n" + square, "does not start with a header that can be read");
   refuse("off", std::string("OFF BINARY\n\0\0\0\4\177\377\377\377\0\0\0\0", 23), "is binary");
   refuse("off", "4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 0\n3 0 1 2\n", "vertex 2 is at infinity");
   refuse("off", "STOFF\n3 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 0 1\n3 0 1 2\n",
@@ -394,6 +398,17 @@ void test_notes()
   write("clear.off", "COFF\n4 2 0\n0 0 0 1 2 3 9\n1 0 0 1 2 3 9\n1 1 0 1 2 3 9\n0 1 0 1 2 3 9\n" +
                        faces(""));
   check_note("clear.off", "new.ply", "transparency of colors");
+  for(const std::string opaque : {"1 2 3 255", "0 1 0 255", "0.5 1 0 1"})
+  {
+    std::string text = content(folder / "clear.off");
+    for(std::size_t place; (place = text.find("1 2 3 9")) != std::string::npos;)
+      text.replace(place, 7, opaque);
+    write("opaque.off", text);
+    check_note("opaque.off", "new.ply", "");
+  }
+  write("indices.off", "COFF\n4 2 0\n0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n" + faces(""));
+  check_note("indices.off", "new.off", "");
+  check_note("indices.off", "new.ply", "indices of colors");
   check_note("colors.off", "new.obj", "colors");
   const auto ply_of = [](const std::string& vertex_color, const std::string& face_color) {
     write("some.off", "COFF\n4 2 0\n0 0 0" + vertex_color + "\n1 0 0" + vertex_color + "\n1 1 0" +
@@ -419,6 +434,13 @@ void test_notes()
   write("normals.off", "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n" +
                          faces(""));
   check_note("normals.off", "new.off", "normals");
+  const std::string row = " 0 0 1 1 2 3 0.25 0.75\n"; // a normal, a color, and a place in a texture
+  write("textured.off", "STCNOFF\n4 2 0\n0 0 0" + row + "1 0 0" + row + "1 1 0" + row + "0 1 0" +
+                          row + faces(""));
+  check_note("textured.off", "new.off", "normals");
+  check_note("textured.off", "new.ply", "normals, texture coordinates");
+  CHECK(run("textured.off --selection in.sel --transform in.def -o new.off").exit_code == 0);
+  CHECK(content(folder / "new.off").find("0.25 0.75\n") != std::string::npos);
   write("isolated.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 2 3\n");
   check_note("isolated.off", "new.stl", "double precision, vertices without a face");
   check_note("statements.obj", "new.off", "curves and free-form surfaces, groups, lines, "
