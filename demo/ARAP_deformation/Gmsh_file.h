@@ -62,6 +62,23 @@ public:
   }
 
 private:
+  // The words after a line that starts with a keyword, the first one after a place.
+  std::optional<Words> find_section(const std::string& keyword, std::size_t place) const
+  {
+    for(; (place = text().find(keyword, place)) != std::string::npos; ++place)
+      if(place > 0 && text()[place - 1] == '\n')
+        if(Words words(text(), place); words.next() == keyword)
+          return words;
+    return std::nullopt;
+  }
+
+  Words section(const std::string& keyword, std::size_t place) const
+  {
+    if(const auto found = find_section(keyword, place))
+      return *found;
+    refuse("has no " + keyword);
+  }
+
   // the head of a block of nodes or elements of the version 4.1
   struct Block
   {

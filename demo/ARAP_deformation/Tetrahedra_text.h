@@ -20,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -87,23 +86,6 @@ protected:
     throw bad_line(m_name, static_cast<std::size_t>(line),
                    expected + (is_end ? " the end of the file"
                                : word.empty() ? " nothing" : ' ' + in_quotes(word)));
-  }
-
-  // The words after a line that starts with a keyword, the first one after a place.
-  std::optional<Words> find_section(const std::string& keyword, std::size_t place) const
-  {
-    for(; (place = text().find(keyword, place)) != std::string::npos; ++place)
-      if(place > 0 && text()[place - 1] == '\n')
-        if(Words words(text(), place); words.next() == keyword)
-          return words;
-    return std::nullopt;
-  }
-
-  Words section(const std::string& keyword, std::size_t place) const
-  {
-    if(const auto found = find_section(keyword, place))
-      return *found;
-    refuse("has no " + keyword);
   }
 
   // Reads an integer from `smallest` to `largest`; description() tells what is expected.

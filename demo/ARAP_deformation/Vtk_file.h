@@ -14,7 +14,7 @@
 
 #include "Tetrahedra_text.h"
 
-#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <array>
 #include <cstddef>
@@ -41,16 +41,16 @@ public:
     if(text().rfind("# vtk DataFile", 0) != 0 || title == std::string::npos)
       refuse("does not start with '# vtk DataFile'");
     Words words(text(), text().find('\n', title + 1));
-    if(words.next() != "ASCII")
+    if(!is_keyword(words.next(), "ASCII"))
       refuse(words, "only ASCII files can be read, but this is");
     words.next(); // DATASET
-    if(words.next() != "UNSTRUCTURED_GRID")
+    if(!is_keyword(words.next(), "UNSTRUCTURED_GRID"))
       refuse(words, "only an UNSTRUCTURED_GRID can be read, but this is");
 
     words = section("POINTS", words.end());
     const long long points = read(words);
-    if(const std::string type = boost::algorithm::to_lower_copy(std::string(words.next()));
-       type != "float" && type != "double")
+    if(const std::string_view type = words.next();
+       !is_keyword(type, "float") && !is_keyword(type, "double"))
       refuse(words, "expected POINTS of the type float or double, but found");
     for(long long i = 0; i < points; ++i)
       read_point(words, [i] { return "point " + std::to_string(i); });
@@ -58,6 +58,21 @@ public:
   }
 
 private:
+  static bool is_keyword(std::string_view word, const std::string& keyword)
+  {
+    return word.size() == keyword.size() && boost::algorithm::iequals(word, keyword);
+  }
+
+  // The words after a keyword, in upper or lower case, the first one after a place.
+  Words section(const std::string& keyword, std::size_t place) const
+  {
+    Words words(text(), place);
+    for(auto word = words.next(); !is_keyword(word, keyword); word = words.next())
+      if(word.empty())
+        refuse("has no " + keyword);
+    return words;
+  }
+
   long long read(Words& words, long long smallest = 0,
                  long long largest = (std::numeric_limits<int>::max)()) const
   {
@@ -72,7 +87,7 @@ private:
     long long number = read(cells);
     read(cells); // how many integers follow
     Words connectivity = cells, look = cells;
-    const bool has_offsets = look.next() == "OFFSETS"; // since version 5
+    const bool has_offsets = is_keyword(look.next(), "OFFSETS"); // since version 5
     long long begin = 0;
     if(has_offsets)
     {

@@ -34,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -2027,6 +2028,16 @@ void test_other_formats()
   check_same("msh 4.1", "msh", msh4);
   check_same("vtk 3.0", "vtk", [&](const Points& points) { return vtk("3.0", points); });
   check_same("vtk 5.1", "vtk", [&](const Points& points) { return vtk("5.1", points); });
+  for(const std::string version : {"3.0", "5.1"}) // as free as other writers are
+    check_same("vtk in lower case", "vtk", [&](const Points& points) {
+      std::string text = vtk(version, points);
+      for(const std::string word : {"ASCII", "DATASET", "UNSTRUCTURED_GRID\nPOINTS", "CELLS",
+                                    "OFFSETS", "CONNECTIVITY", "CELL_TYPES"})
+        if(const std::size_t place = text.find(word); place != std::string::npos)
+          for(std::size_t i = place; i < place + word.size(); ++i)
+            text[i] = text[i] == '\n' ? '\t' : static_cast<char>(std::tolower(text[i]));
+      return replaced(text, "cell_types", "  cell_types");
+    });
 
   const auto refuse = [&](const std::string& file, const std::string& text,
                           const std::string& phrase) {
