@@ -73,6 +73,8 @@ public:
   // what an output of this format does not keep
   std::set<std::string> dropped(const std::string& format) const
   {
+    if(m_is_kept && m_source.has_integer_normals)
+      return {"the directions of normals, which are integers and do not turn"};
     if(m_is_kept)
       return {};
     std::set<std::string> result = m_dropped;
@@ -114,7 +116,7 @@ public:
                          m_mesh.point(v) - CGAL::ORIGIN);
       turn_normals();
       if(format == ".ply" && !m_property.empty())
-        insert_property();
+        write_property();
       m_source.write(out);
     });
   }
@@ -127,11 +129,18 @@ public:
   }
 
 private:
-  void insert_property()
+  // Writes it over one of the same name, if that has fractions, or behind the others.
+  void write_property()
   {
     std::string name = m_property;
-    while(m_source.properties.count(name) > 0)
-      name += '_';
+    for(; m_source.properties.count(name) > 0; name += '_')
+      if(const auto& places = m_source.properties[name]; places.size() == m_values.size())
+      {
+        for(std::size_t v = 0; v < m_values.size(); ++v)
+          m_source.replace(places[v], m_source.number(m_values[v],
+                                                      places[v].end - places[v].begin));
+        return;
+      }
     const std::size_t end = m_source.properties_end;
     const char* end_of_line = m_source.text.compare(end - 2, 2, "\r\n") == 0 ? "\r\n" : "\n";
     m_source.insert(end, "property float " + name + end_of_line);

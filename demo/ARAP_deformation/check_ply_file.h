@@ -87,7 +87,7 @@ public:
       for(const Property& p : element.properties)
       {
         if(is_vertex(element) && is_position(p))
-          require(p.is("float") || p.is("double"), p, "float or double");
+          require(is_fractional(p), p, "float or double");
         if((is_vertex(element) || is_face(element)) && is_color(p.name) && has_bytes)
           require(p.is("uchar"), p, "uchar, unlike other colors");
         if(element.name == "halfedge" && (p.name == "source" || p.name == "target"))
@@ -111,8 +111,7 @@ public:
         for(const Property& p : element.properties)
           if(!is_position(p) && !is_corners(p))
             result.insert(is_color(p.name) || p.name == "alpha" ? "colors"
-                          : p.name == "nx" || p.name == "ny" || p.name == "nz"
-                            ? "normals" : "the property " + in_quotes(p.name));
+                          : is_normal(p) ? "normals" : "the property " + in_quotes(p.name));
     }
     return result;
   }
@@ -146,12 +145,12 @@ public:
     std::size_t number_of_faces = 0;
     for(const Element& element : m_elements)
     {
-      const bool has_normals =
-        (is_vertex(element) || is_face(element)) &&
-        3 == std::count_if(element.properties.begin(), element.properties.end(), is_normal);
+      const bool are_turned = has_normals(element, is_fractional);
+      if(!are_turned && has_normals(element, [](const Property&) { return true; }))
+        source.has_integer_normals = true;
       if(is_vertex(element))
         for(const Property& p : element.properties)
-          source.properties.insert(p.name);
+          source.properties[p.name] = {};
       for(std::size_t i = 0; i < element.number; ++i)
       {
         std::size_t end = 0;
@@ -166,7 +165,9 @@ public:
           end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
           if(is_position(p))
             point[p.name[0] - 'x'] = {begin, end};
-          if(has_normals && is_normal(p))
+          else if(is_vertex(element) && is_fractional(p) && !is_normal(p))
+            source.properties[p.name].push_back({begin, end});
+          if(are_turned && is_normal(p))
           {
             normal[p.name[1] - 'x'] = {begin, end};
             direction[p.name[1] - 'x'] = value;
@@ -239,11 +240,20 @@ private:
     return p.name == "x" || p.name == "y" || p.name == "z";
   }
 
-  // of a type that can hold a normal
+  static bool is_fractional(const Property& p) { return p.is("float") || p.is("double"); }
+
   static bool is_normal(const Property& p)
   {
-    return (p.name == "nx" || p.name == "ny" || p.name == "nz") &&
-           (p.is("float") || p.is("double"));
+    return p.name == "nx" || p.name == "ny" || p.name == "nz";
+  }
+
+  // Whether an element has the three properties of a normal, all of which satisfy a condition.
+  template <typename Condition>
+  static bool has_normals(const Element& element, const Condition& condition)
+  {
+    return (is_vertex(element) || is_face(element)) &&
+           3 == std::count_if(element.properties.begin(), element.properties.end(),
+                              [&](const Property& p) { return is_normal(p) && condition(p); });
   }
 
   static bool is_corners(const Property& p)
@@ -319,6 +329,7 @@ private:
   // Reads a property, and returns the last number of it.
   double read(const Property& p)
   {
+    m_property = p.name;
     double entries = 1, value = 0;
     if(p.is_list)
     {
@@ -368,7 +379,8 @@ private:
       std::copy(buffer.begin(), buffer.end(), reinterpret_cast<char*>(&value));
     }
     if(!m_in)
-      refuse("ends before all its elements, or holds something that is not a number");
+      refuse("ends before all its elements, or has something that is not a finite number in the "
+             "property " + in_quotes(m_property));
     return static_cast<double>(value);
   }
 
@@ -377,7 +389,8 @@ private:
   std::size_t m_bytes, m_properties_end = 0; // of the vertices, in the header
   std::string m_format = "ascii";
   std::vector<Element> m_elements;
-  double m_total = 0; // number of elements
+  double m_total = 0;     // number of elements
+  std::string m_property; // that is read
 };
 
 } // namespace internal

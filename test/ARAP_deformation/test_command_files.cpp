@@ -180,6 +180,9 @@ void test_ply()
     refuse("ply", text, phrase);
   };
 
+  const std::string lost = "ends before all its elements, or has something that is not a finite "
+                           "number in the property 'vertex_indices'";
+
   // counts
   for(const std::string count : {"4294967295", "18446744073709551615", "-1"})
     refuse_ply(ply("ascii", "float", count, "uchar int") + square + faces,
@@ -189,7 +192,7 @@ void test_ply()
     refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n2000000000 0 2 3\n",
                "announces more entries of 'vertex_indices' than fit into its ");
     refuse_ply(ply("ascii", "float", "4", size + " int") + square + "3 0 1 2\n99999999999 0 2 3\n",
-               "ends before all its elements, or holds something that is not a number");
+               lost);
     for(const std::string format : {"binary_little_endian", "binary_big_endian"})
       refuse_ply(ply(format, "float", "1", size + " int") + std::string(12, '\0') +
                    std::string(12, '\177'),
@@ -203,7 +206,7 @@ void test_ply()
   // rows
   for(const std::string end : {"", "3 0 1\n", "3 0 2 x\n"})
     refuse_ply(ply("ascii", "float", "4", "uchar int") + square + "3 0 1 2\n" + end,
-               "ends before all its elements, or holds something that is not a number");
+               lost);
   const std::string good = ply("ascii", "float", "4", "uchar int") + square + faces;
   const std::string surplus = "more than the elements that the header announces";
   refuse_at(16, "ply", good + "3 0 1 3\n", "there is " + surplus);
@@ -226,6 +229,9 @@ void test_ply()
   refuse_ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement "
              "face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n1 1\n3 0 1 2\n",
              "the vertices have no property z");
+  refuse_ply(ply("ascii", "float", "2", "uchar int", "property float quality\n") +
+               "0 0 0 1\n1 0 0 nan\n", "ends before all its elements, or has something that is not "
+                                        "a finite number in the property 'quality'");
   refuse_ply(ply("ascii", "float", "4", "uchar short") + square + faces,
              "the property vertex_indices is not a list of int or uint");
   refuse_ply(ply("ascii", "float", "4", "float int") + square + faces, "has a list with a");
@@ -462,13 +468,16 @@ void test_notes()
 void test_kept()
 {
   write("quarter.def", "0 0 1 0\n0 1 0 0\n-1 0 0 0\n0 0 0 1\n");
-  const auto deformed = [](const std::string& file, const std::string& text) {
+  const auto deformed = [](const std::string& file, const std::string& text,
+                           const std::string& dropped = "") {
     test_case() = file;
     write(file, text);
     const std::string output = "new" + file.substr(file.find('.'));
     const Run done = run(file + " --fix x:0.. --handle x:..-1 --transform quarter.def -o " +
                          output);
-    if(!CHECK(done.exit_code == 0 && done.err.empty()))
+    const std::string note = dropped.empty() ? "" : "note: " + output + " does not keep: " +
+                                                      dropped + '\n';
+    if(!CHECK(done.exit_code == 0 && done.err == note))
       std::cerr << "    " << done.err;
     return content(folder / output);
   };
@@ -518,7 +527,8 @@ void test_kept()
     ply("ascii", "float", "4", "uchar int",
         "property float nx\nproperty float ny\nproperty int nz\n") +
     "0 -1 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n";
-  CHECK(deformed("mixed.ply", mixed + "-1 0.5 0 1 2 3\n3 0 1 2\n3 0 2 3\n") ==
+  const std::string integers = "the directions of normals, which are integers and do not turn";
+  CHECK(deformed("mixed.ply", mixed + "-1 0.5 0 1 2 3\n3 0 1 2\n3 0 2 3\n", integers) ==
         mixed + "0 0.5 1 1 2 3\n3 0 1 2\n3 0 2 3\n");
 
   const std::string normals_of_faces = "property float nx\nproperty double ny\nproperty float nz\n",
@@ -597,15 +607,25 @@ void test_color()
   CHECK(content(folder / "new.ply") == binary("property float edge_error\n", 1));
 
   test_case() = "a property of a text with ends of lines of two characters";
-  std::string text = ply("ascii", "float", "4", "uchar int", "property float area \n") +
+  std::string text = ply("ascii", "float", "4", "uchar int", "property int area \n") +
                      "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 2\n3 0 2 3\n";
   for(std::size_t place = 0; (place = text.find('\n', place)) != std::string::npos; place += 2)
     text.insert(place, 1, '\r');
   write("returns.ply", text);
   CHECK(run("returns.ply --handle x:0.. --move 0,0,0 --color area -o new.ply").exit_code == 0);
   const std::string colored = content(folder / "new.ply");
-  CHECK(colored.find("property float area \r\nproperty float area_\r\n") != std::string::npos);
+  CHECK(colored.find("property int area \r\nproperty float area_\r\n") != std::string::npos);
   CHECK(colored.find("\r\n1 0 0 7 0\r\n") != std::string::npos);
+
+  test_case() = "a property that there is";
+  const std::string start = ply("ascii", "float", "4", "uchar int", "property float spike\n");
+  write("again.ply", start + "0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n3 0 1 2\n3 0 2 3\n");
+  CHECK(run("again.ply --handle x:0.. --move 1,0,0 --color spike -o new.ply").exit_code == 0);
+  const std::string once = content(folder / "new.ply");
+  CHECK(once.rfind(start + "1 0 0 ", 0) == 0 && once.find(" 7\n") == std::string::npos);
+  write("again.ply", once);
+  CHECK(run("again.ply --handle x:0.. --move -1,0,0 --color spike -o new.ply").exit_code == 0);
+  CHECK(content(folder / "new.ply").rfind(start + "0 0 0 ", 0) == 0);
   fs::remove(folder / "new.ply");
 }
 
