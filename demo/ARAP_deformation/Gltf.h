@@ -103,10 +103,26 @@ public:
     return object.contains(key) ? whole(object[key]) : otherwise;
   }
 
-  static void refuse_compression(const Json& object, const char* extension, const char* what)
+  static void refuse_extension(const Json& object, const char* extension, const char* what)
   {
     if(object.contains("extensions") && object["extensions"].contains(extension))
-      throw std::runtime_error(std::string("has ") + what + " that are compressed by " + extension);
+      throw std::runtime_error(std::string("has ") + what + " by " + extension);
+  }
+
+  // Throws if a reader needs an extension for more than how the surface looks.
+  void check_required_extensions() const
+  {
+    for(const Json& required : json.value("extensionsRequired", Json::array()))
+    {
+      const auto& name = required.get_ref<const std::string&>();
+      const auto contains = [&name](const char* part) {
+        return name.find(part) != std::string::npos;
+      };
+      if(!contains("_materials_") && !contains("_texture_") && !contains("_lights_") &&
+         name != "KHR_mesh_quantization")
+        throw std::runtime_error("needs the extension " + in_quotes(name) + ", which is not "
+                                 "supported");
+    }
   }
 
   // Throws if the accessor is not in a buffer, or needs what is not supported.
@@ -119,7 +135,7 @@ public:
                                type);
     const Json& view = json.at("bufferViews").at(whole(accessor["bufferView"]));
     for(const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      refuse_compression(view, extension, "arrays");
+      refuse_extension(view, extension, "arrays that are compressed");
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
     const std::size_t bytes = (result.component == BYTE_INDEX    ? 1

@@ -55,6 +55,7 @@ public:
     {
       for(const auto& image : m_gltf.json.value("images", Gltf::Json::array()))
         m_has_images = m_has_images || image.value("uri", "data:").rfind("data:", 0) != 0;
+      m_gltf.check_required_extensions();
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
     }
@@ -182,6 +183,7 @@ private:
       if(node.contains("skin"))
         throw std::runtime_error("the node " + std::to_string(index) + " has a skin; only rigid "
                                  "nodes can be deformed");
+      Gltf::refuse_extension(node, "EXT_mesh_gpu_instancing", "a node that is repeated");
       if(!m_meshes.insert(mesh).second)
         throw std::runtime_error("the mesh " + std::to_string(mesh) + " is used by two nodes");
       if(!(std::abs(to_scene.linear().determinant()) > 0))
@@ -198,7 +200,8 @@ private:
     const std::size_t triangles = 4;
     if(Gltf::whole(primitive, "mode", triangles) != triangles)
       throw std::runtime_error("has a primitive that is no list of triangles");
-    Gltf::refuse_compression(primitive, "KHR_draco_mesh_compression", "triangles");
+    Gltf::refuse_extension(primitive, "KHR_draco_mesh_compression",
+                           "triangles that are compressed");
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");

@@ -1162,6 +1162,14 @@ void test_gltf()
     check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
   };
   refuse("/nodes/1/skin", 0, "the node 1 has a skin");
+  refuse("/nodes/1/extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", 0}}}},
+         "has a node that is repeated by EXT_mesh_gpu_instancing");
+  for(const std::string name : {"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression", "MY_own"})
+    refuse("/extensionsRequired", {name}, "needs the extension '" + name + "', which is not");
+  auto textured = json; // extensions that change only how it looks
+  textured["extensionsRequired"] = {"KHR_texture_transform", "KHR_materials_unlit"};
+  write("textured.gltf", textured.dump());
+  CHECK(run("textured.gltf" + stay + "textured.gltf").exit_code == 0);
   refuse("/nodes/0/children/0", 0, "the node 0 occurs twice");
   refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
