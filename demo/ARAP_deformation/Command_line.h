@@ -385,6 +385,8 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
     line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
     if(is_direction && line.view == std::vector<double>(3, 0))
       throw Usage_error("--view 0,0,0 is no direction");
+    if(line.image.empty() && line.animation.empty())
+      throw Usage_error("--view is for pictures: give --image or --animation, too");
   }
 }
 
@@ -456,7 +458,8 @@ inline void read_options(const boost::program_options::variables_map& values, Op
   }
 }
 
-// The arguments of the command, where the names of options may be written with - for _.
+// The arguments of the command, where the names of options may be written with - for _, and with _
+// for -.
 inline std::vector<std::string>
 arguments_of(int argc, char** argv, const boost::program_options::options_description& all)
 {
@@ -469,9 +472,12 @@ arguments_of(int argc, char** argv, const boost::program_options::options_descri
       continue;
     const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
     std::string name = argument.substr(2, length);
-    std::replace(name.begin(), name.end(), '-', '_');
-    if(all.find_nothrow(name, false))
-      argument.replace(2, length, name);
+    for(const auto& [from, to] : {std::pair('-', '_'), std::pair('_', '-')})
+    {
+      std::replace(name.begin(), name.end(), from, to);
+      if(all.find_nothrow(name, false))
+        argument.replace(2, length, name);
+    }
   }
   return arguments;
 }

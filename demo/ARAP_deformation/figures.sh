@@ -17,7 +17,7 @@ arap_deform() { # with a report instead of the picture of this result alone
   ! [ -f "$model" ] || { printf '%s\n' "$@"; echo; } >>figures.txt
   while [ $# -gt 0 ]; do
     case $1 in
-      --image|--color) shift ;;
+      --image|--color|--view) shift ;;
       --iterations) options+=("$1" "$((iterations && iterations < $2 ? iterations : $2))"); shift ;;
       -o) output=$2; options+=("$1" "$2"); shift ;;
       *) options+=("$1") ;;

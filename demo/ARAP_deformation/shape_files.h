@@ -261,15 +261,18 @@ inline std::vector<int> read_selection(const std::string& file, std::size_t numb
   std::vector<int> selection;
   for_each_line(file, [&](const std::string& line, int number) {
     std::istringstream in(line);
-    int status;
-    std::string rest;
-    if(!(in >> status) || in >> rest)
+    std::string word, rest;
+    in >> word;
+    char* end = nullptr;
+    const long long status = std::strtoll(word.c_str(), &end, 10); // saturates
+    if(*end != '\0' || in >> rest)
       throw bad_line(file, number, "expected one integer, the status of a vertex");
-    if(status < FIXED || std::size_t(status) > number_of_vertices + 1)
-      throw bad_line(file, number, "unknown status " + std::to_string(status) +
-                                     "; use 0 (fixed), 1 (free), or the number of a handle, from 2 "
-                                     "on");
-    selection.push_back(status);
+    const auto largest = static_cast<long long>(number_of_vertices) + 1;
+    if(status < FIXED || status > largest)
+      throw bad_line(file, number, "unknown status " + printable(word) + "; use 0 (fixed), 1 "
+                                   "(free), or the number of a handle, from 2 to " +
+                                   std::to_string(largest));
+    selection.push_back(static_cast<int>(status));
   });
   if(selection.size() != number_of_vertices)
     throw std::runtime_error(file + ": has " + std::to_string(selection.size()) +

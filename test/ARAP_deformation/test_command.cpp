@@ -446,11 +446,14 @@ void test_refusals()
   select("bad.sel", "has 105 statuses, but the mesh has 104 vertices");
   write("bad.sel", good.substr(0, good.size() - 16));
   select("bad.sel", "has 103 statuses, but the mesh has 104 vertices");
-  for(const std::string status : {"-1", "106", "2147483647"})
+  for(const std::string status : {"-1", "106", "2147483647", "99999999999999999999"})
   {
     write("bad.sel", "1\n1\n" + status + "\n" + good);
-    select("bad.sel", "bad.sel, line 3: unknown status " + status);
+    select("bad.sel", "bad.sel, line 3: unknown status " + status + "; use 0 (fixed), 1 (free), or "
+                        "the number of a handle, from 2 to 105");
   }
+  write("bad.sel", "1 1\n" + good);
+  select("bad.sel", "bad.sel, line 1: expected one integer");
   write("bad.sel", "1\none\n" + good);
   select("bad.sel", "bad.sel, line 2: expected one integer");
   write("bad.sel", "1.5\n" + good);
@@ -953,6 +956,7 @@ void test_picks()
                 "a percentage makes no sense in a normal");
   refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers azimuth,elevation");
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
+  refuse("--handle z:0.. --view 0,0,1", 2, "--view is for pictures: give --image or --animation");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. -o precious.off --rotate=z", 2, "expected AXIS ANGLE");

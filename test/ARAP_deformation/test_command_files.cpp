@@ -350,6 +350,8 @@ void test_text_files()
   for(const std::string option : {"report", "image", "animation", "color", "save-selection",
                                   "save-transform", "transform"}) // a variable that is not set
     refuse_option("--" + option + " ''", "the value of --" + option + " is empty");
+  refuse_option("--save_selection ''", "the value of --save-selection is empty");
+  refuse_option("--save_transform ''", "the value of --save-transform is empty");
 }
 
 // Editors put a byte order mark at the start of a text, shells of Windows write UTF-16.
