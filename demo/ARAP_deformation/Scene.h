@@ -147,27 +147,68 @@ void write_list(std::ostream& out, const char* name, const Range& range, Write_i
   out << " }\n";
 }
 
-// The triangles with smooth normals. Each corner has the texture of its vertex, and POV-Ray blends.
+// the normals of a picture: those of the vertices, and others; and which one each corner has
+struct Normals
+{
+  std::vector<Vector> vectors;
+  std::vector<std::array<int, 3>> of_corners;
+};
+
+// Those of the triangles at a corner, weighted by area, without those beyond a sharp edge: what
+// turns away from the eye with its normal would be black.
+inline Normals smooth_normals(const std::vector<std::array<int, 3>>& triangles,
+                              const std::vector<Vector>& points)
+{
+  const double sharp = std::cos(70 * CGAL_PI / 180);
+  std::vector<Vector> flat;                     // of the triangles
+  std::vector<std::vector<int>> at(points.size()); // the triangles at each vertex
+  for(const auto& t : triangles)
+  {
+    for(int v : t)
+      at[v].push_back(static_cast<int>(flat.size()));
+    flat.push_back(CGAL::cross_product(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  }
+  Normals result{std::vector<Vector>(points.size(), Vector(0, 0, 0)), triangles};
+  for(std::size_t i = 0; i < triangles.size(); ++i)
+    for(int& corner : result.of_corners[i])
+    {
+      Vector sum(0, 0, 0);
+      bool has_all = true;
+      for(int other : at[corner])
+      {
+        const bool is_smooth = flat[i] * flat[other] >= sharp * std::sqrt(
+          flat[i].squared_length() * flat[other].squared_length());
+        has_all = has_all && is_smooth;
+        sum += is_smooth * flat[other];
+      }
+      if(has_all)
+        result.vectors[corner] = sum;
+      else
+      {
+        corner = static_cast<int>(result.vectors.size());
+        result.vectors.push_back(sum);
+      }
+    }
+  for(Vector& n : result.vectors) // POV-Ray needs a normal even where there is none
+    n = n.squared_length() > 0 ? unit(n) : Vector(0, 0, -1);
+  return result;
+}
+
+// The triangles with their normals. Each corner has the texture of its vertex, and POV-Ray blends.
 // Fixed vertices and handles without a triangle of one color are drawn as balls.
 inline void write_surface(std::ostream& out, const Panel& panel, const std::vector<Vector>& points)
 {
   const std::vector<int>& selection = panel.selection;
-  std::vector<Vector> normals(points.size(), Vector(0, 0, 0));
+  const Normals normals = smooth_normals(panel.triangles, points);
   std::vector<bool> is_shown(points.size(), false);
-  for(const auto& [a, b, c] : panel.triangles) {
-    const Vector n = CGAL::cross_product(points[b] - points[a], points[c] - points[a]);
-    for(int v : {a, b, c})
-      normals[v] += n; // weighted by the area
+  for(const auto& [a, b, c] : panel.triangles)
     if(selection[a] == selection[b] && selection[b] == selection[c])
       is_shown[a] = is_shown[b] = is_shown[c] = true;
-  }
-  for(Vector& n : normals) // POV-Ray needs a normal even where there is none
-    n = n.squared_length() > 0 ? unit(n) : Vector(0, 0, -1);
 
   const auto write_vector = [](const Vector& v, std::ostream& list) { list << Pov{v}; };
   out << "mesh2 {\n";
   write_list(out, "vertex_vectors", points, write_vector);
-  write_list(out, "normal_vectors", normals, write_vector);
+  write_list(out, "normal_vectors", normals.vectors, write_vector);
   const int shades = 100;
   const auto texture = [&](int v) {
     return panel.values.empty() ? selection[v] : static_cast<int>(panel.values[v] * shades + 0.5);
@@ -181,11 +222,15 @@ inline void write_surface(std::ostream& out, const Panel& panel, const std::vect
       out << ",\ntexture { Shade(" << static_cast<double>(shade) / shades << ") }";
     out << " }\n";
   }
-  write_list(out, "face_indices", panel.triangles, [&](const auto& t, std::ostream& list) {
+  const auto write_triple = [](const std::array<int, 3>& t, std::ostream& list) {
     list << '<' << t[0] << ',' << t[1] << ',' << t[2] << '>';
+  };
+  write_list(out, "face_indices", panel.triangles, [&](const auto& t, std::ostream& list) {
+    write_triple(t, list);
     for(int v : t)
       list << ',' << texture(v);
   });
+  write_list(out, "normal_indices", normals.of_corners, write_triple);
   out << "}\n";
   for(std::size_t v = 0; v < points.size(); ++v)
     if(selection[v] != 1 && !is_shown[v] && panel.values.empty())

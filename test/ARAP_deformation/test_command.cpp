@@ -297,6 +297,14 @@ void test_success()
     return text.substr(0, text.find("Caption"));
   };
   CHECK(faces_of(colored) == faces_of(from_x)); // before the run all is as without colors
+  for(const std::string height : {"1", "4"}) // of a bend of 45 degrees, and of one of 76
+  {
+    write("bend.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 " + height +
+                        "\n3 0 1 2\n3 1 0 3\n");
+    const std::string bent = scene("bend.off --handle x:0.. --move 0,0,1 -o new.off");
+    const std::string normals = height == "4" ? "8,\n" : "4,\n"; // of vertices; of sharp corners
+    CHECK(bent.find("normal_vectors { " + normals) != std::string::npos);
+  }
 #endif
 
   test_case() = "choices";
