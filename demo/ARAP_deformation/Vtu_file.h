@@ -60,6 +60,8 @@ public:
 
   void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) override
   {
+    if(points != m_mesh.points)
+      replace_range(points);
     if(!m_encoded_points)
       return Tetrahedra_text::write(out, points);
     Encoded& encoded = *m_encoded_points;
@@ -106,6 +108,22 @@ private:
     std::size_t block_size = 0; // before compression
     std::optional<std::size_t> offset; // in what is appended
   };
+
+  // The array of points may have their range: that of their distances from the origin.
+  void replace_range(const std::vector<Kernel::Point_3>& points)
+  {
+    double least = (std::numeric_limits<double>::max)(), most = 0;
+    for(const Kernel::Point_3& p : points)
+    {
+      const double distance = std::hypot(p.x(), p.y(), p.z());
+      least = (std::min)(least, distance);
+      most = (std::max)(most, distance);
+    }
+    const auto& attributes = array("Points", "").attributes;
+    for(const auto& [name, value] : {std::pair("RangeMin", least), std::pair("RangeMax", most)})
+      if(const auto place = attributes.find(name); place != attributes.end())
+        m_source.replace(place->second, m_source.number(value, sizeof(value)));
+  }
 
   static std::string part(const std::string& text, const Span& span)
   {

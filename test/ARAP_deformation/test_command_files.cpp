@@ -908,6 +908,17 @@ void test_vtu()
       const Style style = {format, is_big, is_big != (format == "raw"), is_big};
       check_kept(format + " vtu", "vtu", vtu(points, style), vtu(moved, style));
     }
+  for(const std::string format : {"ascii", "raw"})
+  {
+    test_case() = "the range of distances from the origin, " + format;
+    const auto with_range = [&](const Points& p, const std::string& largest) {
+      return replaced(vtu(p, {format}), "type=\"Float32\"",
+                      "type=\"Float32\" RangeMin=\"0\" RangeMax=\"" + largest + '"');
+    };
+    write("in.vtu", with_range(points, "2.4494897427831779"));
+    CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
+    CHECK(content(folder / "new.vtu") == with_range(moved, "2.5124689052802225"));
+  }
   bool has_zlib = true;
   for(const std::string format : {"binary", "raw", "base64"})
   {
