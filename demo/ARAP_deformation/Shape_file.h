@@ -134,7 +134,7 @@ private:
   {
     std::string name = m_property;
     for(; m_source.properties.count(name) > 0; name += '_')
-      if(const auto& places = m_source.properties[name]; places.size() == m_values.size())
+      if(const auto places = places_of_property(m_source, name); places.size() == m_values.size())
       {
         for(std::size_t v = 0; v < m_values.size(); ++v)
           m_source.replace(places[v], m_source.number(m_values[v],

@@ -20,9 +20,9 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -64,11 +64,13 @@ public:
   std::vector<Triple> points;  // of the vertices, in their order
   std::vector<Normal> normals;
 
-  // of a .ply file: the properties of vertices, with the places of their values if other fractions
-  // can replace them, and where more properties go, in the header and in each row
-  std::map<std::string, std::vector<Span>> properties;
+  // of a .ply file: the properties of vertices, and where more go, in the header and in each row;
+  // and where the values of the one that is wanted are, if they are fractions
+  std::set<std::string> properties;
   std::size_t properties_end = 0;
   std::vector<std::size_t> row_ends;
+  std::string wanted_property;
+  std::vector<Span> wanted_values;
   bool has_integer_normals = false; // which are not among the normals
 
   // The places of the next three words.

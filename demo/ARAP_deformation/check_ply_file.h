@@ -150,7 +150,7 @@ public:
         source.has_integer_normals = true;
       if(is_vertex(element))
         for(const Property& p : element.properties)
-          source.properties[p.name] = {};
+          source.properties.insert(p.name);
       for(std::size_t i = 0; i < element.number; ++i)
       {
         std::size_t end = 0;
@@ -165,8 +165,8 @@ public:
           end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
           if(is_position(p))
             point[p.name[0] - 'x'] = {begin, end};
-          else if(is_vertex(element) && is_fractional(p) && !is_normal(p))
-            source.properties[p.name].push_back({begin, end});
+          if(is_vertex(element) && p.name == source.wanted_property && is_fractional(p))
+            source.wanted_values.push_back({begin, end});
           if(are_turned && is_normal(p))
           {
             normal[p.name[1] - 'x'] = {begin, end};

@@ -231,6 +231,18 @@ inline Source_text read_source(const std::string& file)
   return source;
 }
 
+// The places of the values of a property of vertices in a .ply file; none if it has no fractions.
+inline std::vector<Source_text::Span> places_of_property(const Source_text& source,
+                                                         const std::string& name)
+{
+  Source_text result;
+  result.text = source.text;
+  result.wanted_property = name;
+  std::istringstream in(source.text);
+  find_places_in_ply_file(in, "", result);
+  return result.wanted_values;
+}
+
 inline Mesh read_mesh(const std::string& file)
 {
   std::set<std::string> dropped;

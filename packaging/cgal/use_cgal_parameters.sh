@@ -6,10 +6,10 @@ set -euo pipefail
 names=$(sed -n 's/^+CGAL_add_named_parameter(\w*, \(\w*\), .*/\1/p' "$(dirname "$0")/tree.patch" | paste -sd '|')
 cd "$1"
 rm include/CGAL/ARAP_deformation/parameters.h
-grep -rlE "ARAP_deformation/parameters\.h|(parameters|np)::($names)" include test examples demo doc | xargs perl -0pi -e '
+grep -rlE "ARAP_deformation/parameters\.h|::($names)\(" include test examples demo doc | xargs perl -0pi -e '
   my $nested = "\\((?&any)\\)|\\[(?&any)\\]|\\{(?&any)\\}";
   my $define = "(?(DEFINE)(?<any>(?:[^][(){}]|$nested)*)(?<one>(?:[^][(){},]|$nested)+))";
-  my $scope = "(?:(?:CGAL::)?parameters|np)::";
+  my $scope = "(?:\\w+::)+"; # CGAL::parameters, or another name for it
   my $name = "(?:$scope|\\.)(?:'"$names"')";
   s/#include <CGAL\/ARAP_deformation\/parameters\.h>\n//g;
   1 while s/$define(?<name>$name)\((?<value>(?&one)),\s*$scope(?<rest>(?&any))\)/$+{name}($+{value}).$+{rest}/;
