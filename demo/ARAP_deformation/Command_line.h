@@ -227,7 +227,7 @@ inline std::string with_options(std::string message)
     {std::regex("time_step, density, modulus and damping of the dynamics"),
      "--time_step, --modulus and --damping"},
     {std::regex("the option (\\w+)|(\\w+) of the dynamics"), "--$1$2"},
-    {std::regex("erase one of them, or give it a finite weight"),
+    {std::regex("erase one of these targets, .* or give it a finite weight"),
      "leave one of them out, or give a handle --soft"},
     {std::regex("give them finite weights"), "give them --soft"}}};
   for(const auto& [of_library, of_command] : names)

@@ -516,7 +516,7 @@ public:
   /// makes all control vertices of a range frames, with the rotation of the rigid motion that takes
   /// them from the rest shape to their current targets. When the targets have moved, by `rotate()`
   /// for example, call it again. Returns `ARAP::Status::invalid_rotation`, and changes nothing, if
-  /// there is no such motion up to \f$10^{-6}\f$ of their size, or if they lie on a line, which
+  /// there is no such motion up to \f$10^{-4}\f$ of their size, or if they lie on a line, which
   /// leaves the rotation open, and `ARAP::Status::not_a_control_vertex` if one of them is none.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
@@ -702,10 +702,11 @@ public:
   /// (points, sets and rotations) and weights, the rest shape, the positions and velocities, for
   /// undo and redo. Linear time and memory: take one for a drag, not for each of its frames. What
   /// functions of target sets refer to must live as long as a state that has them. It does not hold
-  /// options, stiffness or groups: if they have changed since, set the old ones first, and then
-  /// restore, as the rotations in a state belong to the cells of that time; `energy()` is not a
-  /// number until the next run. Nor does it hold the factor: if it, or the region, was computed
-  /// again since, runs from a restored state have the same iterates only up to rounding.
+  /// options, stiffness, groups or edge weights: if they have changed since, set the old ones
+  /// first, and then restore, as the rotations in a state belong to the cells of that time;
+  /// `energy()` is not a number until the next run. Nor does it hold the factor: if it, or the
+  /// region, was computed again since, runs from a restored state have the same iterates only up to
+  /// rounding.
   State state() const { return m_session.state(); }
 
   /// returns the object and the mesh to a state of this object, exactly; see `state()` for the runs
@@ -722,7 +723,8 @@ public:
   /// returns the energy after the last `deform()` or `advance()`, without inertia; not a number
   /// before the first one, after `reset()`, and after a change of what it depends on: the region of
   /// interest, the control vertices and control points, the weight of a target, the rest shape, the
-  /// cells, their stiffness and groups, the bending and the smoothing length.
+  /// cells, their stiffness and groups, the bending and the smoothing length; and when other edge
+  /// weights of the user have been taken.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`. It is the

@@ -1405,8 +1405,8 @@ void test_control_points()
   const std::string handle = "in.off --handle point:0,0,0 --move 1,0,0 -o new.off";
   check_refused(handle + " --turn", 2, "--turn: the handle is a point");
   check_refused("in.off --fix z:..0.1 --fix point:1,0,0 --handle z:4.. --move 0,0,1 -o new.off", 1,
-                "in.off: --fix point:1,0,0: its position is determined by other hard targets; "
-                "leave one of them out");
+                "in.off: --fix point:1,0,0: its position is determined by other hard targets, "
+                "or all its corners are fixed; leave one of them out");
   check_refused(handle + " --region point:0,0,0", 2, "for --fix and --handle only");
   check_refused(handle + " --save-selection new.sel", 2, "a selection has vertices only, not "
                                                          "--handle point:0,0,0");

@@ -1491,6 +1491,116 @@ void test_settled_part()
   }
 }
 
+// Two square tubes, the second of which is twisted by three quarters of a turn, in steps. When the
+// handle of the first one is torn away, it stays.
+void test_other_part()
+{
+  test_case() = "a twisted part beside a torn one";
+  const std::array<std::array<double, 2>, 8> square = {
+    {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}}};
+  const std::size_t rings = 25;
+  Shape tube;
+  for(std::size_t ring = 0; ring < rings; ++ring)
+    for(const auto& [y, z] : square)
+      tube.points.emplace_back(double(ring), y, z);
+  for(std::size_t v = 0; v + 8 < tube.points.size(); ++v)
+  {
+    const std::size_t next = v % 8 == 7 ? v - 7 : v + 1;
+    tube.triangles.push_back({v, next, next + 8});
+    tube.triangles.push_back({v, next + 8, v + 8});
+  }
+  const Shape shape = two_components(tube);
+  const std::size_t n = tube.points.size();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  d.insert_roi_vertices(vertices(mesh));
+  std::vector<Mesh::Vertex_index> handles[2];
+  for(std::size_t v = 0; v < 2 * n; ++v)
+    if(const std::size_t ring = v % n / 8; ring == 0 || ring == rings - 1)
+    {
+      d.insert_control_vertex(Mesh::Vertex_index(v));
+      if(ring > 0)
+        handles[v / n].emplace_back(v);
+    }
+  for(int step = 0; step < 9; ++step)
+  {
+    d.rotate(handles[1], Eigen::Vector3d(0, 0, 0),
+             Eigen::AngleAxisd(std::acos(-1.0) / 6, Eigen::Vector3d::UnitX()));
+    CHECK(d.deform());
+  }
+  const std::vector<Point> before = points_of(mesh);
+  d.translate(handles[0], Kernel::Vector_3(-3, 0, 8));
+  CHECK(d.deform());
+  for(std::size_t v = n; v < 2 * n; ++v)
+    CHECK_AT_MOST(distance(vector(mesh.point(Mesh::Vertex_index(v))), vector(before[v])), 0.1);
+}
+
+// A sheet that is held by one handle, which is turned again and again by quaternions in single
+// precision: it turns with the handle.
+void test_rounded_targets()
+{
+  test_case() = "targets that are rounded to float";
+  const Shape shape = grid("sheet", 20, 20, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0.02 * std::sin(14 * u) * std::cos(10 * v));
+  });
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  d.insert_roi_vertices(vertices(mesh));
+  std::vector<Mesh::Vertex_index> handle;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    if(const Eigen::Vector3d& p = shape.points[v]; p[0] > 0.85 && std::abs(p[1] - 0.5) < 0.15)
+    {
+      d.insert_control_vertex(v);
+      handle.push_back(v);
+    }
+  const Eigen::Vector3f axis(0, 1, 0), center(1, 0.5f, 0);
+  for(int frame = 1; frame <= 60; ++frame)
+  {
+    d.rotate(handle, center, Eigen::Quaternionf(Eigen::AngleAxisf(0.02f, axis)));
+    CHECK(d.deform(3, 0));
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.02 * frame, axis.cast<double>()).matrix();
+    const Eigen::Vector3d c = center.cast<double>();
+    for(Mesh::Vertex_index v : mesh.vertices())
+      CHECK_AT_MOST(distance(vector(mesh.point(v)), turn * (shape.points[v] - c) + c), 1e-4);
+    CHECK(d.set_target_rotations(handle));
+    for(Mesh::Vertex_index v : handle)
+      d.erase_target_rotation(v);
+  }
+}
+
+// What is torn away does not depend on the corner with which faces begin.
+void test_first_corners()
+{
+  test_case() = "faces that begin elsewhere";
+  Shape shape = grid("sheet", 6, 6, [](double u, double v) {
+    return Eigen::Vector3d(6 * u, 6 * v, 0.2 * std::sin(6 * u + 12 * v));
+  });
+  const std::size_t handle = 24, neighbor = 23;
+  std::vector<double> energies;
+  for(const std::size_t place : {0u, 1u, 2u})
+  {
+    for(auto& t : shape.triangles)
+      if(const auto v = std::find(t.begin(), t.end(), neighbor); v != t.end())
+      {
+        std::rotate(t.begin(), v, t.end());
+        std::rotate(t.begin(), t.end() - place, t.end());
+      }
+    const auto faces = as_polygons(shape.triangles);
+    std::vector<Point> points = points_of(shape.points);
+    CGAL::ARAP_deformation<Soup<2>> d(Soup<2>(points, faces));
+    d.insert_roi_vertices(numbers(points.size()));
+    for(std::size_t v = 0; v < points.size(); ++v)
+      if(shape.points[v][1] == 0)
+        d.insert_control_vertex(v);
+    const Eigen::Vector3d side = shape.points[handle] - shape.points[neighbor];
+    d.insert_control_vertex(handle, point(shape.points[handle] + 0.95 * side));
+    const Report report = d.deform(0, 0);
+    CHECK(report);
+    energies.push_back(report.energy[0]);
+    CHECK_AT_MOST(std::abs(energies.back() / energies[0] - 1), 1e-12);
+  }
+}
+
 // A frame whose target has no weight is no handle: the guess beside single ones is not made of
 // rounding errors, which depend on the order of the vertices.
 void test_frame_without_weight()
@@ -1613,6 +1723,9 @@ void test_all()
   test_cut_region(Initial_guess::rotations);
   test_cut_region(Initial_guess::automatic);
   test_settled_part();
+  test_other_part();
+  test_first_corners();
+  test_rounded_targets();
   test_frame_without_weight();
   test_far_soft_target();
   test_turned_handle();

@@ -450,6 +450,25 @@ std::vector<double> energies(const Domain& domain, const Vertices& vertices, con
   return report.energy;
 }
 
+// The energy is not known where other weights have been taken, nor in a state from before.
+void test_energy()
+{
+  test_case() = "energy after a change of weights";
+  const Shape shape = shapes()[2];
+  Edge_map_weight weight = star_weights(shape.points, shape.triangles);
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits({}, weight));
+  prepare(d, scenario(shape), all_vertices(mesh));
+  CHECK(d.deform() && d.energy() > 0);
+  const auto state = d.state();
+  CHECK(d.restore(state) && d.energy() > 0);
+  for(const auto& [a, b, c] : shape.triangles)
+    weight.set_weight(a, b, 10);
+  CHECK(d.preprocess() && std::isnan(d.energy()));
+  CHECK(d.deform() && d.energy() > 0);
+  CHECK(d.restore(state) && std::isnan(d.energy()));
+}
+
 void compare(const std::vector<double>& a, const std::vector<double>& b)
 {
   CHECK(a.size() == b.size());
@@ -736,6 +755,7 @@ int main()
   polygons::test_all();
   edge_map::test_all();
   edge_map::test_parts();
+  edge_map::test_energy();
   conformance::test_all();
   return checks_result();
 }

@@ -416,12 +416,20 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   if(!rotations.empty()) // a cell that no longer counts leaves nothing to a later run
     m_state->energy.clear_others(rotations);
   const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
-  Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion
+  Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion, or stays
   // where cells depend on others that are far away, a part is not all that its energy depends on;
   // and where a cell may have a negative energy, zero is not the least
   const bool is_local = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
                         m_energy_model.cells.rings() == 0 && targets.frames.empty();
   const bool is_certain = is_local && m_state->system.laplacian().is_sum_of_squares;
+  const auto parts = [this]() -> const Rigid_start& {
+    if(!m_state->rigid_start)
+    {
+      m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
+      m_state->parts = Array<int>();
+    }
+    return *m_state->rigid_start;
+  };
   Array<Coordinates> unplaced;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
@@ -430,13 +438,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     {
       if(!is_certain)
         unplaced = x;
-      if(!m_state->rigid_start)
-      {
-        m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
-        m_state->parts = Array<int>();
-      }
-      is_placed = (*m_state->rigid_start)(m_region, m_squared_size, m_constraints, targets,
-                                          is_laplacian, x);
+      is_placed = parts()(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
     }
   }
   const bool has_other_start =
@@ -479,14 +481,22 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       is_placed.assign(is_placed.size(), false);
   }
   const Free_neighborhood& neighborhood = m_state->free_neighborhood;
-  const bool is_tried = options.initial_guess == Initial_guess::automatic &&
-                        m_order == Minimization_order::local_first &&
-                        (is_torn(neighborhood.ties, m_region.rest, m_squared_size, x) ||
-                         is_torn(m_constraints, m_squared_size, targets, x,
-                                 [&]() -> const Array<Coordinates>& {
-                                   minimization.evaluate();
-                                   return minimization.force();
-                                 }));
+  bool is_tried = false;
+  if(options.initial_guess == Initial_guess::automatic &&
+     m_order == Minimization_order::local_first)
+  {
+    Array<char> is_torn(parts().number_of_parts(), false);
+    find_torn(neighborhood.ties, m_region.rest, parts(), x, is_torn);
+    find_torn(m_constraints, targets, parts(), x, [&]() -> const Array<Coordinates>& {
+      minimization.evaluate();
+      return minimization.force();
+    }, is_torn);
+    is_tried = std::find(is_torn.begin(), is_torn.end(), 1) != is_torn.end();
+    if(is_tried) // the other parts stay
+      for(std::size_t v = 0; v < is_placed.size(); ++v)
+        if(const int part = parts().part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
+          is_placed[v] = true;
+  }
   using Start = Minimization::Start;
   // starts with the rotations that rotation_of() makes of these, one for each vertex
   const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {

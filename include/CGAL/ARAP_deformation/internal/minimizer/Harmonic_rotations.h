@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -41,10 +42,10 @@ namespace internal {
 struct Free_neighborhood
 {
   Array<char> is_near; // for each vertex: it is in a simplex with a free one
-  Array<std::array<int, 2>> ties; // a free vertex with one that is not: see is_torn()
+  Array<std::array<int, 2>> ties; // a free vertex with one that is not: see find_torn()
 };
 
-// Of each simplex the first free vertex is tied to all that are not free.
+// In each simplex all free vertices are tied to all that are not free.
 inline Free_neighborhood find_free_neighborhood(const Region& region, const Array<char>& is_fixed)
 {
   const int n = region.number_of_movable_vertices;
@@ -53,61 +54,66 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const Index_range corners = region.corners_of(s);
-    const int* const free = std::find_if(corners.begin(), corners.end(), is_free);
-    if(free == corners.end())
+    if(std::none_of(corners.begin(), corners.end(), is_free))
       continue;
     for(int v : corners)
     {
       result.is_near[v] = true;
-      if(!is_free(v))
-        result.ties.push_back({*free, v});
+      for(int u : corners)
+        if(!is_free(v) && is_free(u))
+          result.ties.push_back({u, v});
     }
   }
   return result;
 }
 
-// Whether something that is fixed is torn away from its neighbors: by more than a tenth of a size,
-// which is given by its square. Lengths are compared, as a handle that has turned takes its
-// neighbors with it: where edges are long, it would count as torn in each later frame.
-inline bool is_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
-                    double size, const Array<Coordinates>& x)
+// Marks the parts from which something that is fixed is torn away: a distance between neighbors has
+// changed by more than a tenth of their size. Lengths are compared, as a handle that has turned
+// takes its neighbors with it: where edges are long, it would count as torn in each later frame.
+inline void find_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
+                      const Rigid_start& parts, const Array<Coordinates>& x, Array<char>& is_torn)
 {
-  return std::any_of(ties.begin(), ties.end(), [&](const std::array<int, 2>& tie) {
-    const int i = tie[0], j = tie[1];
-    const Coordinates now = difference(x[i], x[j]), before = difference(rest[i], rest[j]);
-    const double change = std::sqrt(dot(now, now)) - std::sqrt(dot(before, before));
-    return change * change > 0.01 * size;
-  });
+  for(const auto& [i, j] : ties)
+    if(const int part = parts.part_of(i); part >= 0 && !is_torn[part])
+    {
+      const Coordinates now = difference(x[i], x[j]), before = difference(rest[i], rest[j]);
+      const double change = std::sqrt(dot(now, now)) - std::sqrt(dot(before, before));
+      is_torn[part] = change * change > 0.01 * parts.squared_size(part);
+    }
 }
 
-// Whether soft targets are as far away, and their pulls are not in balance with other forces: a
-// target of little weight that stays away is no reason to begin again. force() returns minus half
-// the gradient of the energy at x.
+// The same where soft targets are as far away, and their pulls are not in balance with other
+// forces: a target of little weight that stays away is no reason to begin again. force() returns
+// minus half the gradient of the energy at x.
 template <typename Function>
-bool is_torn(const Constraints& constraints, double size, const Targets& targets,
-             const Array<Coordinates>& x, const Function& force)
+void find_torn(const Constraints& constraints, const Targets& targets, const Rigid_start& parts,
+               const Array<Coordinates>& x, const Function& force, Array<char>& is_torn)
 {
   const Array<Coordinates>* forces = nullptr;
   for(int r = 0; r < constraints.rows.size(); ++r)
   {
+    const auto row = constraints.rows.row(r);
+    const auto v =
+      std::find_if(row.begin(), row.end(), [&](int u) { return parts.part_of(u) >= 0; });
+    const int part = v == row.end() ? -1 : parts.part_of(*v);
+    if(part < 0 || is_torn[part])
+      continue;
     const Coordinates way = difference(targets.soft[r], constraints.rows.value(r, x.data()));
-    if(!(dot(way, way) > 0.01 * size))
+    if(!(dot(way, way) > 0.01 * parts.squared_size(part)))
       continue;
     if(forces == nullptr)
       forces = &force();
     Coordinates sum = {0, 0, 0};
     double factor = 0;
-    constraints.rows.row(r).for_each_coefficient([&](int v, double b) {
-      if(!constraints.is_fixed[v])
+    row.for_each_coefficient([&](int u, double b) {
+      if(!constraints.is_fixed[u])
       {
-        add(sum, b, (*forces)[v]);
+        add(sum, b, (*forces)[u]);
         factor += b * b * constraints.rows.weight(r);
       }
     });
-    if(dot(sum, sum) > 0.25 * factor * factor * dot(way, way))
-      return true;
+    is_torn[part] = dot(sum, sum) > 0.25 * factor * factor * dot(way, way);
   }
-  return false;
 }
 
 // Rotations for the first guess of a run (Zayer et al. 2005): each handle, a set of connected

@@ -113,11 +113,10 @@ std::optional<Matrix_3x3> rotation_of_motion(const Array<Coordinates>& from,
     const Coordinates normal = cross(without_scale(longest), difference(p, from[0]));
     width = (std::max)(width, dot(normal, normal));
   }
-  constexpr double tolerance = 1e-12; // of squares
-  if(!(width > tolerance * length))
+  if(!(width > 1e-12 * length)) // of squares
     return std::nullopt;
   const Rigid_fit fit(from, to);
-  if(!(fit.squared_error() <= tolerance * length))
+  if(!(fit.squared_error() <= 1e-8 * length)) // they may be rounded to float
     return std::nullopt;
   return fit.rotation();
 }

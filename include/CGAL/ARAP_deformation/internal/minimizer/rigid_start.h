@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
+#include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
@@ -120,7 +121,23 @@ public:
     m_free = lists(count, std::move(free));
     m_fixed = lists(count, std::move(fixed));
     m_rows = lists(count, std::move(rows));
+    for(int part = 0; part < count; ++part)
+    {
+      Bounding_box box;
+      for(const Index_lists* vertices : {&m_free, &m_fixed})
+        for(int v : vertices->list(part))
+          box.include(region.rest[v]);
+      m_squared_sizes.push_back(box.squared_length());
+    }
   }
+
+  int number_of_parts() const { return m_free.size(); }
+
+  // the part of a movable vertex; negative if it is fixed, or if nothing ties it to free ones
+  int part_of(int v) const { return m_part[v]; }
+
+  // of the diagonal of the box of a part, and of the fixed vertices that share its cells, at rest
+  double squared_size(int part) const { return m_squared_sizes[part]; }
 
   // Moves the parts of x that can be rigid there, and returns for each movable vertex whether it is
   // in one of them. They are moved by as little as possible from the positions x, or if
@@ -171,7 +188,8 @@ private:
   using Pairs = std::vector<std::pair<int, int>>;
   using Row = Weighted_rows::Row;
 
-  static constexpr double tolerance = 1e-12; // of squares, also of points of type float
+  // of squares: targets may be rounded to float, again and again
+  static constexpr double tolerance = 1e-10;
 
   // What takes the rest shape of a part to where it is, as good as a rigid motion can, and from
   // there to where the constraints are.
@@ -258,7 +276,7 @@ private:
     }
     const Rigid_fit after(rest, place);
     const bool is_at_rest = motion < 1e-18 * size;
-    if(is_at_rest || after.squared_error() <= tolerance * motion)
+    if(is_at_rest || after.squared_error() <= (std::min)(tolerance * size, 1e-4 * motion))
       motions.push_back({part, before, after, is_at_rest});
   }
 
@@ -346,6 +364,7 @@ private:
   Array<int> m_part;                   // for each movable vertex; negative if it is fixed
   Index_lists m_free, m_fixed, m_rows; // of each part, with the fixed vertices that share its cells
   Array<char> m_can_be_rigid;          // for each part
+  Array<double> m_squared_sizes;
 };
 
 } // namespace internal

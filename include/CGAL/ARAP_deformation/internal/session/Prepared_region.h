@@ -195,6 +195,9 @@ public:
             m_prepared->rotations_of_cells(), m_inertia};
   }
 
+  // another one if they have changed, which may be found out when they are used
+  std::size_t version_of_values() const { return m_present.values; }
+
   // whether stiffness and lengths are those of a state
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
@@ -250,6 +253,8 @@ private:
   Outcome update(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
                  Stages& stages)
   {
+    if(m_prepared && core().are_weights_stale()) // those of the user are others
+      m_present.values = ++m_last_version;
     m_are_rotations_coupled = values.has_groups() || options.smoothing_length > 0;
     m_ready.constraints = none; // a failure may have released the factor
     std::size_t roi_size = 0, number_of_fixed = 0, number_of_controls = 0;

@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/session/Region_constraints.h>
 #include <CGAL/ARAP_deformation/internal/session/sentences.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -65,6 +66,11 @@ CGAL_ARAP_INLINE_FUNCTION
 void Region_constraints::pull(Control_point point, const std::vector<int>& corners,
                               const std::vector<double>& coefficients, double weight)
 {
+  const auto is_free = [this](int v) {
+    return m_core.is_movable(v) && !m_constraints.is_fixed[v];
+  };
+  if(std::none_of(corners.begin(), corners.end(), is_free)) // its pull is constant, and not counted
+    return;
   append(corners, coefficients, weight, m_constraints.rows);
   m_rows.soft_points.push_back(point);
 }

@@ -187,7 +187,12 @@ private:
     const Scoped_flag in_a_run(m_is_in_a_run);
     Scoped_seconds seconds(preprocess);
     m_prepared.set_inertia(inertia);
-    return m_prepared.prepare(m_vertices, this->m_cell_values, options, m_stages);
+    const std::size_t values = m_prepared.version_of_values();
+    const Outcome prepared =
+      m_prepared.prepare(m_vertices, this->m_cell_values, options, m_stages);
+    if(m_prepared.version_of_values() != values)
+      m_energy = this->not_a_number;
+    return prepared;
   }
 
   // A run, or a time step with these forces.

@@ -143,8 +143,9 @@ inline const char* sentence(Status status, const std::string& what)
     return " needs barycentric coordinates that are finite and add up to one, one for each "
            "corner of its simplex";
   case Status::dependent_target:
-    return ": its position is determined by other hard targets; erase one of them, or give "
-           "it a finite weight";
+    return ": its position is determined by other hard targets, or all its corners are fixed; "
+           "erase one of these targets, insert its corners in the region, or give it a finite "
+           "weight";
   case Status::too_many_control_points:
     static_assert(Hard_rows::most_rows == 3000, "said here");
     return "there are more than 3000 hard control points; give them finite weights";

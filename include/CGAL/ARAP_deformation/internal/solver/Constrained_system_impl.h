@@ -129,7 +129,7 @@ Diagnosis Constrained_system::prepare(const Constraints& constraints, Stages& st
     if(has_hard_rows && !border_or_eliminate(of_matrix))
     {
       release_factor();
-      return {Status::singular_matrix};
+      return {Status::solver_failed};
     }
   }
   stages.border |= !m_further_unknowns.empty() || !m_multipliers.empty() || has_hard_rows;
