@@ -396,7 +396,8 @@ public:
   /// with `ARAP::Status::solver_failed`. Each evaluation of the energy calls it for the present
   /// position, one after the other for all targets; it must not change this object. The system
   /// remains as it is, and the energy, with the term \f$m \|p'_v - \pi(p'_v)\|^2\f$, still never
-  /// rises. An exception from it ends the run and changes nothing.
+  /// rises. An exception from it ends the run and changes nothing. Points of type `float` round
+  /// what it is called with and what it returns: far from the origin, a run may end too soon.
   ///
   /// The weight must be finite, see `set_target_weight()`; if not, the call returns
   /// `ARAP::Status::invalid_weight` and leaves this target, and in a range those after it, as they
