@@ -193,6 +193,7 @@ inline void check_number_of_edges(std::istream& in, std::istream::pos_type begin
   in.seekg(begin).read(head.data(), end - begin);
   std::getline(in, rest);
   const std::size_t last = head.find_last_of(" \t\r\n");
+  rest = rest.substr(0, rest.find('#'));
   if(last != std::string::npos && head[last] == '\n' && !Words(rest).next().empty())
     throw std::runtime_error(file + ": the header has no number of edges; it may be 0");
   in.clear();

@@ -68,10 +68,11 @@ inline std::stringstream check_stl_file(std::istream& in, const std::string& fil
   else if(boost::algorithm::to_lower_copy(std::string(Words(text).next())) == "solid")
     text = internal::plain_stl(text) + std::string(head, ' '); // too long for an empty binary file
   else
-    throw std::runtime_error(file + ": is no text that starts with 'solid', and " +
+    throw std::runtime_error(file + ": is neither text, which starts with 'solid', nor a whole "
+                             "binary file: it " +
                              (static_cast<double>(text.size()) < bytes
                                 ? "ends before the " : "has more than the ") +
-                             "triangles that the header of a binary file announces");
+                             "triangles that its header announces");
   return std::stringstream(text);
 }
 

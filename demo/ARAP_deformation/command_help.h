@@ -76,7 +76,7 @@ inline boost::program_options::options_description described_options()
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")
     ("color", value<std::string>()->default_value("", "")->value_name("NAME"),
-     "color the picture, and add a property to a .ply file: edge_error, area or volume (two "
+     "color the picture, and write a property of a .ply file: edge_error, area or volume (two "
      "names for one measure, of faces or of tetrahedra), angle, spike (how far a vertex is from "
      "its neighbors)")
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
@@ -107,8 +107,9 @@ inline boost::program_options::options_description described_options()
      "how rotations are fitted: newton, or svd")
     ("initial_guess", value<std::string>()->default_value("automatic")->value_name("NAME"),
      "where to start: previous (the input with the handles moved), rotations (Poisson editing), "
-     "laplacian, or automatic: previous, or rotations where a handle is torn away by over a "
-     "tenth of the diagonal and that is better, and on large surfaces then a run on a coarser one")
+     "laplacian, or automatic: previous, but rotations for connected parts where a handle is torn "
+     "away by over a tenth of their diagonal, if that is better, and on large surfaces then a run "
+     "on a coarser one")
     ("iterations", value<std::string>()->default_value(std::to_string(defaults.iterations))
        ->value_name("N"), "run at most N iterations")
     ("tolerance", value<std::string>()->value_name("T")

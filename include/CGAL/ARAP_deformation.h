@@ -396,8 +396,8 @@ public:
   /// with `ARAP::Status::solver_failed`. Each evaluation of the energy calls it for the present
   /// position, one after the other for all targets; it must not change this object. The system
   /// remains as it is, and the energy, with the term \f$m \|p'_v - \pi(p'_v)\|^2\f$, still never
-  /// rises. An exception from it ends the run and changes nothing. Points of type `float` round
-  /// what it is called with and what it returns: far from the origin, a run may end too soon.
+  /// rises. An exception from it ends the run and changes nothing. With points of type
+  /// `float` its argument and its result are rounded: far from the origin, a run may end too soon.
   ///
   /// The weight must be finite, see `set_target_weight()`; if not, the call returns
   /// `ARAP::Status::invalid_weight` and leaves this target, and in a range those after it, as they
@@ -505,8 +505,9 @@ public:
   /// changes, by `rotate()` for example; `erase_target_rotation()`, `reset()` and
   /// `overwrite_initial_geometry()` erase it.
   /// Returns `ARAP::Status::invalid_rotation`, and changes nothing, if it is not a rotation up to
-  /// \f$10^{-5}\f$ in each entry of \f$R R^T\f$, or turns points with two coordinates out of their
-  /// plane. The closest rotation to it is taken. \pre `is_control_vertex(v)`
+  /// \f$10^{-5}\f$ in \f$\det R\f$ and each entry of \f$R R^T\f$, or turns points with two
+  /// coordinates out of their plane. The closest rotation to it is taken. \pre
+  /// `is_control_vertex(v)`
   template <typename Rotation>
   [[nodiscard]] ARAP::Outcome set_target_rotation(vertex_descriptor v, const Rotation& rotation)
   {
@@ -724,8 +725,8 @@ public:
   /// returns the energy after the last `deform()` or `advance()`, without inertia; not a number
   /// before the first one, after `reset()`, and after a change of what it depends on: the region of
   /// interest, the control vertices and control points, the weight of a target, the rest shape, the
-  /// cells, their stiffness and groups, the bending and the smoothing length; and when other edge
-  /// weights of the user have been taken.
+  /// cells, their stiffness and groups, the bending and the smoothing length; and after a call that
+  /// has taken changed edge weights of the user.
   double energy() const { return m_session.energy(); }
 
   /// returns the rotation of the cell of `v` after the last `deform()` or `advance()`. It is the

@@ -270,11 +270,12 @@ std::string bytes(Number value, bool is_reversed)
 void test_stl()
 {
   refuse("stl", std::string(80, 'x') + std::string(4, '\377') + std::string(50, '\0'),
-         "is no text that starts with 'solid', and ends before the triangles");
+         "is neither text, which starts with 'solid', nor a whole binary file: it ends before");
   refuse("stl", std::string(80, 'x'), "");
   const std::string one(std::string(80, 'x') + std::string("\1\0\0\0", 4) +
                         std::string(50, '\0'));
-  refuse("stl", one + std::string(50, '\1'), "is no text that starts with 'solid', and has more");
+  refuse("stl", one + std::string(50, '\1'),
+         "is neither text, which starts with 'solid', nor a whole binary file: it has more");
 
   // the same triangles, also in forms that CGAL takes for those of a binary file or misreads
   const auto text_of = [](const std::string& start, const std::string& end, bool is_upper_case) {

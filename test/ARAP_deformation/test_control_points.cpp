@@ -904,10 +904,18 @@ void test_fixed_soft_point()
   {
     Subject<2> s(triangles());
     const std::size_t place = s.shape.places(3)[1];
+    Control_point p;
     if(has_point)
-      s.insert(place, {0.2, 0.3, 0.5}, 20, {0, 0, 20});
+      p = s.insert(place, {0.2, 0.3, 0.5}, 20, {0, 0, 20});
     for(std::size_t v : s.shape.simplices[place])
       CHECK(s.deformation.erase_roi_vertex(v));
+    if(has_point) // but nothing that is wrong is accepted
+    {
+      const Point target = s.deformation.target_position(p);
+      CHECK(s.deformation.set_target_position(p, Point(0, std::nan(""), 0)));
+      CHECK(s.deformation.deform().status == Status::non_finite_point);
+      CHECK(s.deformation.set_target_position(p, target));
+    }
     reports.push_back(s.deformation.deform());
     CHECK(reports.back());
     results.push_back(s.points);
@@ -1213,7 +1221,7 @@ void test(const Held_shape<Dimension>& shape)
     CHECK_AT_MOST(distance, 1e-13);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(!CGAL::ARAP::locate(domain, Point(nan, 0, 0)));
-  // places follow an affine map of the shape, as exactly as there are digits
+  // places follow an affine map of the shape
   all.push_back(*found);
   const Affine_map map = {Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()) *
                             Eigen::Matrix3d(Eigen::Vector3d(2, 0.5, 3).asDiagonal()),

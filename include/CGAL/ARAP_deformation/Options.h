@@ -26,11 +26,12 @@ namespace ARAP {
 /// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  automatic, ///< `previous`; but for connected parts where the distance of a hard handle from a
+  automatic, ///< `previous`, except for connected parts where the distance of a hard handle from a
              ///< neighbor has changed by more than a tenth of the diagonal of the bounding box of
-             ///< the part, or a soft target is that far from its vertex, `rotations` if their
-             ///< energy is lower. Quasi-Newton runs on surfaces with 20,000 free vertices or more
-             ///< then deform a coarser surface (\ref ARAPDeformation_CoarseStart).
+             ///< the part, or a soft target is that far from its vertex: these start from
+             ///< `rotations` if that lowers the energy. Quasi-Newton runs on surfaces with 20,000
+             ///< free vertices or more then deform a coarser surface
+             ///< (\ref ARAPDeformation_CoarseStart).
   previous, ///< the current positions: for interaction, where each frame starts from the last
   rotations, ///< Poisson editing \cgalCite{Zayer2005Harmonic}: the rotations of the handles against
              ///< the rest shape are interpolated harmonically, and one global step with them gives

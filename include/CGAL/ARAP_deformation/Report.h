@@ -102,8 +102,8 @@ struct Report : Outcome
   /// the energy \f$E\f$, always with the optimal rotations for the positions: `energy[0]` for the
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
   /// \f$k w \|e' - R e\|^2\f$ with the stiffness \f$k\f$ of the cell, without any further factor,
-  /// and each soft control vertex or control point \f$m \|p' - t\|^2\f$, but for points all of
-  /// whose corners are fixed; bending and smooth
+  /// and each soft control vertex or control point \f$m \|p' - t\|^2\f$, except for control
+  /// points whose corners are all fixed; bending and smooth
   /// rotations add their terms. Smooth rotations are those that one fit makes of the last ones.
   /// With cotangent weights it is an area on a surface and a volume in tetrahedra, in the unit of
   /// the points.

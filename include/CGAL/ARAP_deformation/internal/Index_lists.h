@@ -33,8 +33,8 @@ namespace internal {
 inline int to_index(std::size_t number)
 {
   if(number > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
-    throw std::length_error("CGAL::ARAP: the region has more than 2147483647 corners, neighbors "
-                            "or weights");
+    throw std::length_error("CGAL::ARAP: the region, or the mesh of ranges, has more than "
+                            "2147483647 corners, neighbors or weights");
   return static_cast<int>(number);
 }
 

@@ -26,6 +26,7 @@
 #include <metis.h>
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -53,7 +54,8 @@ inline Array<int> minimum_degree_order(const Sparse_matrix& a)
 inline Array<int> metis_order(const Sparse_matrix& a)
 {
   if(2 * static_cast<std::size_t>(a.nonZeros()) >
-     static_cast<std::size_t>((std::numeric_limits<idx_t>::max)()))
+     static_cast<std::size_t>((std::min<long long>)((std::numeric_limits<idx_t>::max)(),
+                                                    (std::numeric_limits<int>::max)())))
     return {};
   const Index_lists graph = neighbors_of_rows(a);
   if(graph.items.empty()) // METIS does not take a graph without edges

@@ -20,6 +20,7 @@
 #include <CGAL/ARAP_deformation/internal/region/Paged_index_map.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 

@@ -111,7 +111,7 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
   const auto area = [&](int a, int b, int c) {
     return relative_area(corner_points<3>(region, {corners[a], corners[b], corners[c]}));
   };
-  constexpr double negligible = 1e-3; // more than what is left of points that are float
+  constexpr double negligible = 1e-3; // above the rounding errors of float points
   double largest_area = 0;
   for_each_triangle([&](int a, int b, int c, double) {
     if(largest_area < negligible) // more is not asked for

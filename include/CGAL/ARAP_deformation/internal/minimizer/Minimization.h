@@ -136,7 +136,8 @@ public:
   }
 
   // Replaces x by other positions, with rotations that are fitted to these alone, unless that makes
-  // the energy rise. Returns whether it has: where both are the same, rounding does not decide.
+  // the energy rise. Returns whether they were taken. Rises within rounding count as none, so that
+  // rounding does not decide between equal positions.
   bool try_positions(Array<Coordinates> other)
   {
     const double energy = evaluate();

@@ -130,8 +130,7 @@ inline double determinant(const Matrix_3x3& m)
   return dot({m[0], m[1], m[2]}, cross({m[3], m[4], m[5]}, {m[6], m[7], m[8]}));
 }
 
-// whether a matrix is a rotation, but for what single precision leaves of one
-// whether R^T R = I and det R = 1, each entry up to a tolerance; not if there is an NaN
+// whether R R^T = I and det R = 1, each entry up to a tolerance; not if there is an NaN
 inline bool is_rotation(const Matrix_3x3& r, double tolerance)
 {
   const Coordinates rows[3] = {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
@@ -142,6 +141,7 @@ inline bool is_rotation(const Matrix_3x3& r, double tolerance)
   return std::abs(determinant(r) - 1) <= tolerance;
 }
 
+// the index of the first point with a coordinate that is infinite or not a number, or -1
 inline int find_non_finite(const Array<Coordinates>& points)
 {
   for(std::size_t k = 0; k < points.size(); ++k)

@@ -69,12 +69,14 @@ public:
     targets.soft.reserve(rows.soft_vertices.size() + rows.soft_points.size());
     for(int v : rows.soft_vertices)
       append_target(*m_vertices.find_target(region.vertices[v]), {0, 0, 0}, targets);
+    for(const auto& [point, held] : m_vertices.points())
+      if(held.target.weight > 0 && !is_finite(Domain::coordinates(held.target.point)) &&
+         !held.target.set)
+        return outcome(Status::non_finite_point, "the target of " + control_point_name(point));
     for(const auto* points : {&rows.soft_points, &rows.hard_points})
       for(Control_point point : *points)
       {
         const auto& held = m_vertices.points().at(point);
-        if(!is_finite(Domain::coordinates(held.target.point)) && !held.target.set)
-          return outcome(Status::non_finite_point, "the target of " + control_point_name(point));
         const Coordinates fixed = fixed_share(held, positions);
         if(points == &rows.soft_points)
           append_target(held.target, fixed, targets);

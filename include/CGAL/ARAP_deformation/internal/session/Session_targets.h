@@ -144,8 +144,8 @@ public:
     }
     const std::optional<Matrix_3x3> rotation = rotation_of_motion(rest, targets);
     if(!rotation)
-      return Outcome(Status::invalid_rotation, "the targets are no rigid motion of the rest shape "
-                     "up to 1e-4 of their size, or the vertices lie on a line");
+      return Outcome(Status::invalid_rotation, "the targets differ from a rigid motion of the rest "
+                     "shape by more than 1e-4 of their size, or the vertices lie on a line");
     Outcome result(Status::success, std::string());
     for(auto v = vertices.begin(); v != vertices.end() && result; ++v)
       result = set_rotation(*v, rotation);
