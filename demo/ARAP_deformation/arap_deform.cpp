@@ -72,11 +72,7 @@ std::size_t number_of_strays(const Domain& domain, const std::vector<int>& selec
 {
   std::size_t result = 0;
   for(auto v : domain.vertices())
-  {
-    bool is_stray = selection[domain.index(v)] == FREE;
-    domain.for_each_incident_simplex(v, [&](auto, const auto&) { is_stray = false; });
-    result += is_stray;
-  }
+    result += selection[domain.index(v)] == FREE && domain.is_isolated(v);
   return result;
 }
 

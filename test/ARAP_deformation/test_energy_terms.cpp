@@ -1633,6 +1633,20 @@ void test_frame_without_weight()
   CHECK_AT_MOST(std::abs(first / second - 1), 1e-9);
 }
 
+// A guess is tried, but not in the frames of a drag after that; `between` is done before them.
+template <typename Function>
+void check_tried_once(Counted& d, const std::vector<Mesh::Vertex_index>& handle,
+                      const Function& between)
+{
+  CHECK(number_of_solutions(d) > 3);
+  between();
+  for(int frame = 0; frame < 5; ++frame)
+  {
+    d.translate(handle, Kernel::Vector_3(0, 0, 0.01));
+    CHECK(number_of_solutions(d) == 3);
+  }
+}
+
 // A soft target of little weight that stays far away: the guess is tried once, not in each frame of
 // a drag.
 void test_far_soft_target()
@@ -1660,12 +1674,7 @@ void test_far_soft_target()
       d.insert_control_vertex(v, point(shape.points[v] + Eigen::Vector3d(0, 0, 1.5)));
       CHECK(d.set_target_weight(v, 0.01));
     }
-  CHECK(number_of_solutions(d) > 3); // it is tried
-  for(int frame = 0; frame < 5; ++frame)
-  {
-    d.translate(handle, Kernel::Vector_3(0, 0, 0.01));
-    CHECK(number_of_solutions(d) == 3);
-  }
+  check_tried_once(d, handle, [] {});
 }
 
 // A handle that has turned, on a coarse mesh, and then moves on. It is torn away once.
@@ -1690,13 +1699,7 @@ void test_turned_handle()
     }
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
   d.rotate(handle, Eigen::Vector3d(1, 0, 0), Eigen::AngleAxisd(1.5, axis));
-  CHECK(number_of_solutions(d) > 3);
-  CHECK(d.deform());
-  for(int frame = 0; frame < 5; ++frame)
-  {
-    d.translate(handle, Kernel::Vector_3(0, 0, 0.01));
-    CHECK(number_of_solutions(d) == 3);
-  }
+  check_tried_once(d, handle, [&d] { CHECK(d.deform()); });
 }
 
 // The guess costs two solutions of the system: of the rotations, and the global step.
