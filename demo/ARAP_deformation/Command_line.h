@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -175,8 +176,15 @@ inline void check_several(const std::string& option, std::size_t values)
                                          : "--stiffness: expected WHAT K, such as z:..20% 10");
 }
 
-// Reads --rotate AXIS ANGLE [X,Y,Z] or --stiffness WHAT K as one option, however the next arguments
-// look.
+// -o or --move, but neither -1,0,0 nor -
+inline bool is_option(const std::string& argument)
+{
+  return argument.rfind("--", 0) == 0 ||
+         (argument[0] == '-' && std::isalpha(static_cast<unsigned char>(argument[1])) != 0);
+}
+
+// Reads --rotate AXIS ANGLE [X,Y,Z] or --stiffness WHAT K as one option, also if a value begins
+// with -, such as -1,0,0.
 inline std::vector<boost::program_options::option>
 parse_several(std::vector<std::string>& arguments)
 {
@@ -191,10 +199,11 @@ parse_several(std::vector<std::string>& arguments)
   const bool has_center = name == "rotate" && arguments.size() > 3 &&
                           split(arguments[3]).size() == 3;
   const std::size_t n = (std::min)(arguments.size(), std::size_t(has_center ? 4 : 3));
-  check_several(name, n - 1);
-  boost::program_options::option result(
-    name, std::vector<std::string>(arguments.begin() + 1, arguments.begin() + n));
-  arguments.erase(arguments.begin(), arguments.begin() + n);
+  const auto end = std::find_if(arguments.begin() + 1, arguments.begin() + n, is_option);
+  boost::program_options::option result(name,
+                                        std::vector<std::string>(arguments.begin() + 1, end));
+  check_several(name, result.value.size());
+  arguments.erase(arguments.begin(), end);
   return {result};
 }
 
@@ -459,25 +468,30 @@ inline void read_options(const boost::program_options::variables_map& values, Op
 }
 
 // The arguments of the command, where the names of options may be written with - for _, and with _
-// for -.
+// for -. Throws if an option is in the place of a value, which Boost would take for it.
 inline std::vector<std::string>
 arguments_of(int argc, char** argv, const boost::program_options::options_description& all)
 {
   std::vector<std::string> arguments(argv + (std::min)(argc, 1), argv + argc);
-  for(std::string& argument : arguments)
+  for(std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) // no options follow
   {
-    if(argument == "--") // no options follow
-      break;
-    if(argument.rfind("--", 0) != 0 || argument[2] == '=')
-      continue;
-    const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
-    std::string name = argument.substr(2, length);
-    for(const auto& [from, to] : {std::pair('-', '_'), std::pair('_', '-')})
+    std::string& argument = arguments[i];
+    if(argument.rfind("--", 0) == 0 && argument[2] != '=')
     {
-      std::replace(name.begin(), name.end(), from, to);
-      if(all.find_nothrow(name, false))
-        argument.replace(2, length, name);
+      const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
+      std::string name = argument.substr(2, length);
+      for(const auto& [from, to] : {std::pair('-', '_'), std::pair('_', '-')})
+      {
+        std::replace(name.begin(), name.end(), from, to);
+        if(all.find_nothrow(name, false))
+          argument.replace(2, length, name);
+      }
     }
+    const bool is_long = argument.rfind("--", 0) == 0;
+    const auto* option = all.find_nothrow(is_long ? argument.substr(2) : argument, false);
+    if(option && option->semantic()->min_tokens() > 0 &&
+       (i + 1 == arguments.size() || is_option(arguments[i + 1])))
+      throw Usage_error(argument + ": its value is missing");
   }
   return arguments;
 }

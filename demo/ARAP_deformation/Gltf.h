@@ -109,6 +109,16 @@ public:
       throw std::runtime_error(std::string("has ") + what + " by " + extension);
   }
 
+  // the names of the files beside this one that hold its parts: "buffers" or "images"
+  std::vector<std::string> names_of_files(const char* parts) const
+  {
+    std::vector<std::string> names;
+    for(const Json& part : json.value(parts, Json::array()))
+      if(const std::string uri = part.value("uri", "data:"); uri.rfind("data:", 0) != 0)
+        names.push_back(decoded(uri));
+    return names;
+  }
+
   // Throws if a reader needs an extension for more than how the surface looks.
   void check_required_extensions() const
   {

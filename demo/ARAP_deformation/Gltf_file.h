@@ -15,6 +15,7 @@
 #include "Corner_rotation.h"
 #include "Gltf.h"
 #include "Output_file.h"
+#include "arguments.h"
 #include "mesh_panel.h"
 #include "read_mesh.h"
 #include "shape_files.h"
@@ -53,8 +54,7 @@ public:
   {
     try
     {
-      for(const auto& image : m_gltf.json.value("images", Gltf::Json::array()))
-        m_has_images = m_has_images || image.value("uri", "data:").rfind("data:", 0) != 0;
+      m_images = m_gltf.names_of_files("images");
       m_gltf.check_required_extensions();
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
@@ -76,8 +76,14 @@ public:
   std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
   Domain domain() { return Domain(m_mesh); }
 
-  void check_output(const std::string& file, const std::string& format)
+  void check_output(const std::string& file, const std::string& format,
+                    const std::vector<std::string>& other_outputs)
   {
+    for(const auto& inputs : {m_gltf.names_of_files("buffers"), m_images})
+      for(const std::string& input : inputs)
+        for(const std::string& output : other_outputs)
+          if(is_same_file(output, (m_folder / input).string()))
+            throw Usage_error("the file " + output + " is a part of the input");
     check_format(file, format, m_mesh);
     if(!is_gltf_format(format))
       return;
@@ -89,7 +95,7 @@ public:
     if(std::filesystem::equivalent(internal::location(file).parent_path(), m_folder, error))
       return;
     m_gltf.embed_buffers(); // their files are not beside the output
-    m_are_images_left = m_has_images;
+    m_are_images_left = !m_images.empty();
   }
 
   std::set<std::string> dropped(const std::string& format) const
@@ -320,7 +326,8 @@ private:
 
   Gltf m_gltf;
   std::filesystem::path m_folder;
-  bool m_has_images = false, m_are_images_left = false; // in files of their own
+  std::vector<std::string> m_images; // in files of their own
+  bool m_are_images_left = false;
   std::set<std::size_t> m_nodes, m_meshes; // that were read
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents

@@ -64,7 +64,8 @@ public:
   Domain domain() { return Domain(m_mesh); }
 
   // Throws if a file of this format cannot hold the surface.
-  void check_output(const std::string& file, const std::string& format) const
+  void check_output(const std::string& file, const std::string& format,
+                    const std::vector<std::string>&) const
   {
     if(!m_is_kept)
       check_format(file, format, m_mesh);
@@ -219,7 +220,8 @@ public:
   std::size_t number_of_simplices() const { return m_mesh.tetrahedra.size(); }
   Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
 
-  void check_output(const std::string&, const std::string&) const {}
+  void check_output(const std::string&, const std::string&, const std::vector<std::string>&) const
+  {}
   void set_property(const std::string&, const std::vector<double>&) {}
 
   std::set<std::string> dropped(const std::string& format) const

@@ -342,7 +342,7 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
                 " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
                 Shape::simplices + ',');
 
-  shape.check_output(line.output, format);
+  shape.check_output(line.output, format, other_files(line));
   const Delayed_interruption until_files_are_closed;
   Outputs outputs(line);
   write_task(outputs, task);

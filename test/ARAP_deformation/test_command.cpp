@@ -967,8 +967,14 @@ void test_picks()
   refuse("--handle z:0.. --view 0,0,1", 2, "--view is for pictures: give --image or --animation");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
+  check_refused("in.off --handle z:0.. --rotate z -o precious.off", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. -o precious.off --rotate=z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. -o precious.off --rotate=z 30", 2, "expected AXIS ANGLE");
+  for(const std::string option : {"--handle", "--fix", "--soft", "--rotate", "--stiffness"})
+    for(const char* next : {"", " --rotate z 90", " --move 0,0,1", " --stiffness z:0.. 2", " -h"})
+      check_refused("in.off -o precious.off " + option + next, 2,
+                    option + ": its value is missing");
+  check_refused("in.off --handle z:0.. -o --move 0,0,1", 2, "-o: its value is missing");
 
   test_case() = "an option has one value, and the mesh may follow it";
   check_refused("in.off --handle list:1,2 list:3" + rest, 2,
@@ -1068,14 +1074,23 @@ void test_gltf()
   rest["buffers"] = json["buffers"];
   CHECK(rest == json); // all else is kept
 
+  test_case() = "parts of a glTF input are no outputs";
+  write("red.png", "a picture");
+  auto with_image = json;
+  with_image["images"] = {{{"uri", "red.png"}}};
+  write("image.gltf", with_image.dump());
+  const std::string bytes = content(folder / "part.bin");
+  for(const std::string part : {"part.bin", "red.png"})
+    for(const std::string option : {" --report ", " --save_selection "})
+      check_refused("image.gltf --handle x:0.. --move 0,0,1 -o precious.off" + option + part, 2,
+                    part + " is a part of the input");
+  CHECK(content(folder / "part.bin") == bytes && content(folder / "red.png") == "a picture");
+
   test_case() = "glTF to another folder";
   const std::string all = " --handle x:-99.. --move 0,0,0 -o ", stay = " --quiet" + all;
   const auto uri = [](const std::string& file) {
     return nlohmann::json::parse(content(folder / file))["buffers"][0]["uri"].get<std::string>();
   };
-  auto with_image = json;
-  with_image["images"] = {{{"uri", "red.png"}}};
-  write("image.gltf", with_image.dump());
   fs::create_directory(folder / "apart");
   CHECK(run("image.gltf" + all + "beside.gltf").err.empty());
   CHECK(uri("beside.gltf") == "part.bin");
