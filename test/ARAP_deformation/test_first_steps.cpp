@@ -23,7 +23,7 @@
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_start.h>
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/arap_deform.h>
 

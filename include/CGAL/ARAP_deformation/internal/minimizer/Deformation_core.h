@@ -30,7 +30,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,6 +53,15 @@ enum class Unconstrained_components { refused, fixed, fixed_beside_others };
 // In what CGAL's class differs: it counts all cells, and begins each iteration with the global
 // step.
 enum class Minimization_order { local_first, global_first };
+
+class Minimization;
+class Rigid_start;
+
+inline bool is_quasi_newton(const Options& options)
+{
+  return options.minimizer == Minimizer::quasi_newton ||
+         (options.minimizer == Minimizer::automatic && options.tolerance > 0);
+}
 
 // The numeric part of a deformation, which never sees a mesh; not a template, so that it can be
 // compiled once.
@@ -139,24 +147,32 @@ public:
 private:
   struct State; // energy and system: what only the implementation knows
 
+  struct Placement
+  {
+    Array<char> is_placed;       // for each movable vertex: by a rigid motion, or because it stays
+    Array<Coordinates> unplaced; // where all are without that, if the energy has to decide
+  };
+
   Diagnosis prepare();
   Diagnosis constrain(Constraints constraints, Unconstrained_components unconstrained,
                       Stages& stages);
   Diagnosis run_in_arena(const Options& options, const Observer& observe, Targets& targets,
                          Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
                          Report& report);
-  template <typename Function>
-  std::optional<Matrix_3x3> mean_at_corners(int s, const Function& rotation_at) const;
-  template <typename Function>
-  void set_rotations_of_cells(const Function& rotation_at,
-                              Array<Matrix_3x3>& rotations) const;
+  bool is_local(const Targets& targets) const;
+  const Rigid_start& rigid_start();
+  bool place(const Options& options, Targets& targets, Array<Coordinates>& x,
+             Placement& placement);
+  bool find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
+                       Minimization& minimization, Array<char>& is_placed);
+  bool start_with_rotations(const Options& options, const Targets& targets,
+                            const Array<Coordinates>& x, Minimization& minimization,
+                            Array<char>& is_placed, Report& report);
   bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
   bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                           Array<Coordinates>& x);
   bool can_have_coarse_start(const Options& options) const;
   Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
-  std::vector<std::pair<int, Matrix_3x3>>
-  rotations_of_cells(const std::vector<Frame>& frames) const;
   void include_near(const Array<Coordinates>& points, Bounding_box& box) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }
 

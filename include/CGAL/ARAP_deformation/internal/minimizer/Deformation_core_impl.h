@@ -30,16 +30,16 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/cell_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_global_local.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_local_global.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/minimize_quasi_newton.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/torn_parts.h>
 #include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/Bounding_box.h>
 #include <CGAL/ARAP_deformation/internal/region/contents.h>
-#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
-#include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 #include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 #include <CGAL/ARAP_deformation/internal/solver/free_components.h>
@@ -225,65 +225,60 @@ Diagnosis Deformation_core::run(const Options& options, const Observer& observe,
   return diagnosis;
 }
 
-// The closest rotation to the mean of those at the corners of a simplex, if there is one;
-// rotation_at(v) may be null.
-template <typename Function>
-std::optional<Matrix_3x3> Deformation_core::mean_at_corners(int s,
-                                                            const Function& rotation_at) const
-{
-  Matrix_3x3 sum{};
-  bool has_one = false;
-  for(int v : m_region.corners_of(s))
-    if(const Matrix_3x3* const rotation = rotation_at(v))
-    {
-      has_one = true;
-      add(sum, 1, *rotation);
-    }
-  return has_one ? std::optional<Matrix_3x3>(Svd_rotation::closest(sum)) : std::nullopt;
-}
-
-// A frame holds for the cell of its vertex, or for all simplices at it; a simplex with several
-// frames gets their mean.
 CGAL_ARAP_INLINE_FUNCTION
-std::vector<std::pair<int, Matrix_3x3>>
-Deformation_core::rotations_of_cells(const std::vector<Frame>& frames) const
+bool Deformation_core::are_rotations_state() const
 {
-  std::vector<std::pair<int, Matrix_3x3>> given;
-  if(m_energy_model.cells.has_vertex_cells())
-  {
-    for(const Frame& frame : frames)
-      if(frame.vertex < number_of_cells())
-        given.emplace_back(frame.vertex, frame.rotation);
-    return given;
-  }
-  if(frames.empty())
-    return given;
-  Array<const Matrix_3x3*> frame_of(m_region.number_of_vertices(), nullptr);
-  for(const Frame& frame : frames)
-    frame_of[frame.vertex] = &frame.rotation;
-  for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-    if(const auto mean = mean_at_corners(s, [&](int v) { return frame_of[v]; }))
-      given.emplace_back(s, *mean);
-  return given;
+  return m_state->energy.are_rotations_state();
 }
 
-// sets the rotations of cells, from rotation_at(v) of vertices
-template <typename Function>
-void Deformation_core::set_rotations_of_cells(const Function& rotation_at,
-                                              Array<Matrix_3x3>& rotations) const
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
+                                unsigned int number_of_threads)
 {
-  if(m_energy_model.cells.has_vertex_cells())
-  {
-    for(std::size_t v = 0; v < rotations.size(); ++v)
-      rotations[v] = rotation_at(v);
+  if(m_are_rotations_complete || !are_rotations_state())
     return;
-  }
-  Array<Matrix_3x3> of_vertices;
-  of_vertices.reserve(m_region.rest.size());
-  for(std::size_t v = 0; v < m_region.rest.size(); ++v)
-    of_vertices.push_back(rotation_at(v));
-  for(int s = 0; s < m_region.number_of_movable_simplices; ++s)
-    rotations[s] = *mean_at_corners(s, [&](int v) { return &of_vertices[v]; });
+  rotations.clear();
+  if(x != m_region.rest)
+    run_with_threads(threads(number_of_threads), [&] {
+      m_state->energy.set_given_rotations({}); // a run leaves those of its own targets
+      m_state->energy.clear_rotation_steps();
+      for(int k = 0; k <= 10; ++k) // then smooth them
+        m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
+    });
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
+{
+  return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
+                    [](char placed, char fixed) { return placed || fixed; });
+}
+
+// Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
+// coordinates. Returns false if the solver fails.
+CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
+                                          Array<Coordinates>& x)
+{
+  if(!m_state->stars)
+    m_state->stars = star_edge_sets(*m_models.weight,
+                                    weighted_simplices(*m_models.weight, m_region), m_region);
+  const Array<Coordinates> before = x;
+  Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
+  if(!guess(targets, x))
+    return false;
+  // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere; a
+  // bounding box takes no notice of what is no number
+  Bounding_box box;
+  include_near(m_region.rest, box);
+  include_near(before, box);
+  box.include(m_constraints.rows.places(targets.soft, before));
+  box.include(m_constraints.hard_rows.places(targets.hard, before));
+  const double size = box.squared_length();
+  include_near(x, box);
+  if(!guess.is_found() || !(box.squared_length() <= 4 * size) || find_non_finite(x) >= 0)
+    x = before;
+  return true;
 }
 
 // Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
@@ -352,175 +347,114 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   return blended_rotations(space, rotations, core.m_state->energy.fitted_cells());
 }
 
+// Whether what a part's energy depends on is all in the part: cells do not depend on others that
+// are far away.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::are_rotations_state() const
+bool Deformation_core::is_local(const Targets& targets) const
 {
-  return m_state->energy.are_rotations_state();
+  return m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
+         m_energy_model.cells.rings() == 0 && targets.frames.empty();
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordinates>& x,
-                                unsigned int number_of_threads)
+const Rigid_start& Deformation_core::rigid_start()
 {
-  if(m_are_rotations_complete || !are_rotations_state())
-    return;
-  rotations.clear();
-  if(x != m_region.rest)
-    run_with_threads(threads(number_of_threads), [&] {
-      m_state->energy.set_given_rotations({}); // a run leaves those of its own targets
-      m_state->energy.clear_rotation_steps();
-      for(int k = 0; k <= 10; ++k) // then smooth them
-        m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
-    });
+  if(!m_state->rigid_start)
+  {
+    m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
+    m_state->parts = Array<int>();
+  }
+  return *m_state->rigid_start;
 }
 
+// Moves x to where a run starts, but for rotations that do better: parts are at their minimum where
+// a rigid motion takes them there, the Laplacian guess is made, hard targets are met. Returns false
+// if the solver fails.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
+bool Deformation_core::place(const Options& options, Targets& targets, Array<Coordinates>& x,
+                             Placement& placement)
 {
-  return std::equal(is_placed.begin(), is_placed.end(), m_constraints.is_fixed.begin(),
-                    [](char placed, char fixed) { return placed || fixed; });
-}
-
-// Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
-// coordinates. Returns false if the solver fails.
-CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
-                                          Array<Coordinates>& x)
-{
-  if(!m_state->stars)
-    m_state->stars = star_edge_sets(*m_models.weight,
-                                    weighted_simplices(*m_models.weight, m_region), m_region);
-  const Array<Coordinates> before = x;
-  Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
-  if(!guess(targets, x))
+  Array<char>& is_placed = placement.is_placed;
+  Array<Coordinates>& unplaced = placement.unplaced;
+  const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
+  is_placed = Array<char>(m_constraints.is_fixed.size(), false);
+  targets.project(m_constraints.rows, x);
+  if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
+  {
+    // where a cell may have a negative energy, zero is not the least
+    if(!is_local(targets) || !m_state->system.laplacian().is_sum_of_squares)
+      unplaced = x;
+    is_placed = rigid_start()(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
+    if(std::find(is_placed.begin(), is_placed.end(), 1) == is_placed.end())
+      Array<Coordinates>().swap(unplaced);
+  }
+  if(is_laplacian && !are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x))
     return false;
-  // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere; a
-  // bounding box takes no notice of what is no number
-  Bounding_box box;
-  include_near(m_region.rest, box);
-  include_near(before, box);
-  box.include(m_constraints.rows.places(targets.soft, before));
-  box.include(m_constraints.hard_rows.places(targets.hard, before));
-  const double size = box.squared_length();
-  include_near(x, box);
-  if(!guess.is_found() || !(box.squared_length() <= 4 * size) || find_non_finite(x) >= 0)
-    x = before;
+  if(is_laplacian && !unplaced.empty() &&
+     !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced))
+    return false;
+  return m_state->system.meet(targets.hard, x) &&
+         (unplaced.empty() || m_state->system.meet(targets.hard, unplaced));
+}
+
+// Finds the parts from which handles were torn away. If there is one, all others are placed, as
+// they stay. Returns whether there is one.
+CGAL_ARAP_INLINE_FUNCTION
+bool Deformation_core::find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
+                                       Minimization& minimization, Array<char>& is_placed)
+{
+  const Rigid_start& parts = rigid_start();
+  Array<char> is_torn(parts.number_of_parts(), false);
+  find_torn(m_state->free_neighborhood.ties, m_region.rest, parts, x, is_torn);
+  find_torn(m_constraints, targets, parts, x, [&]() -> const Array<Coordinates>& {
+    minimization.evaluate();
+    return minimization.force();
+  }, is_torn);
+  if(std::find(is_torn.begin(), is_torn.end(), 1) == is_torn.end())
+    return false;
+  for(std::size_t v = 0; v < is_placed.size(); ++v)
+    if(const int part = parts.part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
+      is_placed[v] = true;
   return true;
 }
 
+// Starts with smooth rotations instead of x if they are asked for; where handles were torn away, if
+// that lowers the energy. Returns false if the solver fails.
 CGAL_ARAP_INLINE_FUNCTION
-Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
-                                         Targets& targets, Array<Coordinates>& x,
-                                         Array<Matrix_3x3>& rotations, Report& report)
+bool Deformation_core::start_with_rotations(const Options& options, const Targets& targets,
+                                            const Array<Coordinates>& x, Minimization& minimization,
+                                            Array<char>& is_placed, Report& report)
 {
-  if(!rotations.empty()) // a cell that no longer counts leaves nothing to a later run
-    m_state->energy.clear_others(rotations);
-  const bool is_laplacian = options.initial_guess == Initial_guess::laplacian;
-  Array<char> is_placed(m_constraints.is_fixed.size(), false); // by a rigid motion, or stays
-  // where cells depend on others that are far away, a part is not all that its energy depends on;
-  // and where a cell may have a negative energy, zero is not the least
-  const bool is_local = m_energy_model.group.empty() && m_energy_model.smoothing_length == 0 &&
-                        m_energy_model.cells.rings() == 0 && targets.frames.empty();
-  const bool is_certain = is_local && m_state->system.laplacian().is_sum_of_squares;
-  const auto parts = [this]() -> const Rigid_start& {
-    if(!m_state->rigid_start)
-    {
-      m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
-      m_state->parts = Array<int>();
-    }
-    return *m_state->rigid_start;
-  };
-  Array<Coordinates> unplaced;
-  {
-    Scoped_seconds seconds(report.seconds.initial_guess);
-    targets.project(m_constraints.rows, x);
-    if(m_order == Minimization_order::local_first && m_constraints.inertia == 0)
-    {
-      if(!is_certain)
-        unplaced = x;
-      is_placed = parts()(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
-    }
-  }
-  const bool has_other_start =
-    !is_certain && std::find(is_placed.begin(), is_placed.end(), 1) != is_placed.end();
-  if(!has_other_start)
-    Array<Coordinates>().swap(unplaced);
-  if(is_laplacian)
-  {
-    Scoped_seconds seconds(report.seconds.initial_guess);
-    if((!are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x)) ||
-       (has_other_start &&
-        !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced)))
-      return {Status::solver_failed};
-  }
-  m_state->energy.set_given_rotations(rotations_of_cells(targets.frames));
-  const bool is_quasi_newton =
-    options.minimizer == Minimizer::quasi_newton ||
-    (options.minimizer == Minimizer::automatic && options.tolerance > 0);
-  if(are_rotations_state() && (is_quasi_newton || options.tolerance > 0))
-  {
-    Scoped_seconds seconds(report.seconds.preprocess);
-    // local/global is that of the papers; there the steps only tell how far it is from the minimum
-    m_state->energy.prepare_rotation_steps(*m_models.solver, is_quasi_newton ? 2 : 0);
-  }
-  else
-    m_state->energy.clear_rotation_steps();
-  {
-    Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!m_state->system.meet(targets.hard, x) ||
-       (has_other_start && !m_state->system.meet(targets.hard, unplaced)))
-      return {Status::solver_failed};
-  }
-  Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
-                            m_constraints, options, observe, m_region, targets, x, rotations,
-                            m_state->coarse_metric, report);
-  if(has_other_start)
-  {
-    x.swap(unplaced);
-    if(!minimization.try_positions(std::move(unplaced)))
-      is_placed.assign(is_placed.size(), false);
-  }
-  const Free_neighborhood& neighborhood = m_state->free_neighborhood;
-  bool is_tried = false;
-  if(options.initial_guess == Initial_guess::automatic &&
-     m_order == Minimization_order::local_first)
-  {
-    Array<char> is_torn(parts().number_of_parts(), false);
-    find_torn(neighborhood.ties, m_region.rest, parts(), x, is_torn);
-    find_torn(m_constraints, targets, parts(), x, [&]() -> const Array<Coordinates>& {
-      minimization.evaluate();
-      return minimization.force();
-    }, is_torn);
-    is_tried = std::find(is_torn.begin(), is_torn.end(), 1) != is_torn.end();
-    if(is_tried) // the other parts stay
-      for(std::size_t v = 0; v < is_placed.size(); ++v)
-        if(const int part = parts().part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
-          is_placed[v] = true;
-  }
   using Start = Minimization::Start;
-  // starts with the rotations that rotation_of() makes of these, one for each vertex
+  const bool is_tried = options.initial_guess == Initial_guess::automatic &&
+                        m_order == Minimization_order::local_first &&
+                        find_torn_parts(targets, x, minimization, is_placed);
+  if(are_all_placed(is_placed))
+    return true;
+  // the rotations that rotation_of() makes of values, one for each vertex
   const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {
     return minimization.start_with([&](Array<Matrix_3x3>& to_set) {
       m_state->energy.complete(to_set);
-      set_rotations_of_cells([&](std::size_t v) { return rotation_of(values[v]); }, to_set);
+      set_rotations_of_cells(m_region, has_vertex_cells(),
+                             [&](std::size_t v) { return rotation_of(values[v]); }, to_set);
       decltype(values)().swap(values); // memory is at its peak from now on
     }, is_placed, only_if_lower);
   };
   Start start = Start::taken;
-  if((is_tried || options.initial_guess == Initial_guess::rotations) && !are_all_placed(is_placed))
+  if(is_tried || options.initial_guess == Initial_guess::rotations)
   {
     Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, neighborhood.is_near, targets,
-                                x)(m_state->energy, m_state->system);
+      return Harmonic_rotations(m_region, m_constraints, m_state->free_neighborhood.is_near,
+                                targets, x)(m_state->energy, m_state->system);
     }();
     if(!vectors.empty())
       start = start_with(std::move(vectors), rotation_of_vector, is_tried);
   }
   // where the guess is rejected, as where the last run ended with a spike, there is no reason to
   // begin again
-  if((is_tried || m_is_coarse) && start == Start::taken && is_local && is_quasi_newton &&
-     can_have_coarse_start(options) && !are_all_placed(is_placed))
+  if((is_tried || m_is_coarse) && start == Start::taken && is_local(targets) &&
+     is_quasi_newton(options) && can_have_coarse_start(options))
   {
     Array<Matrix_3x3> rotations_of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
@@ -530,12 +464,47 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
       start = start_with(std::move(rotations_of_vertices),
                          [](const Matrix_3x3& rotation) { return rotation; }, true);
   }
-  if(start == Start::failed)
+  return start != Start::failed;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer& observe,
+                                         Targets& targets, Array<Coordinates>& x,
+                                         Array<Matrix_3x3>& rotations, Report& report)
+{
+  if(!rotations.empty()) // a cell that no longer counts leaves nothing to a later run
+    m_state->energy.clear_others(rotations);
+  Placement placement;
+  {
+    Scoped_seconds seconds(report.seconds.initial_guess);
+    if(!place(options, targets, x, placement))
+      return {Status::solver_failed};
+  }
+  m_state->energy.set_given_rotations(
+    rotations_of_cells(m_region, has_vertex_cells(), number_of_cells(), targets.frames));
+  if(are_rotations_state() && (is_quasi_newton(options) || options.tolerance > 0))
+  {
+    Scoped_seconds seconds(report.seconds.preprocess);
+    // local/global is that of the papers; there the steps only tell how far it is from the minimum
+    m_state->energy.prepare_rotation_steps(*m_models.solver, is_quasi_newton(options) ? 2 : 0);
+  }
+  else
+    m_state->energy.clear_rotation_steps();
+  Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
+                            m_constraints, options, observe, m_region, targets, x, rotations,
+                            m_state->coarse_metric, report);
+  if(!placement.unplaced.empty())
+  {
+    x.swap(placement.unplaced);
+    if(!minimization.try_positions(std::move(placement.unplaced)))
+      placement.is_placed.assign(placement.is_placed.size(), false);
+  }
+  if(!start_with_rotations(options, targets, x, minimization, placement.is_placed, report))
     return {Status::solver_failed};
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
-  return {is_quasi_newton ? minimize_quasi_newton(minimization)
-                          : minimize_local_global(minimization)};
+  return {is_quasi_newton(options) ? minimize_quasi_newton(minimization)
+                                   : minimize_local_global(minimization)};
 }
 
 CGAL_ARAP_INLINE_FUNCTION
