@@ -26,6 +26,7 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_space.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/torn_parts.h>
 #include <CGAL/ARAP_deformation/internal/region/dot_product.h>
 
 #include <Eigen/Dense>

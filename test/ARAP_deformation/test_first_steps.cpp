@@ -23,6 +23,7 @@
 #include <CGAL/ARAP_deformation/Eigen_sparse_solver.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Parts.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_start.h>
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/arap_deform.h>
@@ -506,9 +507,10 @@ void test_rows()
       }
       targets.soft.push_back({target.x(), target.y(), target.z()});
     }
-    const Rigid_start start(region, constraints, Array<int>(4, 0));
     Array<CGAL::ARAP::Coordinates> x = region.rest;
-    const Array<char> is_placed = start(region, 2.25, constraints, targets, false, x);
+    const Parts parts(region, constraints, Array<int>(4, 0));
+    const Array<char> is_placed =
+      Rigid_start(region, 2.25, parts, constraints, targets)(false, x);
     CHECK(is_placed == Array<char>(4, sum == 1));
     for(std::size_t v = 0; v < 4 && sum == 1; ++v)
     {

@@ -55,7 +55,7 @@ enum class Unconstrained_components { refused, fixed, fixed_beside_others };
 enum class Minimization_order { local_first, global_first };
 
 class Minimization;
-class Rigid_start;
+class Parts;
 
 inline bool is_quasi_newton(const Options& options)
 {
@@ -160,7 +160,7 @@ private:
                          Array<Coordinates>& x, Array<Matrix_3x3>& rotations,
                          Report& report);
   bool is_local(const Targets& targets) const;
-  const Rigid_start& rigid_start();
+  const Parts& parts();
   bool place(const Options& options, Targets& targets, Array<Coordinates>& x,
              Placement& placement);
   bool find_torn_parts(const Targets& targets, const Array<Coordinates>& x,

@@ -30,6 +30,7 @@
 #include <CGAL/ARAP_deformation/internal/minimizer/Harmonic_rotations.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Laplacian_guess.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Minimization.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Parts.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_start.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/cell_rotations.h>
@@ -68,8 +69,8 @@ struct Deformation_core::State
   Constrained_system system;
   Free_neighborhood free_neighborhood;
   std::optional<Stars> stars; // of the Laplacian guess, if there was one
-  Array<int> parts; // for each movable vertex, until there is a Rigid_start: see there
-  std::optional<Rigid_start> rigid_start;
+  Array<int> components; // for each movable vertex, until there are parts: see there
+  std::optional<Parts> parts;
   std::unique_ptr<Coarse_metric> coarse_metric; // once a run has made it
 };
 
@@ -184,11 +185,11 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
   if(const Diagnosis prepared = m_state->system.prepare(constraints, stages);
      prepared.status != Status::success)
     return prepared;
-  m_state->parts = components.component;
+  m_state->components = components.component;
   for(int v = 0; v < n; ++v)
     if(constraints.is_fixed[v])
-      m_state->parts[v] = components.is_unconstrained(v) || m_is_isolated[v] ? -2 : -1;
-  m_state->rigid_start.reset();
+      m_state->components[v] = components.is_unconstrained(v) || m_is_isolated[v] ? -2 : -1;
+  m_state->parts.reset();
   m_state->energy.set_fixed(constraints.is_fixed, m_order == Minimization_order::global_first);
   m_constraints = std::move(constraints);
   m_unconstrained_components.clear();
@@ -357,14 +358,14 @@ bool Deformation_core::is_local(const Targets& targets) const
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-const Rigid_start& Deformation_core::rigid_start()
+const Parts& Deformation_core::parts()
 {
-  if(!m_state->rigid_start)
+  if(!m_state->parts)
   {
-    m_state->rigid_start.emplace(m_region, m_constraints, m_state->parts);
-    m_state->parts = Array<int>();
+    m_state->parts.emplace(m_region, m_constraints, m_state->components);
+    m_state->components = Array<int>();
   }
-  return *m_state->rigid_start;
+  return *m_state->parts;
 }
 
 // Moves x to where a run starts, but for rotations that do better: parts are at their minimum where
@@ -384,7 +385,8 @@ bool Deformation_core::place(const Options& options, Targets& targets, Array<Coo
     // where a cell may have a negative energy, zero is not the least
     if(!is_local(targets) || !m_state->system.laplacian().is_sum_of_squares)
       unplaced = x;
-    is_placed = rigid_start()(m_region, m_squared_size, m_constraints, targets, is_laplacian, x);
+    is_placed = Rigid_start(m_region, m_squared_size, parts(), m_constraints,
+                            targets)(is_laplacian, x);
     if(std::find(is_placed.begin(), is_placed.end(), 1) == is_placed.end())
       Array<Coordinates>().swap(unplaced);
   }
@@ -403,17 +405,16 @@ CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
                                        Minimization& minimization, Array<char>& is_placed)
 {
-  const Rigid_start& parts = rigid_start();
-  Array<char> is_torn(parts.number_of_parts(), false);
-  find_torn(m_state->free_neighborhood.ties, m_region.rest, parts, x, is_torn);
-  find_torn(m_constraints, targets, parts, x, [&]() -> const Array<Coordinates>& {
+  Array<char> is_torn(parts().size(), false);
+  find_torn(m_state->free_neighborhood.ties, m_region.rest, parts(), x, is_torn);
+  find_torn(m_constraints, targets, parts(), x, [&]() -> const Array<Coordinates>& {
     minimization.evaluate();
     return minimization.force();
   }, is_torn);
   if(std::find(is_torn.begin(), is_torn.end(), 1) == is_torn.end())
     return false;
   for(std::size_t v = 0; v < is_placed.size(); ++v)
-    if(const int part = parts.part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
+    if(const int part = parts().part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
       is_placed[v] = true;
   return true;
 }

@@ -18,7 +18,7 @@
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
-#include <CGAL/ARAP_deformation/internal/minimizer/Rigid_start.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Parts.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
@@ -63,7 +63,7 @@ inline Free_neighborhood find_free_neighborhood(const Region& region, const Arra
 // changed by more than a tenth of their size. Lengths are compared, as a handle that has turned
 // takes its neighbors with it: where edges are long, it would count as torn in each later frame.
 inline void find_torn(const Array<std::array<int, 2>>& ties, const Array<Coordinates>& rest,
-                      const Rigid_start& parts, const Array<Coordinates>& x, Array<char>& is_torn)
+                      const Parts& parts, const Array<Coordinates>& x, Array<char>& is_torn)
 {
   for(const auto& [i, j] : ties)
     if(const int part = parts.part_of(i); part >= 0 && !is_torn[part])
@@ -78,7 +78,7 @@ inline void find_torn(const Array<std::array<int, 2>>& ties, const Array<Coordin
 // forces: a target of little weight that stays away is no reason to begin again. force() returns
 // minus half the gradient of the energy at x.
 template <typename Function>
-void find_torn(const Constraints& constraints, const Targets& targets, const Rigid_start& parts,
+void find_torn(const Constraints& constraints, const Targets& targets, const Parts& parts,
                const Array<Coordinates>& x, const Function& force, Array<char>& is_torn)
 {
   const Array<Coordinates>* forces = nullptr;
