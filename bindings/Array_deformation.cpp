@@ -14,6 +14,8 @@
 #include <CGAL/ARAP_deformation.h>
 #include <CGAL/ARAP_deformation/Chosen_edge_weight.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
+#include <CGAL/ARAP_deformation/internal/session/sentences.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/of_simplices.h>
 #include <CGAL/ARAP_deformation/set_option.h>
@@ -251,15 +253,6 @@ public:
   std::vector<double> positions(Indices simplices, Numbers coordinates) const override
   {
     return coordinates_of(places_of(simplices, coordinates), [this](const auto& place) {
-      double sum = -1, largest = 0;
-      for(double c : place.coordinates)
-      {
-        sum += c;
-        largest = (std::max)(largest, std::abs(c));
-      }
-      require(std::abs(sum) <= (std::max)(1e-9, 1e-14 * largest),
-              "the coordinates of a place in simplex " + std::to_string(place.simplex) +
-              " do not add up to one");
       return construct_point(domain(), place);
     });
   }
@@ -523,8 +516,8 @@ private:
     return std::vector<std::int32_t>(vertices.begin(), vertices.end());
   }
 
-  // Simplices and coordinates, without what fills the rows. Throws if there is no such simplex, or
-  // if it has another number of corners.
+  // Simplices and coordinates, without what fills the rows. Throws unless all are places, before
+  // one of them uses up the number of a control point.
   std::vector<Place> places_of(Indices simplices, Numbers coordinates) const
   {
     require(coordinates.rows == simplices.rows,
@@ -533,17 +526,23 @@ private:
     std::vector<Place> result;
     for(std::size_t k = 0; k < simplices.rows; ++k)
     {
+      const std::string place = "place " + std::to_string(k);
       const auto s = static_cast<std::size_t>(*simplices[k]); // negative ones are too large
       if(s >= m_simplices.size())
-        throw std::out_of_range("there is no simplex " + std::to_string(*simplices[k]));
+        throw std::out_of_range(place + ": there is no simplex " +
+                                std::to_string(*simplices[k]));
       std::vector<double> own(coordinates[k], coordinates[k + 1]);
       while(!own.empty() && std::isnan(own.back()))
         own.pop_back();
       const auto corners = static_cast<std::size_t>(m_simplices[s].size());
-      require(own.size() == corners, "place " + std::to_string(k) + " has " +
-                                     std::to_string(own.size()) + " coordinates, but simplex " +
-                                     std::to_string(s) + " has " + std::to_string(corners) +
-                                     " corners");
+      require(own.size() == corners, place + " has " + std::to_string(own.size()) +
+                                     " coordinates, but simplex " + std::to_string(s) + " has " +
+                                     std::to_string(corners) + " corners");
+      if(domain().simplex_vertices(s).empty())
+        throw Deformation_error(Outcome(Status::not_a_simplex, place + ": a corner of simplex " +
+                                        std::to_string(s) + " does not exist"));
+      if(!internal::add_up_to_one(own))
+        throw Deformation_error(internal::outcome(Status::invalid_coordinates, place));
       result.push_back({s, std::move(own)});
     }
     return result;

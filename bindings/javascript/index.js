@@ -376,12 +376,16 @@ export async function load({ wasmBinary } = {}) {
       if (typeof simplex !== 'number') throw new TypeError('the simplex must be a number');
       return this.insertPoints([{ simplex, coordinates }])[0];
     }
-    // simplices, and coordinates in rows of the same length
+    // simplices, and coordinates in rows of the same length, which NaN fills
     #callWithPlaces(name, places) {
       const none = places.indexOf(null);
       if (none >= 0) throw new TypeError(`place ${none} is null: the point was not located`);
-      const of = places.map((place) => numbersOf(place.coordinates, 'coordinates', Float64Array)),
-        k = of.reduce((most, c) => Math.max(most, c.length), 0),
+      const of = places.map(({ coordinates }, i) => {
+        const c = numbersOf(coordinates, `the coordinates of place ${i}`, Float64Array);
+        if (!c.some(Number.isNaN)) return c;
+        throw new ArapError('invalid_coordinates', `place ${i} has a coordinate that is NaN`);
+      });
+      const k = of.reduce((most, c) => Math.max(most, c.length), 0),
         rows = new Float64Array(k * places.length).fill(NaN);
       of.forEach((c, i) => rows.set(c, i * k));
       const simplices = places.map(({ simplex }) => simplex);

@@ -404,6 +404,18 @@ assert.equal(session.deform().stages.factor, false);
       ArapError,
       /place 1 has 3 coordinates, but simplex 0 has 4 corners/,
     );
+  for (const f of ['positions', 'insertPoints'])
+    for (const [coordinates, pattern] of [
+      [[1, 1, 1], /place 1 needs barycentric coordinates that are finite and add up to one/],
+      [[Infinity, 0, 1], /place 1 needs barycentric/],
+      [[1, 0, 0, NaN], /place 1 has a coordinate that is NaN/],
+    ])
+      refuses(
+        () => mixed[f]([places[1], { simplex: 1, coordinates }]),
+        ArapError,
+        pattern,
+        'invalid_coordinates',
+      );
   mixed.setWeight(inside, [2, 3]);
   assert.deepEqual([...mixed.weight(inside)], [2, 3]);
   assert.equal(mixed.weight(6), 3);
@@ -416,17 +428,12 @@ assert.equal(session.deform().stages.factor, false);
   const energy = mixed.energy();
   refuses(() => mixed.setWeight(inside, [5, Infinity]), ArapError, /finite/, 'invalid_weight');
   refuses(() => mixed.setWeight(all, [1, 2]), ArapError, /5 handles, but 2 weights/);
-  refuses(
-    () => mixed.insertPoints([places[0], { simplex: 1, coordinates: [1, 1, 1] }]),
-    ArapError,
-    /coordinates/,
-    'invalid_coordinates',
-  );
   assert.deepEqual([...mixed.handles()], [...all, ...inside]);
   assert.deepEqual([...mixed.weight(inside)], [2, 3]);
   assert.equal(mixed.energy(), energy);
   mixed.clearPoints();
   assert.deepEqual([...mixed.handles()], all);
+  assert.equal(mixed.insertPoint(1, [0, 0, 1]), 7); // what failed used up no number
   mixed.dispose();
 }
 

@@ -414,11 +414,32 @@ def test_a_surface_that_follows_tetrahedra():
     for short in ([arap.Place(7, np.array([0, 0, 1]), 0)] * 2, [places[0], arap.Place(7, [0, 0, 1], 0)]):
         with pytest.raises(ValueError, match="place . has 3 coordinates, but simplex 7 has 4 corn"):
             d.positions(short)
-    for wrong in ([np.nan, 0.5, 0.25, 0.25], [1, 1, 1, 0]):
-        with pytest.raises(ValueError, match="a place in simplex 7 do not add up to one"):
-            d.positions([arap.Place(7, np.array(wrong), 0)])
     with pytest.raises(ValueError, match="place 1 is None: the point was not located"):
         d.insert_points(d.locate_all([inside[0], np.full(3, np.nan)]))
+
+
+@pytest.mark.parametrize("simplex, coordinates, error, match", [
+    (7, [1, 1, 1], arap.DeformationError, "place 2 needs barycentric coordinates that are finite"),
+    (7, [np.inf, 0, 1], arap.DeformationError, "place 2 needs barycentric"),
+    (7, [1, -np.inf, 0], arap.DeformationError, "place 2 needs barycentric"),
+    (7, [1, 0, 0, np.nan], arap.DeformationError, "place 2 has a coordinate that is not a number"),
+    (7, [0.5, 0.5, np.nan], arap.DeformationError, "place 2 has a coordinate that is not a num"),
+    (7, [0.5, 0.5], ValueError, "place 2 has 2 coordinates, but simplex 7 has 3 corners"),
+    (7, [], ValueError, "place 2 has 0 coordinates"),
+    (len(SHAPES["bar"][1]), [1, 0, 0], arap.DeformationError, "place 2: .* does not exist"),
+    (10**6, [1, 0, 0], IndexError, "place 2: there is no simplex 1000000")])
+def test_wrong_places_are_named_and_use_up_no_handle(simplex, coordinates, error, match):
+    vertices, faces = SHAPES["bar"]
+    n = len(vertices)
+    d = arap.Deformation(vertices, np.vstack([faces, [0, 1, n]]))
+    good = arap.Place(0, np.full(3, 1 / 3), 0)
+    wrong = arap.Place(simplex, np.array(coordinates), 0)
+    for function in (d.positions, d.insert_points):
+        with pytest.raises(error, match=match):
+            function([good, good, wrong, good])
+    with pytest.raises(error, match=match.replace("2", "0", 1)):
+        d.insert_point(simplex, coordinates)
+    assert d.handles.size == 0 and d.insert_point(0, good.coordinates) == n
 
 
 def test_values_for_each_handle():
@@ -751,6 +772,7 @@ CALLS = [
     (lambda d: d.insert_point(10**6, [1, 0, 0]), IndexError, "no simplex 1000000"),
     (lambda d: d.insert_point(-1, [1, 0, 0]), IndexError, "number -1"),
     (lambda d: d.insert_point(0, [1, 1, 1]), arap.DeformationError, "coordinates"),
+    (lambda d: d.insert_point(0.5, [1, 0, 0]), ValueError, "simplex must be integers"),
     (lambda d: d.point_position(3), ValueError, "not a control point"),
     (lambda d: d.target(77), ValueError, "neither"),
     (lambda d: d.target(2**31), IndexError, "not from"),

@@ -174,14 +174,20 @@ def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
 
 
 def _places(places: Sequence[Optional[Place]]) -> Tuple[NDArray[Any], Floats]:
-    """Simplices, and coordinates in rows of the same length."""
+    """Simplices, and coordinates in rows of the same length, which NaN fills."""
     found = [place for place in places if place is not None]
     if len(found) < len(places):
         none = next(k for k, place in enumerate(places) if place is None)
         raise ValueError(f"place {none} is None: the point was not located")
-    columns = itertools.zip_longest(*(place.coordinates for place in found), fillvalue=math.nan)
-    return (_integers("simplices", [place.simplex for place in found], None),
-            _floats("coordinates", list(zip(*columns)), None, None))
+    given = _floats("coordinates", [x for place in found for x in place.coordinates], None)
+    sizes = np.array([len(place.coordinates) for place in found], dtype=int)
+    wrong = np.repeat(np.arange(len(found)), sizes)[np.isnan(given)]
+    if wrong.size:
+        raise DeformationError(f"place {wrong[0]} has a coordinate that is not a number",
+                               "invalid_coordinates")
+    rows = np.full((len(found), sizes.max(initial=0)), math.nan)
+    rows[np.arange(rows.shape[1]) < sizes[:, None]] = given
+    return _integers("simplex", [place.simplex for place in found], None), rows
 
 
 def _text(value: Any) -> str:
@@ -300,8 +306,8 @@ class Deformation:
     def insert_point(self, simplex: int, coordinates: ArrayLike) -> int:
         """The handle of a new control point with barycentric coordinates (k,) in a simplex.
         Messages number control points from 1: number k is the handle n + k - 1."""
-        return int(self._session.insert_points(_integers("simplex", [simplex], None),
-                                               _floats("coordinates", [coordinates], 1, None))[0])
+        place = Place(simplex, _floats("coordinates", coordinates, None), 0)
+        return int(self.insert_points([place])[0])
 
     def insert_points(self, places: Sequence[Optional[Place]]) -> NDArray[np.int32]:
         """The handles of new control points at places, as ``locate_all()`` returns them; all of them

@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace CGAL {
 namespace ARAP {
@@ -53,6 +54,20 @@ void add(std::array<double, n>& target, double factor, const std::array<double, 
 {
   for(std::size_t k = 0; k < n; ++k)
     target[k] += factor * a[k];
+}
+
+// Whether there are factors that add up to 1, up to rounding errors. Their squares must be finite,
+// too.
+inline bool add_up_to_one(const std::vector<double>& factors)
+{
+  double sum = -1, squares = 0, largest = 0;
+  for(double factor : factors)
+  {
+    sum += factor;
+    squares += factor * factor;
+    largest = (std::max)(largest, std::abs(factor));
+  }
+  return is_finite(squares) && std::abs(sum) <= (std::max)(1e-9, 1e-14 * largest);
 }
 
 // The sum of factors that add up to 1 times vectors, which a function of their numbers returns:

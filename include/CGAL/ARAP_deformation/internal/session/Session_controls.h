@@ -266,16 +266,11 @@ protected:
   // move points that are far away. Returns false if that is more than rounding errors.
   static bool complete(std::vector<double>& coordinates)
   {
-    const double sum = std::accumulate(coordinates.begin(), coordinates.end(), 0.0);
-    const double squares = std::inner_product(coordinates.begin(), coordinates.end(),
-                                              coordinates.begin(), 0.0);
-    if(coordinates.empty() || !is_finite(sum) || !is_finite(squares))
+    if(!add_up_to_one(coordinates))
       return false;
     double& largest = *std::max_element(coordinates.begin(), coordinates.end(),
       [](double a, double b) { return std::abs(a) < std::abs(b); });
-    if(!(std::abs(sum - 1) <= (std::max)(1e-9, 1e-14 * std::abs(largest))))
-      return false;
-    largest += 1 - sum;
+    largest += 1 - std::accumulate(coordinates.begin(), coordinates.end(), 0.0);
     return true;
   }
 
