@@ -115,10 +115,23 @@ public:
       m_locator(m_domain)
   {
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
-      for(std::int32_t v : m_polygons[f])
-        if(v < 0 || static_cast<std::size_t>(v) >= m_points.size())
-          throw std::out_of_range("face " + std::to_string(f) + " of the surface has the vertex " +
-                                  std::to_string(v) + ", which does not exist");
+    {
+      const auto face_with = [f](const std::string& what) {
+        return "face " + std::to_string(f) + " of the surface has " + what;
+      };
+      if(m_polygons[f].size() < 3) // the locator ignores it
+        throw std::invalid_argument(face_with("fewer than three corners"));
+      for(std::int32_t corner : m_polygons[f])
+      {
+        const auto v = static_cast<std::size_t>(corner); // negative ones are too large
+        if(v >= m_points.size())
+          throw std::out_of_range(face_with("the vertex " + std::to_string(corner) +
+                                            ", which does not exist"));
+        if(!is_finite(m_points[v]))
+          throw std::invalid_argument(face_with("the vertex " + std::to_string(v) +
+                                                ", which is not finite"));
+      }
+    }
     require(m_locator.locate({0, 0, 0}).has_value(), "the surface has no face with an area");
   }
   Target_surface(const Target_surface&) = delete; // the domain refers to the points

@@ -390,6 +390,13 @@ assert.equal(session.deform().stages.factor, false);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 7]), ArapError, /vertex 7/);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 0]), ArapError, /no face with an area/);
   refuses(() => mixed.setTargetSurface(all, kite, [0, 1, 2], { c: 1 }), TypeError, /'c'/);
+  const hole = [NaN, ...kite.slice(1)];
+  refuses(() => mixed.setTargetSurface(all, hole, [0, 1, 2]), ArapError, /vertex 0, which is not f/);
+  refuses(
+    () => mixed.setTargetSurface(all, kite, [0, 1, 2, 3, 4], { corners: [3, 2] }),
+    ArapError,
+    /face 1 of the surface has fewer than three corners/,
+  );
   // values for each handle; what fails changes nothing
   const inside = mixed.insertPoints(places.slice(0, 2));
   assert.deepEqual([...inside], [5, 6]);
