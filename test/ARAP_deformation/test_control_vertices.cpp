@@ -307,6 +307,15 @@ void test_targets_and_weights()
     CHECK(outcome.message.find("vertex " + std::to_string(b)) == 0);
     CHECK(d.target_weight(b) == 0.25);
   }
+  const auto set = [](const Point& p) { return p; };
+  CHECK(d.set_target_set(b, set));
+  for(const CGAL::ARAP::Outcome& outcome : {d.set_target_weight(b, infinity),
+                                            d.set_target_set(a, set)})
+  {
+    CHECK(outcome.status == Status::invalid_weight);
+    CHECK(outcome.message.find(" needs a finite weight") != std::string::npos);
+  }
+  CHECK(d.target_weight(b) == 0.25);
   CHECK(d.set_target_position(b, Point(0, std::nan(""), 0)));
   const Report refused = d.deform();
   CHECK(refused.status == Status::non_finite_point);

@@ -391,7 +391,7 @@ def test_targets_that_are_sets():
     d.set_weight([fixed[0], moving[0]], 7)
     d.deform()
     energy = d.energy
-    with pytest.raises(arap.DeformationError, match="finite one"):  # and changes nothing
+    with pytest.raises(arap.DeformationError, match="needs a finite weight"):  # and changes nothing
         d.set_weight([fixed[0], moving[0]], np.inf)
     assert d.weight(fixed[0]) == 7 and d.weight(moving[0]) == 7 and d.energy == energy
     d.set_weight(moving[1:], 3)

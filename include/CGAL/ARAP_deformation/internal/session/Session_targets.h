@@ -188,8 +188,8 @@ protected:
   template <typename Handle>
   Outcome refuse_hard_set(Handle handle) const
   {
-    return Outcome(Status::invalid_weight, name(handle) + " has an infinite weight; for a target "
-                                           "that is a set give it a finite one first");
+    return Outcome(Status::invalid_weight,
+                   name(handle) + " needs a finite weight for a target that is a set");
   }
 };
 
