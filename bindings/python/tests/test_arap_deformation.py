@@ -358,6 +358,8 @@ def test_polygons_of_different_numbers_of_corners():
         arap.Deformation(vertices, [[0, -1, 2]])
     with pytest.raises(IndexError, match="number -1"):
         arap.Deformation(vertices, [[0, 1, 2, -1]], tetrahedra=True)
+    with pytest.raises(ValueError, match="simplices must be an array of integers"):
+        arap.Deformation(vertices, [[0, 1, 2, 3], [0, 1, 2]], tetrahedra=True)
 
 
 def test_targets_that_are_sets():
@@ -488,6 +490,19 @@ def test_values_for_each_handle():
     assert np.array_equal(d.vertices, other.vertices)
     d.clear_points()
     assert np.array_equal(d.handles, bent().handles)
+
+
+def test_no_handles():
+    d, expected = bent(), bent()
+    handles = d.insert_points(d.locate_all([]))
+    d.set_weight(handles, [])
+    d.set_targets(handles, [])
+    d.set_target_plane(handles, [], [])
+    d.set_target_line(handles, [], [0, 0, 1])
+    d.set_rotation([], [])
+    for session in (d, expected):
+        session.deform(3, 0)
+    assert np.array_equal(d.vertices, expected.vertices)
 
 
 def test_frames_at_all_vertices():
@@ -702,6 +717,7 @@ def test_an_interruption_ends_a_run_and_the_global_lock_is_released():
 
 
 V, F = SHAPES["bar"]
+RAGGED = [[0, 0, 0], [1, 2]]
 NAN, MANY = np.where(np.eye(len(V), 3), np.nan, V), np.full((1, 3), 2**31)
 BAD_SHAPES = [
     ((V.astype(str), F), ValueError, "vertices must be numbers, not <U"),
@@ -710,7 +726,7 @@ BAD_SHAPES = [
     ((V > 0, F), ValueError, "not bool"), ((None, F), ValueError, "numbers, not object"),
     ((V[:, :2], F), ValueError, r"shape \(any, 3\)"),
     ((V.ravel(), F), ValueError, "must have the shape"), ((V[None], F), ValueError, "shape"),
-    (([[0, 0, 0], [1, 0]], F), ValueError, "vertices must be an array of numbers"),
+    ((RAGGED, F), ValueError, "vertices must be an array of numbers"),
     ((V, F.astype(float)), ValueError, "simplices must be integers, not float64"),
     ((V, F > 3), ValueError, "integers, not bool"),
     ((V, F[:, :2]), ValueError, "three corners, not 2"),
@@ -747,6 +763,17 @@ CALLS = [
     (lambda d: d.insert_handles([0.5]), ValueError, "integers, not float64"),
     (lambda d: d.insert_handles(V[:, 0] == 0), ValueError, "flatnonzero"),
     (lambda d: d.insert_handles("all"), ValueError, "integers, not <U3"),
+    (lambda d: d.insert_handles([[0], [1, 2]]), ValueError, "handles must be an array of integers"),
+    (lambda d: d.target([[0], [1, 2]]), ValueError, "handle must be an array of integers"),
+    (lambda d: setattr(d, "region", RAGGED), ValueError, "region must be an array of integers"),
+    (lambda d: d.set_targets(0, RAGGED), ValueError, "targets must be an array of numbers"),
+    (lambda d: d.set_weight([0, 1], RAGGED), ValueError, "weight must be an array of numbers"),
+    (lambda d: d.set_rotation([0], RAGGED), ValueError, "rotation must be an array of numbers"),
+    (lambda d: d.set_rotation(0, np.eye(2)), ValueError, r"the shape \(3, 3\), not \(2, 2\)"),
+    (lambda d: d.set_target_plane(0, RAGGED, V[0]), ValueError, "point must be an array of numbers"),
+    (lambda d: d.set_target_plane(0, [0, 0], V[0]), ValueError, r"the shape \(3,\), not \(2,\)"),
+    (lambda d: d.set_targets(0, [0, 0]), ValueError, r"targets must have the shape \(3,\), not \(2,"),
+    (lambda d: d.insert_point(0, 0.5), ValueError, r"coordinates must have the shape \(any,\), not \("),
     (lambda d: d.erase_handles(5000), ValueError, "handle 5000 is neither"),
     (lambda d: d.set_targets({100: [0, 0, 0]}), ValueError, "handle 100 is neither"),
     (lambda d: d.set_targets([0, 1], [[0, 0, 0]]), ValueError, "2 handles, but 1 targets"),
@@ -781,11 +808,13 @@ CALLS = [
     (lambda d: d.target(2**31), IndexError, "not from"),
     (lambda d: d.set_stiffness([1, 2]), ValueError, "2 values for the"),
     (lambda d: d.set_groups([0.5]), ValueError, "integers"),
+    (lambda d: d.set_groups(V[:, 0] == 0), ValueError, "groups must be integers, not bool$"),
     (lambda d: d.deform(-1), arap.DeformationError, "iterations '-1' is not a whole number"),
     (lambda d: d.deform(1, float("nan")), arap.DeformationError, "'nan' is not a number"),
     (lambda d: d.deform(1, "small"), arap.DeformationError, "tolerance 'small' is not a number"),
     (lambda d: d.advance(0), arap.DeformationError, "time_step"),
     (lambda d: d.advance("fast"), ValueError, "time_step must be numbers"),
+    (lambda d: d.advance(True), ValueError, "time_step must be numbers, not bool$"),
     (lambda d: d.advance(acceleration=9.81), ValueError, "acceleration must have the shape"),
     (lambda d: d.advance(forces=V[:5]), ValueError, "three coordinates for each of the"),
     (lambda d: d.advance(forces=V * np.nan), arap.DeformationError, "force"),

@@ -103,21 +103,25 @@ class Place:
     distance: float
 
 
+def _any_array(name: str, value: ArrayLike, what: str = "numbers") -> NDArray[Any]:
+    """A copy of any shape and type."""
+    try:
+        return np.array(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} must be an array of {what}: {error}") from None
+
+
 def _array(name: str, value: ArrayLike, kinds: str, shape: Sequence[Optional[int]]) -> NDArray[Any]:
     """A copy with the shape; None is any number. An empty list is an array of any dimension."""
     what = "numbers" if "f" in kinds else "integers"
-    try:
-        array = np.array(value)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} must be an array of {what}: {error}") from None
+    array = _any_array(name, value, what)
     if array.size == 0 and array.ndim == 1 and array.dtype.kind in "fiu":
         array = array.astype(np.int64).reshape([0] + [k or 3 for k in shape[1:]])
     if array.dtype.kind not in kinds:
-        hint = "; np.flatnonzero() makes indices of it" if array.dtype.kind == "b" else ""
-        raise ValueError(f"{name} must be {what}, not {array.dtype}{hint}")
+        raise ValueError(f"{name} must be {what}, not {array.dtype}")
     if array.ndim != len(shape) or any(k not in (None, s) for k, s in zip(shape, array.shape)):
-        wanted = ", ".join("any" if k is None else str(k) for k in shape)
-        raise ValueError(f"{name} must have the shape ({wanted}), not {array.shape}")
+        wanted = str(tuple("any" if k is None else k for k in shape)).replace("'", "")
+        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
     return array
 
 
@@ -139,12 +143,16 @@ def _integers(name: str, value: ArrayLike, *shape: Optional[int], least: int = 0
 
 def _indices(name: str, value: Any) -> NDArray[Any]:
     """Indices of vertices or handles, of which there may also be one alone."""
-    return _integers(name, [value] if np.ndim(value) == 0 else value, None)
+    array = np.atleast_1d(_any_array(name, value, "integers"))
+    if array.dtype.kind == "b":
+        raise ValueError(f"{name} must be integers, not bool; np.flatnonzero() makes indices of it")
+    return _integers(name, array, None)
 
 
 def _simplices(name: str, value: Any, corners: Optional[int] = None) -> NDArray[Any]:
     """Indices of corners; those of polygons may be lists of any lengths, or rows that end with -1."""
-    if isinstance(value, (list, tuple)) and all(hasattr(row, "__len__") for row in value):
+    is_list = isinstance(value, (list, tuple)) and corners is None
+    if is_list and all(hasattr(row, "__len__") for row in value):
         if len({len(row) for row in value}) > 1:
             value = list(zip(*itertools.zip_longest(*value, fillvalue=-1)))
     array = _integers(name, value, None, corners, least=0 if corners else -1)
@@ -155,14 +163,14 @@ def _simplices(name: str, value: Any, corners: Optional[int] = None) -> NDArray[
 
 def _pair(what: str, indices: Any, name: str, points: Any) -> Tuple[NDArray[Any], Floats]:
     """Indices with (k, 3) numbers, or one index with (3,)."""
-    rows = [points] if np.ndim(indices) == 0 and np.ndim(points) == 1 else points
-    return _indices(what, indices), _floats(name, rows, None, 3)
+    return _indices(what, indices), _rows(name, points, 3)
 
 
 def _rows(name: str, value: ArrayLike, *shape: int) -> Floats:
     """Values of the shape, one for all or one for each, as rows."""
-    values = [value] if np.ndim(value) == len(shape) else value
-    return _floats(name, values, None, *shape).reshape(-1, math.prod(shape))
+    values = _any_array(name, value)
+    each = () if values.ndim == len(shape) and values.size else (None,)
+    return _floats(name, values, *each, *shape).reshape(-1, math.prod(shape))
 
 
 def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
