@@ -159,7 +159,10 @@ export interface Report {
   };
 }
 
-/** The mass, momenta and energies are those of the free vertices. */
+/**
+ * The mass, momenta and energies are those of the free vertices. `energy`, which the step minimizes,
+ * has a term of inertia; `elasticEnergy` has none: it is the modulus times `Session.energy()`.
+ */
 export interface StepReport extends Report {
   mass: number;
   centerOfMass: number[];
@@ -230,7 +233,9 @@ export interface Session {
 
   /** vertices that become handles, whose targets are where they are; they enter the region */
   insertHandles(vertices: Indices | number): void;
+  /** makes control vertices free, which stay in the region, and erases control points */
   eraseHandles(handles: Indices | number): void;
+  /** erases all of them: control vertices and control points */
   clearHandles(): void;
   /** erases the handles that are control points */
   clearPoints(): void;
@@ -272,7 +277,8 @@ export interface Session {
   target(handles: Indices | number): Float64Array;
   /**
    * moves targets by a matrix of 3 x 4 or 4 x 4: by default the matrix is applied to the present
-   * targets, so that repeated calls add up; fromRest applies it to the rest shape
+   * targets, so that repeated calls add up, and so do handles that are listed twice; fromRest
+   * applies it to the rest shape
    */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
   weight(handle: number): number;
@@ -304,7 +310,8 @@ export interface Session {
   deform(run?: Run): Report;
   advance(step?: Step): StepReport;
 
-  /** n x 3: the velocities that the next step begins with; zero outside the region */
+  /** n x 3: the velocities that the next step begins with; zero outside the region, and after
+   *  `deform()` and `reset()` */
   velocities(): Float64Array;
   /** of vertices of the region */
   setVelocities(vertices: Indices | number, velocities: Numbers): void;
@@ -317,6 +324,7 @@ export interface Session {
   state(): State;
   restore(state: State): void;
 
+  /** after the last run, without inertia; not a number where there is none */
   energy(): number;
   /** 3 x 3 for each cell; the identity outside the region, where no vertex of the cell is free, as
    *  inside a handle (unless rotations are smoothed, or shared), and until the first run after a

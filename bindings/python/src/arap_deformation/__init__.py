@@ -71,7 +71,9 @@ class Report:
 
 @dataclass(frozen=True, eq=False)
 class StepReport(Report):
-    """A time step: also the mass, momenta and energies of the free vertices."""
+    """A time step: also the mass, momenta and energies of the free vertices. ``energy``, which the
+    step minimizes, has a term of inertia; ``elastic_energy`` has none: it is the modulus times
+    ``Deformation.energy``."""
 
     mass: float
     center_of_mass: List[float]
@@ -290,9 +292,11 @@ class Deformation:
         self._session.insert_handles(_indices("handles", vertices))
 
     def erase_handles(self, handles: ArrayLike) -> None:
+        """Makes control vertices free, which stay in the region, and erases control points."""
         self._session.erase_handles(_indices("handles", handles))
 
     def clear_handles(self) -> None:
+        """Erases all handles: control vertices and control points."""
         self._session.clear_handles()
 
     def clear_points(self) -> None:
@@ -362,7 +366,8 @@ class Deformation:
                                          _simplices("faces", faces))
 
     def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
-        """Applies a (4, 4) or (3, 4) matrix to the targets of handles, or to their rest shape."""
+        """Applies a (4, 4) or (3, 4) matrix to the targets of handles, or to their rest shape.
+        Targets of handles that are listed twice are moved twice."""
         self._session.transform(_indices("handles", handles), _floats("matrix", matrix, None, 4),
                                 bool(from_rest))
 
@@ -385,6 +390,7 @@ class Deformation:
                                         _rows("rotation", rotation, 3, 3))
 
     def erase_rotations(self, vertices: ArrayLike) -> None:
+        """Lets the rotations of frames be fitted again. They stay control vertices."""
         self._session.erase_rotations(_indices("vertices", vertices))
 
     def set_stiffness(self, values: ArrayLike) -> None:
@@ -428,7 +434,8 @@ class Deformation:
             _floats("forces", [] if forces is None else forces, None, 3), visitor))
 
     def velocities(self) -> Floats:
-        """(n, 3): the velocities that the next step begins with; zero outside the region."""
+        """(n, 3): the velocities that the next step begins with; zero outside the region, and after
+        ``deform()`` and ``reset()``."""
         return self._session.velocities().reshape(-1, 3)
 
     def set_velocities(self, vertices: ArrayLike, velocities: ArrayLike) -> None:
@@ -458,7 +465,7 @@ class Deformation:
 
     @property
     def energy(self) -> float:
-        """The energy after the last run; not a number where there is none."""
+        """The energy after the last run, without inertia; not a number where there is none."""
         return self._session.energy()
 
     def rotations(self) -> Floats:
