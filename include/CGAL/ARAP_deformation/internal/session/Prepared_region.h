@@ -76,7 +76,7 @@ public:
   // Others have moved the vertex of an entry.
   void set_position(std::size_t k, const Coordinates& position)
   {
-    m_restored.are_complete = false;
+    m_last.are_complete = false;
     if(!has_region())
       return;
     set_position(k, position, m_prepared->positions);
@@ -102,6 +102,19 @@ public:
       if(!vertices.find(region().vertices[v]))
         positions[v] = Domain::coordinates(vertices.domain().point(region().vertices[v]));
   }
+
+  // The rotation after the last run of the cell find_cell(region), the identity if there is none.
+  template <typename Function>
+  Matrix_3x3 rotation_of_cell(const Function& find_cell) const
+  {
+    const int cell = find_cell(m_last.region ? *m_last.region : region());
+    const Array<Matrix_3x3>& rotations = m_last.region ? m_last.rotations : core().rotations();
+    return cell >= 0 && cell < static_cast<int>(rotations.size()) ? rotations[cell]
+                                                                  : identity_matrix();
+  }
+
+  // To be called when a run has set the rotations.
+  void run_has_ended() { m_last = Cell_rotations<Domain>(); }
 
   // makes those rotations identities that are at vertices which satisfy a predicate
   template <typename Predicate>
@@ -135,7 +148,7 @@ public:
   // To be called when the region of interest, the cells or the rest shape were changed.
   void region_changed()
   {
-    m_restored = Cell_rotations<Domain>();
+    m_last = Cell_rotations<Domain>();
     m_present.region = ++m_last_version;
     constraints_changed();
   }
@@ -172,7 +185,7 @@ public:
   // the rotations become identities
   void reset_rotations()
   {
-    m_restored = Cell_rotations<Domain>();
+    m_last = Cell_rotations<Domain>();
     if(m_prepared)
       m_prepared->core->set_rotations({}, false);
   }
@@ -190,9 +203,9 @@ public:
   State state() const
   {
     if(!has_region())
-      return {m_present, none, {}, m_restored, m_inertia};
+      return {m_present, none, {}, m_last, m_inertia};
     return {m_present, m_prepared->numbering, m_prepared->positions,
-            m_prepared->rotations_of_cells(), m_inertia};
+            m_last.region ? m_last : m_prepared->rotations_of_cells(), m_inertia};
   }
 
   // another one if they have changed, which may be found out when they are used
@@ -206,14 +219,16 @@ public:
   template <typename Function>
   void renumber(State& state, const Domain& domain, const Function& find_present) const
   {
-    if(!has_region_of(state.present) || m_prepared->numbering == state.numbering)
+    if(!has_region_of(state.present))
+      return;
+    if(state.cells.region && state.cells.region != m_prepared->region)
+      state.cells = m_prepared->rotations_from(state.cells, domain);
+    if(m_prepared->numbering == state.numbering)
       return;
     Array<Coordinates> positions = m_prepared->positions;
     for(std::size_t k = 0; k < positions.size(); ++k)
       if(const Point* present = find_present(region().vertices[k]))
         positions[k] = Domain::coordinates(*present);
-    if(state.cells.region)
-      state.cells = m_prepared->rotations_from(state.cells, domain);
     state.positions.swap(positions);
   }
 
@@ -226,10 +241,10 @@ public:
     m_present.values = values;
     if(is_inertia_other)
       constraints_changed();
-    m_restored = Cell_rotations<Domain>();
+    m_last = Cell_rotations<Domain>();
     if(!has_region())
     {
-      m_restored = std::move(state.cells);
+      m_last = std::move(state.cells);
       return;
     }
     m_prepared->positions.swap(state.positions);
@@ -270,6 +285,7 @@ private:
       return outcome(Status::no_simplex);
 
     std::unique_ptr<Built_region<Domain>> next;
+    Cell_rotations<Domain> replaced;
     if(needs_region(vertices, roi_size, number_of_fixed))
     {
       stages.region = stages.weights = true;
@@ -280,10 +296,10 @@ private:
                                                     is_whole(roi_size, number_of_fixed));
       if(Outcome made = next->make(vertices, values, m_models, options, m_rules); !made)
         return made;
-      if(m_prepared && (m_rules.are_rotations_kept || has_region()))
-        next->take_rotations(m_prepared->rotations_of_cells(), vertices.domain());
-      else if(m_restored.region)
-        next->take_rotations(m_restored, vertices.domain());
+      if(!m_last.region && m_prepared && (m_rules.are_rotations_kept || has_region()))
+        replaced = m_prepared->rotations_of_cells();
+      if(const auto& last = m_last.region ? m_last : replaced; last.region)
+        next->take_rotations(last, vertices.domain());
     }
     else if(has_other_values())
     {
@@ -317,7 +333,8 @@ private:
       if(!m_rules.are_erased_put_back) // CGAL's class reads them again
         for(vertex_descriptor v : next->region->vertices)
           vertices.keep_rest(v);
-      m_restored = Cell_rotations<Domain>();
+      if(!m_rules.are_rotations_kept && !replaced.rotations.empty())
+        m_last = std::move(replaced);
       m_prepared = std::move(next);
     }
     m_rows = std::move(constraints.rows());
@@ -360,7 +377,8 @@ private:
   Models m_models;
   Outcome m_outcome;
   std::unique_ptr<Built_region<Domain>> m_prepared; // what was last prepared with success
-  Cell_rotations<Domain> m_restored; // those of a state, until there is a region for it again
+  // those of the last run, or of a state, if there is another region since, which may have fewer
+  Cell_rotations<Domain> m_last;
   Region_rows m_rows;
   std::size_t m_roi_size = 0, m_number_of_controls = 0;
   bool m_are_rotations_coupled = false;

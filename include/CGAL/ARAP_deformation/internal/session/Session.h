@@ -126,14 +126,17 @@ public:
   Matrix_3x3 rotation_of_vertex(vertex_descriptor v) const
   {
     const bool has_cell = m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell, [&] { return m_prepared.region().find_vertex(domain(), v); });
+    return rotation_of_cell(has_cell, [&](const auto& region) {
+      return region.find_vertex(domain(), v);
+    });
   }
 
   Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
   {
     const bool has_cell = !m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell,
-                            [&] { return m_prepared.region().find_simplex(domain(), s); });
+    return rotation_of_cell(has_cell, [&](const auto& region) {
+      return region.find_simplex(domain(), s);
+    });
   }
 
 protected:
@@ -250,6 +253,7 @@ private:
     write_points(run.positions);
     m_vertices.velocities().swap(velocities);
     run.finish(report);
+    m_prepared.run_has_ended();
     m_energy = report.energy.back();
   }
 
@@ -340,12 +344,8 @@ private:
   template <typename FindCell>
   Matrix_3x3 rotation_of_cell(bool has_cell, const FindCell& find_cell) const
   {
-    if(!has_cell || !m_prepared.has_region())
-      return identity_matrix();
-    const Array<Matrix_3x3>& rotations = m_prepared.core().rotations();
-    const int cell = find_cell();
-    return cell >= 0 && cell < static_cast<int>(rotations.size()) ? rotations[cell]
-                                                                  : identity_matrix();
+    return has_cell && m_prepared.has_region() ? m_prepared.rotation_of_cell(find_cell)
+                                               : identity_matrix();
   }
 
   Stages m_stages; // since the last run
