@@ -476,7 +476,10 @@ arguments_of(int argc, char** argv, const boost::program_options::options_descri
   for(std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) // no options follow
   {
     std::string& argument = arguments[i];
-    if(argument.rfind("--", 0) == 0 && argument[2] != '=')
+    if(!is_option(argument))
+      continue;
+    const bool is_long = argument.rfind("--", 0) == 0;
+    if(is_long && argument[2] != '=')
     {
       const std::size_t length = (std::min)(argument.find('='), argument.size()) - 2;
       std::string name = argument.substr(2, length);
@@ -487,7 +490,6 @@ arguments_of(int argc, char** argv, const boost::program_options::options_descri
           argument.replace(2, length, name);
       }
     }
-    const bool is_long = argument.rfind("--", 0) == 0;
     const auto* option = all.find_nothrow(is_long ? argument.substr(2) : argument, false);
     if(option && option->semantic()->min_tokens() > 0 &&
        (i + 1 == arguments.size() || is_option(arguments[i + 1])))

@@ -54,6 +54,28 @@ public:
   {
     std::size_t buffer, begin, stride, size;
     int component;
+    std::size_t bytes; // of an element
+
+    bool operator==(const Array& other) const
+    {
+      return buffer == other.buffer && begin == other.begin && stride == other.stride &&
+             size == other.size && bytes == other.bytes;
+    }
+
+    // whether they have bytes in common: not if they are interleaved
+    bool overlaps(const Array& other) const
+    {
+      if(buffer != other.buffer || size == 0 || other.size == 0 || end() <= other.begin ||
+         other.end() <= begin)
+        return false;
+      if(stride != other.stride || stride == 0)
+        return true;
+      const std::size_t way = (stride + other.begin % stride - begin % stride) % stride;
+      return way < bytes || way + other.bytes > stride;
+    }
+
+  private:
+    std::size_t end() const { return begin + stride * (size - 1) + bytes; }
   };
 
   Json json;
@@ -82,9 +104,12 @@ public:
   // what to throw for a file that the JSON library finds fault with
   static std::runtime_error unreadable(const std::string& file, const Json::exception& error)
   {
-    const std::string why = error.what(); // after the name of the exception in brackets
+    // after the name of the exception in brackets, and without the word that was read last, which
+    // may be a whole buffer
+    std::string why = error.what();
+    why = why.substr(why.find(']') + 1);
     return std::runtime_error(file + ": is no glTF that can be read:" +
-                              printable(why.substr(why.find(']') + 1)));
+                              printable(why.substr(0, why.find("; last read:"))));
   }
 
   static bool is_index(int component)
@@ -148,18 +173,18 @@ public:
       refuse_extension(view, extension, "arrays that are compressed");
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
-    const std::size_t bytes = (result.component == BYTE_INDEX    ? 1
-                               : result.component == SHORT_INDEX ? 2
-                                                                 : 4) *
-                              (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
+    result.bytes = (result.component == BYTE_INDEX    ? 1
+                    : result.component == SHORT_INDEX ? 2
+                                                      : 4) *
+                   (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
     result.buffer = whole(view.at("buffer"));
     if(result.buffer >= buffers.size())
       throw std::runtime_error("has an accessor in a buffer that does not exist");
     result.begin = whole(view, "byteOffset", 0) + whole(accessor, "byteOffset", 0);
-    result.stride = whole(view, "byteStride", bytes);
+    result.stride = whole(view, "byteStride", result.bytes);
     result.size = whole(accessor.at("count"));
     const double end = double(result.begin) + double(result.stride) * (double(result.size) - 1) +
-                       double(bytes);
+                       double(result.bytes);
     if(!(double(result.size) <= end && end <= double(buffers[result.buffer].size())))
       throw std::runtime_error("has an accessor that does not fit into its buffer");
     return result;

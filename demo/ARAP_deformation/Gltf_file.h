@@ -56,6 +56,9 @@ public:
     {
       m_images = m_gltf.names_of_files("images");
       m_gltf.check_required_extensions();
+      for(const auto& node : m_gltf.json.value("nodes", Gltf::Json::array())) // of all scenes
+        if(node.contains("mesh"))
+          ++m_uses[Gltf::whole(node["mesh"])];
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
     }
@@ -87,6 +90,9 @@ public:
     check_format(file, format, m_mesh);
     if(!is_gltf_format(format))
       return;
+    if(m_overlapping)
+      throw std::runtime_error(file + ": the accessor " + std::to_string(*m_overlapping) +
+                               " shares bytes with others, which would move in another way");
     if(m_shared_directions)
       throw std::runtime_error(file + ": the accessor " + std::to_string(*m_shared_directions) +
                                " has the normals or tangents of two sets of positions, which "
@@ -131,6 +137,15 @@ private:
     std::vector<Mesh::Vertex_index> vertices;
     std::vector<std::vector<std::size_t>> faces;
     std::set<std::size_t> tangents; // their accessors
+  };
+
+  // positions, normals or tangents, and the accessors that have them
+  struct Moved
+  {
+    std::size_t first;
+    Gltf::Array array;
+    std::string use;
+    std::set<std::size_t> aliases;
   };
 
   static Eigen::Vector3d vector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -190,7 +205,7 @@ private:
         throw std::runtime_error("the node " + std::to_string(index) + " has a skin; only rigid "
                                  "nodes can be deformed");
       Gltf::refuse_extension(node, "EXT_mesh_gpu_instancing", "a node that is repeated");
-      if(!m_meshes.insert(mesh).second)
+      if(m_uses[mesh] > 1)
         throw std::runtime_error("the mesh " + std::to_string(mesh) + " is used by two nodes");
       if(!(std::abs(to_scene.linear().determinant()) > 0))
         throw std::runtime_error("the node " + std::to_string(index) + " is flattened");
@@ -218,6 +233,11 @@ private:
     std::optional<std::size_t> tangents;
     if(attributes.contains("TANGENT"))
       tangents = Gltf::whole(attributes["TANGENT"]);
+    accessors.first = first_alias(accessors.first, "POSITION");
+    if(accessors.second)
+      accessors.second = first_alias(*accessors.second, "NORMAL");
+    if(tangents)
+      tangents = first_alias(*tangents, "TANGENT");
     const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
     if(positions.component != Gltf::FLOAT ||
        (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT) ||
@@ -275,6 +295,25 @@ private:
     }
   }
 
+  // The first accessor of this use with the same bytes. Notes what shares only some of them, or has
+  // another use.
+  std::size_t first_alias(std::size_t accessor, const std::string& use)
+  {
+    const Gltf::Array array = m_gltf.array(accessor, use == "TANGENT" ? "VEC4" : "VEC3");
+    for(Moved& other : m_moved)
+      if(array.overlaps(other.array))
+      {
+        if(use == other.use && array == other.array)
+        {
+          other.aliases.insert(accessor);
+          return other.first;
+        }
+        m_overlapping = accessor;
+      }
+    m_moved.push_back({accessor, array, use, {accessor}});
+    return accessor;
+  }
+
   void move_vertices(Gltf& gltf) const
   {
     for(const auto& [accessors, piece] : m_pieces)
@@ -284,13 +323,16 @@ private:
         if(const Mesh::Vertex_index v = piece.vertices[i]; m_mesh.point(v) != m_rest_points[v])
           gltf.set_vector(positions, i, coordinates(piece.to_scene.inverse() *
                                                     vector(m_mesh.point(v))));
-      gltf.update_bounds(accessors.first);
       const Eigen::Matrix3d m = piece.to_scene.linear();
       if(accessors.second) // they are mapped by the cofactors
         turn(gltf, gltf.array(*accessors.second, "VEC3"), m.inverse().transpose(), piece);
       for(std::size_t tangents : piece.tangents)
         turn(gltf, gltf.array(tangents, "VEC4"), m, piece);
     }
+    for(const Moved& moved : m_moved)
+      if(moved.use == "POSITION")
+        for(std::size_t accessor : moved.aliases)
+          gltf.update_bounds(accessor);
   }
 
   Mesh::Vertex_index vertex(const std::array<double, 3>& p)
@@ -328,7 +370,10 @@ private:
   std::filesystem::path m_folder;
   std::vector<std::string> m_images; // in files of their own
   bool m_are_images_left = false;
-  std::set<std::size_t> m_nodes, m_meshes; // that were read
+  std::set<std::size_t> m_nodes; // that were read
+  std::map<std::size_t, int> m_uses; // of each mesh
+  std::vector<Moved> m_moved;
+  std::optional<std::size_t> m_overlapping; // an accessor that shares bytes with another one
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
   std::optional<std::size_t> m_shared_directions;    // one of several positions

@@ -61,6 +61,7 @@ public:
 
   std::string text;
   Numbers numbers = Numbers::text;
+  bool are_points_single = false; // also where they are text, which programs read as floats
   std::vector<Triple> points;  // of the vertices, in their order
   std::vector<Normal> normals;
 
@@ -90,7 +91,11 @@ public:
   {
     for(int k = 0; k < 3; ++k)
       if(after[k] != before[k])
+      {
+        if(are_points_single)
+          to_float(after[k]); // which may throw
         m_changes.push_back({place[k], number(after[k], place[k].end - place[k].begin)});
+      }
   }
 
   // Replaces what is there by a text.

@@ -52,6 +52,8 @@ public:
     if(const std::string_view type = words.next();
        !is_keyword(type, "float") && !is_keyword(type, "double"))
       refuse(words, "expected POINTS of the type float or double, but found");
+    else
+      m_source.are_points_single = is_keyword(type, "float");
     for(long long i = 0; i < points; ++i)
       read_point(words, [i] { return "point " + std::to_string(i); });
     read_cells(words.end());

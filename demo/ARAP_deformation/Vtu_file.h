@@ -51,6 +51,8 @@ public:
       refuse_at(points.place, "the Points need NumberOfComponents=\"3\"");
     if(const std::string type = points.get("type"); type != "Float32" && type != "Float64")
       refuse_at(points.place, "the Points are " + in_quotes(type) + ", not Float32 or Float64");
+    else
+      m_source.are_points_single = type == "Float32";
     if(points.get("format") == "ascii")
       read_text_of(points);
     else

@@ -124,8 +124,7 @@ private:
   {
     Words words(m_line);
     for(int k = 0; k < 3; ++k)
-      if(const auto word = words.next(); // CGAL does not read hexadecimal numbers
-         !is_finite_number(word) || word.find_first_of("xX") != std::string_view::npos)
+      if(!is_finite_number(words.next()))
         refuse("vertex", v, "does not have three finite coordinates");
   }
 

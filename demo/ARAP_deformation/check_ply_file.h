@@ -164,7 +164,10 @@ public:
           const double value = read(p);
           end = m_in.eof() ? source.text.size() : static_cast<std::size_t>(m_in.tellg());
           if(is_position(p))
+          {
             point[p.name[0] - 'x'] = {begin, end};
+            source.are_points_single = source.are_points_single || p.is("float");
+          }
           if(is_vertex(element) && p.name == source.wanted_property && is_fractional(p))
             source.wanted_values.push_back({begin, end});
           if(are_turned && is_normal(p))

@@ -177,7 +177,8 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
 
 } // namespace internal
 
-// Throws if the mesh has no faces, or coordinates that are not finite.
+// Throws if the mesh has no faces, or coordinates that are not finite, or fans of faces that meet
+// in a vertex only, which CGAL may accept where one of them is closed.
 inline void check_mesh(const std::string& file, const Mesh& mesh)
 {
   if(mesh.number_of_vertices() == 0 || mesh.number_of_faces() == 0)
@@ -187,6 +188,13 @@ inline void check_mesh(const std::string& file, const Mesh& mesh)
       if(!std::isfinite(mesh.point(v)[k]))
         throw std::runtime_error(file + ": vertex " + std::to_string(std::size_t(v)) +
                                  " has a coordinate that is infinite or not a number");
+  std::vector<std::size_t> edges(mesh.number_of_vertices(), 0); // at each vertex
+  for(Mesh::Halfedge_index h : mesh.halfedges())
+    ++edges[mesh.target(h)];
+  for(Mesh::Vertex_index v : mesh.vertices())
+    if(edges[v] > 0 && CGAL::halfedges_around_target(mesh.halfedge(v), mesh).size() < edges[v])
+      throw std::runtime_error(file + ": the surface is not a manifold at vertex " +
+                               std::to_string(std::size_t(v)));
 }
 
 // Reads a surface of triangles and polygons; all its coordinates are finite. Inserts what the mesh

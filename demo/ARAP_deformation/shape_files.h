@@ -193,12 +193,13 @@ private:
   std::size_t m_begin, m_end;
 };
 
-// whether a word, which the end of the text or another character follows, is a finite number
+// whether a word, which the end of the text or another character follows, is a finite number that
+// CGAL reads: no hexadecimal one
 inline bool is_finite_number(std::string_view word)
 {
   char* end = nullptr;
-  return !word.empty() && std::isfinite(std::strtod(word.data(), &end)) &&
-         end == word.data() + word.size();
+  return !word.empty() && word.find_first_of("xX") == std::string_view::npos &&
+         std::isfinite(std::strtod(word.data(), &end)) && end == word.data() + word.size();
 }
 
 // Calls f(line, line number) for each line of a file that has more than a comment.

@@ -1137,6 +1137,30 @@ void test_gltf()
                   file + ": the number ");
   check_refused("in.gltf --fix x:..1 --handle near:9,9,9 --move 2e39,0,0 -o in.gltf", 1,
                 "in.gltf: the number ");
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"; // in text, too
+  write("single.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                      "property float y\nproperty float z\nelement face 1\n"
+                      "property list uchar int vertex_indices\nend_header\n" + corners +
+                      "3 0 1 3\n");
+  write("single.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                      "POINTS 4 float\n" + corners + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  const auto array = [](const std::string& attributes, const std::string& values) {
+    return "<DataArray format=\"ascii\" " + attributes + ">\n" + values + "</DataArray>\n";
+  };
+  write("single.vtu", "<VTKFile type=\"UnstructuredGrid\">\n<UnstructuredGrid>\n"
+                      "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<Points>\n" +
+                      array("type=\"Float32\" NumberOfComponents=\"3\"", corners) +
+                      "</Points>\n<Cells>\n" +
+                      array("type=\"Int32\" Name=\"connectivity\"", "0 1 2 3\n") +
+                      array("type=\"Int32\" Name=\"offsets\"", "4\n") +
+                      array("type=\"UInt8\" Name=\"types\"", "10\n") +
+                      "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  for(const std::string file : {"single.ply", "single.vtk", "single.vtu"})
+  {
+    const std::string hold = file + " --fix list:0,1 --handle list:3 --move ";
+    CHECK(run(hold + "2e38,0,0 --iterations 0 -o large" + file.substr(6)).exit_code == 0);
+    check_refused(hold + "4e38,0,0 -o " + file, 1, file + ": the number ");
+  }
   check_refused("in.off --fix z:..1 --handle z:4.. --move 1e39,0,0 -o new.off "
                 "--animation film.glb", 1, "film.glb: the number ");
 
@@ -1199,6 +1223,12 @@ void test_gltf()
   CHECK(run("textured.gltf" + stay + "textured.gltf").exit_code == 0);
   refuse("/nodes/0/children/0", 0, "the node 0 occurs twice");
   refuse("/nodes/0/mesh", 0, "the mesh 0 is used by two nodes");
+  auto scenes = json; // another scene has the mesh, too
+  scenes["nodes"].push_back({{"mesh", 0}});
+  scenes["scenes"].push_back({{"nodes", {2}}});
+  write("bad.gltf", scenes.dump());
+  check_refused("bad.gltf" + stay + "precious.off", 1,
+                "bad.gltf: the mesh 0 is used by two nodes");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
   refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
   for(double number : {0.5, 1e308}) // where an index must be
@@ -1208,13 +1238,19 @@ void test_gltf()
   auto twice = json; // another mesh with these positions, in the node of the scene
   twice["meshes"].push_back(json["meshes"][0]);
   twice["nodes"][0]["mesh"] = 1;
+  twice["accessors"].push_back(json["accessors"][0]);
+  auto& attributes = twice["meshes"][1]["primitives"][0]["attributes"];
   for(const bool has_normals : {true, false})
   {
     if(!has_normals)
-      twice["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
-    write("bad.gltf", twice.dump());
-    check_refused("bad.gltf" + stay + "precious.off", 1,
-                  "bad.gltf: the accessor 0 has the positions of two nodes in different places");
+      attributes.erase("NORMAL");
+    for(const std::size_t positions : {std::size_t(0), twice["accessors"].size() - 1}) // the same
+    {
+      attributes["POSITION"] = positions;
+      write("bad.gltf", twice.dump());
+      check_refused("bad.gltf" + stay + "precious.off", 1,
+                    " has the positions of two nodes in different places");
+    }
   }
   refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
   refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
@@ -1225,6 +1261,11 @@ void test_gltf()
          "has arrays that are compressed by EXT_meshopt");
   auto shared = json; // the normals of one mesh are those of another
   shared["accessors"].push_back(json["accessors"][0]);
+  shared["accessors"][4]["bufferView"] = json["bufferViews"].size();
+  shared["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 72}});
+  shared["buffers"].push_back({{"byteLength", 72}});
+  const std::string zeros(96, 'A'); // in base64
+  shared["buffers"][1]["uri"] = "data:application/octet-stream;base64," + zeros;
   shared["meshes"].push_back(json["meshes"][0]);
   shared["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = 4;
   shared["nodes"][0]["mesh"] = 1;
@@ -1232,6 +1273,17 @@ void test_gltf()
   check_refused("shared.gltf" + stay + "new.glb", 1,
                 "new.glb: the accessor 3 has the normals or tangents of two sets of positions");
   CHECK(run("shared.gltf" + stay + "shared.off").exit_code == 0);
+  auto overlapping = json; // the normals of each vertex are the positions of another one
+  overlapping["accessors"].push_back(json["accessors"][0]);
+  overlapping["accessors"][4]["byteOffset"] = 12;
+  overlapping["accessors"][4]["count"] = 5;
+  overlapping["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 4;
+  write("overlapping.gltf", overlapping.dump());
+  check_refused("overlapping.gltf" + stay + "new.glb", 1,
+                "new.glb: the accessor 4 shares bytes with others");
+  write("cut.gltf", json.dump() + "\"" + std::string(1000000, 'A'));
+  check_refused("cut.gltf" + stay + "new.off", 1, "cut.gltf: is no glTF that can be read: ");
+  CHECK(run("cut.gltf" + stay + "new.off").err.size() < 200);
   refuse("/accessors/0/count", 7000, "has an accessor that does not fit into its buffer");
   for(const char* pointer : {"/accessors/0/count", "/bufferViews/0/byteOffset"})
     refuse(pointer, -1, "is no glTF that can be read");

@@ -80,6 +80,14 @@ void test_off()
   refuse_at(9, "off", good + "3 0 1 3\n", surplus);
   refuse_at(11, "off", good + "\n# a comment\n 3 0 1 3", surplus);
   accept("comment.off", good + "\n # a comment");
+  // a closed fan of three faces and an open one, which meet in vertex 0, in orders that CGAL takes
+  // for one fan, or not
+  const std::string fans = "OFF\n8 6 0\n0 0 0\n-1 1 0\n-1 -.5 .8\n-1 -.5 -.8\n1 1 0\n1 .2 .9\n"
+                           "1 -.8 .4\n1 -.6 -.7\n";
+  refuse("off", fans + "3 5 0 4\n3 6 7 0\n3 3 1 0\n3 0 1 2\n3 0 2 3\n3 6 0 5\n",
+         "the surface is not a manifold at vertex 0");
+  refuse("off", fans + "3 6 0 5\n3 0 2 3\n3 0 1 2\n3 3 1 0\n3 6 7 0\n3 5 0 4\n",
+         "face 3 does not form a manifold with the previous faces at one of its vertices");
   refuse("off", "OFF\n2147483647 2 0\n" + square, "vertex 4 is missing");
   refuse("off", "OFF\n4 2147483647 0\n" + square + "3 0 1 2\n", "face 1 is missing");
   for(const std::string row : {"1 nan 0", "1 x 0", "1 0", "1,5 0 0", "1e999 0 0", "1 0 0,5",
@@ -136,6 +144,7 @@ void test_obj()
   refuse("obj", square + "f 2 3 4 2\n", "face 1 has a vertex twice");
   refuse("obj", square + "v 2 0 0\nv 2 1 0\nf 1 3 4\nf 1 4 2\nf 1 5 6\n",
          "face 3 does not form a manifold with the previous faces at one of its vertices");
+  refuse_at(1, "obj", "v 0x1 0 0\n" + square, "'0x1' is not a finite number");
   refuse_at(1, "obj", "f 1 2 -3\n" + square, "a face has the vertex '-3', which does not exist");
   for(const std::string corner : {"5", "2147483648", "9223372036854775807"})
     refuse_at(6, "obj", square + "f 1 3 " + corner + "\nf 1 2 4\n",
