@@ -1370,6 +1370,37 @@ void test_small_triangle()
   CHECK(found && found->simplex == 1 && found->coordinates[0] == 1 && found->distance == 1);
 }
 
+// The place that is found is the nearest one in a thin triangle, too, where an error of CGAL's
+// nearest point of the height of the triangle is any error along it.
+void test_thin_triangle()
+{
+  test_case() = "locate, in a thin triangle";
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto any = [&] {
+    const double x = uniform(random), y = uniform(random);
+    return Kernel::Vector_3(x, y, uniform(random));
+  };
+  for(double height : {1e-3, 1e-8, 1e-9, 1e-10, 1e-11})
+    for(int k = 0; k < 1000; ++k)
+    {
+      const Point a = CGAL::ORIGIN + any(), b = CGAL::ORIGIN + any();
+      const Point c = a + (0.5 + 0.4 * uniform(random)) * (b - a) + height * any();
+      std::vector<Point> points = {a, b, c};
+      const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, 2}};
+      const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, triangles);
+      const Point query = c + (0.5 + 0.5 * uniform(random)) * (b - c);
+      if(const auto found = CGAL::ARAP::locate(domain, query)) // not without area
+      {
+        const Point place = CGAL::ARAP::construct_point(domain, *found);
+        CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(place, query)), 1e-14);
+        CHECK_AT_MOST(found->distance, 1e-14);
+      }
+      else
+        CHECK(height < 1e-10);
+    }
+}
+
 // A quad that is not plane is cut along the same diagonal, whichever of its corners is the first.
 void test_folded_quad()
 {
@@ -1571,6 +1602,7 @@ int main()
   locations::test_polygons();
   locations::test_far_flat_triangle();
   locations::test_small_triangle();
+  locations::test_thin_triangle();
   locations::test_folded_quad();
   locations::test_cell_of_other_size();
   locations::test_function();

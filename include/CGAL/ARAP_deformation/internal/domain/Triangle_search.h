@@ -18,9 +18,13 @@
 #include <CGAL/ARAP_deformation/internal/domain/Simplex_search.h>
 #include <CGAL/ARAP_deformation/internal/domain/Triangle_tree.h>
 #include <CGAL/ARAP_deformation/internal/domain/barycentric_coordinates.h>
+#include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,7 +32,7 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Finds the triangle nearest to a point. The coordinates are those of the nearest point, and not
+// Finds the triangle nearest to a point. The coordinates are those of its nearest place, and not
 // negative.
 class Triangle_search final : public Simplex_search<3>
 {
@@ -50,14 +54,46 @@ public:
     if(!nearest)
       return std::nullopt;
     const Triangle_tree::Triangle& triangle = *nearest->triangle;
-    const auto found = *barycentric_coordinates(triangle.corners, nearest->point);
-    // rounding errors at an edge make no coordinate negative
-    const double b = (std::min)((std::max)(found[1], 0.0), 1.0);
-    const double c = (std::min)((std::max)(found[2], 0.0), 1 - b);
-    return Location{triangle.simplex, {1 - b - c, b, c}, nearest->distance * m_tree.extent()};
+    const Place place = nearest_place(triangle.corners, m_tree.scaled(point));
+    return Location{triangle.simplex, place.coordinates, place.distance * m_tree.extent()};
   }
 
 private:
+  struct Place
+  {
+    std::array<double, 3> coordinates;
+    double distance;
+  };
+
+  // The one below the point, or on an edge. CGAL's point is not taken: where a triangle is thin, an
+  // error of its size may be anything in coordinates.
+  static Place nearest_place(const Corners& corners, const Coordinates& point)
+  {
+    Place best = {{1, 0, 0}, (std::numeric_limits<double>::infinity)()};
+    const auto look_at = [&](const std::array<double, 3>& coordinates) {
+      Coordinates way = {0, 0, 0};
+      for(std::size_t k = 0; k < 3; ++k)
+        add(way, coordinates[k], difference(corners[k], point));
+      const double distance = std::sqrt(dot(way, way));
+      if(distance < best.distance)
+        best = {coordinates, distance};
+    };
+    const auto below = *barycentric_coordinates(corners, point);
+    if(*std::min_element(below.begin(), below.end()) >= 0)
+      look_at(below);
+    for(std::size_t k = 0; k < 3; ++k)
+    {
+      const std::size_t next = (k + 1) % 3;
+      const Coordinates edge = difference(corners[next], corners[k]);
+      const double share = dot(difference(point, corners[k]), edge) / dot(edge, edge);
+      std::array<double, 3> coordinates = {0, 0, 0};
+      coordinates[next] = (std::max)(0.0, (std::min)(share, 1.0));
+      coordinates[k] = 1 - coordinates[next];
+      look_at(coordinates);
+    }
+    return best;
+  }
+
   Triangle_search(const std::vector<Corners>& triangles, const std::vector<std::size_t>& numbers)
     : m_tree(triangles, numbers)
   {
