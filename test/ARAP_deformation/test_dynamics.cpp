@@ -544,6 +544,41 @@ void near_a_handle()
   CHECK(deformation.velocity(12)[0] > 0);
 }
 
+// A vertex in a thin simplex only, which has next to no mass: the momentum is what the forces have
+// given to all, and no vertex is thrown away.
+template <int Dimension>
+void force_a_thin_simplex(Minimizer minimizer)
+{
+  for(double height : {0.3, 1e-6, 1e-9, 1e-13, 1e-16, 0.0})
+  {
+    test_case() = std::to_string(Dimension) + "D, a simplex of height " + std::to_string(height);
+    Model model = make_model<Dimension>();
+    const auto first = model.simplices[0];
+    std::vector<std::size_t> facet(first.begin() + 1, first.end());
+    Vector3d center = Vector3d::Zero();
+    for(std::size_t v : facet)
+      center += model.points[v] / double(facet.size());
+    std::reverse(facet.begin(), facet.end()); // oriented as the first one
+    facet.push_back(model.points.size());
+    model.points.push_back(center + height * (center - model.points[first[0]]));
+    model.simplices.push_back(facet);
+    const std::size_t n = model.points.size();
+    std::vector<Point> points = points_of(model.points);
+    Deformation<Dimension> deformation(Soup<Dimension>(points, model.simplices));
+    deformation.insert_roi_vertices(numbers(n));
+    CHECK(deformation.set_options(options(Cell_scheme::spokes_and_rims(), minimizer, 1e-3)));
+    Dynamics dynamics;
+    dynamics.time_step = 0.1;
+    const Vector3d force(0, 0, 0.01);
+    const Step_report report =
+      deformation.advance(dynamics, std::vector<Vector3d>(n, force));
+    CHECK(report.status == Status::converged);
+    const Vector3d momentum = double(n) * dynamics.time_step * force;
+    CHECK_AT_MOST((eigen(report.momentum) - momentum).norm(), 1e-6 * momentum.norm());
+    CHECK_AT_MOST(largest_distance(points, model.points), 0.1);
+  }
+}
+
 // A mesh, another solver and several threads: the same motion as with ranges. With threads alone,
 // the same bits.
 template <typename Deformed>
@@ -630,6 +665,11 @@ int main()
   test_case() = "";
   undo_and_refuse();
   near_a_handle();
+  for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})
+  {
+    force_a_thin_simplex<2>(minimizer);
+    force_a_thin_simplex<3>(minimizer);
+  }
   falling_meshes();
   return checks_result();
 }

@@ -93,6 +93,29 @@ inline Array<double> contents_at_centers(const Region& region)
   return contents;
 }
 
+// The same as the inertia of centers. Thin simplices give their corners next to none, so that any
+// force would throw them away: a center has at least 1e-6 of the square, or the cube, over the
+// longest edge at the first corner of each of its simplices.
+inline Array<double> inertia_at_centers(const Region& region)
+{
+  Array<double> inertia = contents_at_centers(region);
+  for(int s = 0; s < region.number_of_simplices(); ++s)
+  {
+    const Index_range corners = region.corners_of(s);
+    double longest = 0; // squared
+    for(int v : corners)
+    {
+      const Coordinates edge = difference(region.rest[v], region.rest[corners[0]]);
+      longest = (std::max)(longest, dot(edge, edge));
+    }
+    const double least = 1e-6 * longest * (region.dimension == 3 ? std::sqrt(longest) : 1);
+    for(int v : corners)
+      if(v < region.number_of_centers)
+        inertia[v] = (std::max)(inertia[v], least);
+  }
+  return inertia;
+}
+
 } // namespace internal
 } // namespace ARAP
 } // namespace CGAL

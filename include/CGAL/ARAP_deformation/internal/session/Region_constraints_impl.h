@@ -98,7 +98,7 @@ CGAL_ARAP_INLINE_FUNCTION
 void Region_constraints::add_inertia(double weight)
 {
   Array<double>& contents = m_rows.contents;
-  contents = contents_at_centers(m_core.core->region());
+  contents = inertia_at_centers(m_core.core->region());
   contents.resize(m_constraints.is_fixed.size());
   for(int v = 0; v < static_cast<int>(contents.size()); ++v)
     if(m_constraints.is_fixed[v] || !(weight * contents[v] > 0))
