@@ -73,6 +73,13 @@ public:
     const std::size_t n = share(15);
     if(m_gaps.size() < n)
       return largest;
+    // Where weights are large, as those of thin simplices, a solution has larger errors than its
+    // coordinates: what they make of zero goes up and down.
+    const auto lately = report.energy.end() - static_cast<std::ptrdiff_t>(n);
+    if(std::abs(energy) <= epsilon * report.energy_scale &&
+       *std::min_element(report.energy.begin(), lately) <=
+         *std::min_element(lately, report.energy.end()))
+      return 0;
     const double* const end = m_gaps.data() + m_gaps.size();
     const double gap = *std::max_element(end - n, end);
     const double minimum = energy - gap;
@@ -82,6 +89,7 @@ public:
 
 private:
   static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+  static constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
   // some percent of the number of iterations, but not too few to tell anything
   std::size_t share(std::size_t percent) const
