@@ -52,6 +52,19 @@ using CGAL::ARAP::Polygon_soup_domain;
 using CGAL::ARAP::Status;
 using CGAL::ARAP::Tetrahedron_soup_domain;
 
+// a temporary range of simplices, to which the domain would refer, does not compile
+using Cells = std::vector<std::array<std::size_t, 4>>;
+template <typename Range>
+using Polygons_of = decltype(CGAL::ARAP::make_polygon_soup_domain(
+  std::declval<std::vector<Point>&>(), std::declval<Range>()));
+template <typename Range>
+using Tetrahedra_of = decltype(CGAL::ARAP::make_tetrahedron_soup_domain(
+  std::declval<const std::vector<Point>&>(), std::declval<Range>(),
+  std::declval<std::vector<Point>&>()));
+using CGAL::ARAP::internal::is_valid;
+static_assert(is_valid<Polygons_of, const Cells&> && !is_valid<Polygons_of, Cells>);
+static_assert(is_valid<Tetrahedra_of, Cells&> && !is_valid<Tetrahedra_of, const Cells>);
+
 void test_surfaces()
 {
   for(const Shape& shape : shapes())

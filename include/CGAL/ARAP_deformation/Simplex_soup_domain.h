@@ -221,6 +221,15 @@ make_tetrahedron_soup_domain(const PointRange& points, const TetrahedronRange& t
   return {points, tetrahedra, output_points};
 }
 
+#ifndef DOXYGEN_RUNNING
+// A domain would refer to simplices that are no longer there.
+template <typename PointRange, typename PolygonRange, typename... OutputPoints>
+void make_polygon_soup_domain(PointRange&&, const PolygonRange&&, OutputPoints&&...) = delete;
+template <typename PointRange, typename TetrahedronRange, typename... OutputPoints>
+void make_tetrahedron_soup_domain(PointRange&&, const TetrahedronRange&&,
+                                  OutputPoints&&...) = delete;
+#endif
+
 } // namespace ARAP
 } // namespace CGAL
 
