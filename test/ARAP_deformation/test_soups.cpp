@@ -1284,17 +1284,25 @@ void test_flat()
   const auto domain = CGAL::ARAP::make_polygon_soup_domain(inflated, faces);
   CHECK(std::isnan(quality(domain, flat).volume_change));
   CHECK_AT_MOST(std::abs(quality(domain, inflated).volume_change), 1e-14);
-  test_case() = "quality of a flat tetrahedron";
-  Points plane = {{0, 0, 0}, {.1, .2, .3}, {.3, .1, .2}, {.4, .3, .5}};
-  const Points before = plane;
-  for(auto& p : plane)
-    p += Eigen::Vector3d(1, 2, 3);
   const std::vector<std::array<std::size_t, 4>> one = {{0, 1, 2, 3}};
-  const auto tetrahedron = CGAL::ARAP::make_tetrahedron_soup_domain(plane, one);
-  CHECK(quality(tetrahedron, before).inverted_simplices == 0);
-  CHECK(std::isnan(quality(tetrahedron, before).volume_change));
-  for(double change : quality_at_vertices(tetrahedron, Vertex_measure::size_change, before))
-    CHECK(change == 0);
+  for(double way : {0.0, 1.0, 1e3, 1e6})
+    for(int k = 0; k < 20; ++k)
+    {
+      test_case() = "quality of a flat tetrahedron that has moved by " + std::to_string(way);
+      const Points before = {{0, 0, 0}, {.1, .2, .3}, {.3, .1, .2}, {.4, .3, .5}};
+      Points plane;
+      for(const auto& p : before)
+        plane.push_back(Eigen::AngleAxisd(k, Eigen::Vector3d(1, 2, 2) / 3) * p +
+                        way * Eigen::Vector3d(1, 2, 3));
+      const auto tetrahedron = CGAL::ARAP::make_tetrahedron_soup_domain(plane, one);
+      for(const Points& rest : {before, plane})
+      {
+        CHECK(quality(tetrahedron, rest).inverted_simplices == 0);
+        CHECK(std::isnan(quality(tetrahedron, rest).volume_change));
+        for(double change : quality_at_vertices(tetrahedron, Vertex_measure::size_change, rest))
+          CHECK(change == 0);
+      }
+    }
   flat[3].x() = std::nan("");
   CHECK(std::isnan(quality(domain, flat).area_change));
 }

@@ -20,8 +20,11 @@
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace CGAL {
 namespace ARAP {
@@ -45,18 +48,22 @@ double signed_volume(const Corner& corner)
   return dot(edge(3), cross(edge(1), edge(2))) / 6;
 }
 
-// the same, but 0 where it is no more than rounding errors
+// the same, but 0 where it is no more than rounding errors, also those of coordinates
 template <typename Corner>
 double rounded_volume(const Corner& corner)
 {
-  double rounding = 1e-12 / 6;
-  for(std::size_t k = 1; k < 4; ++k)
+  std::array<double, 3> length;
+  double largest = largest_absolute_value(corner(0));
+  for(std::size_t k = 0; k < 3; ++k)
   {
-    const Coordinates edge = difference(corner(k), corner(0));
-    rounding *= std::sqrt(dot(edge, edge));
+    const Coordinates edge = difference(corner(k + 1), corner(0));
+    length[k] = std::sqrt(dot(edge, edge));
+    largest = (std::max)(largest, largest_absolute_value(corner(k + 1)));
   }
+  const auto [a, b, c] = length;
+  const double error = 2 * std::numeric_limits<double>::epsilon() * largest; // of an edge
   const double volume = signed_volume(corner);
-  return std::abs(volume) <= rounding ? 0 : volume;
+  return std::abs(volume) <= (1e-12 * a * b * c + error * (a * b + b * c + c * a)) / 6 ? 0 : volume;
 }
 
 // whether one of two tetrahedra is the other one inside out
