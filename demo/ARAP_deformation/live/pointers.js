@@ -32,12 +32,13 @@ function pressed(event) {
   view.canvas.focus({ preventScroll: true });
   pointers.add(event.pointerId);
   if (pointers.size > 1) {
-    // two fingers turn the view
+    // two fingers change the view
     cancelStroke();
     endDrag(true);
     return;
   }
   view.letTurn(true);
+  view.letMove(page.tool === 'grab'); // one finger turns the view
   if (event.button !== 0 || page.playing) return;
   const [x, y] = at(event);
   if (page.tool === 'grab') {

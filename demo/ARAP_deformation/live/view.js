@@ -106,8 +106,7 @@ export class View {
     this.orbit = new OrbitControls(this.camera, this.canvas);
     if (target) this.orbit.target.copy(target);
     this.orbit.enableDamping = false;
-    this.orbit.touches.TWO = THREE.TOUCH.DOLLY_ROTATE;
-    this.orbit.zoomToCursor = true; // with two fingers there is no other way to what is aside
+    this.orbit.zoomToCursor = true; // where two fingers turn, there is no other way aside
     this.orbit.addEventListener('change', () => {
       this.isDirty = true;
     });
@@ -117,6 +116,11 @@ export class View {
   letTurn(does) {
     this.orbit.mouseButtons.LEFT = does ? THREE.MOUSE.ROTATE : -1;
     this.orbit.touches.ONE = does ? THREE.TOUCH.ROTATE : -1;
+  }
+
+  // whether two fingers move the view as they zoom; else they turn it
+  letMove(does) {
+    this.orbit.touches.TWO = does ? THREE.TOUCH.DOLLY_PAN : THREE.TOUCH.DOLLY_ROTATE;
   }
 
   resize() {

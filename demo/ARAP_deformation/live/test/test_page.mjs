@@ -1478,6 +1478,29 @@ const steps = {
     assert.equal((await settled(phone)).handles.length, before);
     await phone.touchscreen.tap(...(await onPage([[0, 0, 0.4]], phone))[0]);
     assert.equal((await settled(phone)).handles.length, before + 1);
+    // two fingers move the view, and turn it where one paints
+    const lookTo = () =>
+      phone.evaluate(() => {
+        const { camera } = window.arap.view;
+        return [camera.position.toArray(), camera.quaternion.toArray()];
+      });
+    const moveTwoFingers = async () => {
+      const fingers = [await phone.touchscreen.touchStart(40, 600)];
+      fingers.push(await phone.touchscreen.touchStart(80, 600));
+      for (let k = 1; k <= 10; ++k)
+        for (const [i, f] of fingers.entries()) await f.move(40 * (i + 1) + 5 * k, 600 + 5 * k);
+      for (const f of fingers) await f.end();
+      await rest(100);
+      return lookTo();
+    };
+    await phone.tap('[data-tool=grab]');
+    const start = await lookTo(),
+      moved = await moveTwoFingers();
+    assert(largestDifference(moved[0], start[0]) > 0.01, 'two fingers move the view');
+    assert(largestDifference(moved[1], start[1]) < 1e-6, 'and do not turn it');
+    await phone.tap('[data-tool=brush]');
+    const turned = await moveTwoFingers();
+    assert(largestDifference(turned[1], moved[1]) > 0.01, 'two fingers turn it where one paints');
     await phone.close();
   },
 
