@@ -176,11 +176,12 @@ inline void check_several(const std::string& option, std::size_t values)
                                          : "--stiffness: expected WHAT K, such as z:..20% 10");
 }
 
-// -o or --move, but neither -1,0,0 nor -
+// --move or -o, but not -1,0,0, -x.off, -1 and -
 inline bool is_option(const std::string& argument)
 {
   return argument.rfind("--", 0) == 0 ||
-         (argument[0] == '-' && std::isalpha(static_cast<unsigned char>(argument[1])) != 0);
+         (argument.size() == 2 && argument[0] == '-' &&
+          std::isalpha(static_cast<unsigned char>(argument[1])) != 0);
 }
 
 // Reads --rotate AXIS ANGLE [X,Y,Z] or --stiffness WHAT K as one option, also if a value begins

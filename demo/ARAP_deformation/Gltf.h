@@ -54,28 +54,6 @@ public:
   {
     std::size_t buffer, begin, stride, size;
     int component;
-    std::size_t bytes; // of an element
-
-    bool operator==(const Array& other) const
-    {
-      return buffer == other.buffer && begin == other.begin && stride == other.stride &&
-             size == other.size && bytes == other.bytes;
-    }
-
-    // whether they have bytes in common: not if they are interleaved
-    bool overlaps(const Array& other) const
-    {
-      if(buffer != other.buffer || size == 0 || other.size == 0 || end() <= other.begin ||
-         other.end() <= begin)
-        return false;
-      if(stride != other.stride || stride == 0)
-        return true;
-      const std::size_t way = (stride + other.begin % stride - begin % stride) % stride;
-      return way < bytes || way + other.bytes > stride;
-    }
-
-  private:
-    std::size_t end() const { return begin + stride * (size - 1) + bytes; }
   };
 
   Json json;
@@ -138,9 +116,10 @@ public:
   std::vector<std::string> names_of_files(const char* parts) const
   {
     std::vector<std::string> names;
-    for(const Json& part : json.value(parts, Json::array()))
-      if(const std::string uri = part.value("uri", "data:"); uri.rfind("data:", 0) != 0)
-        names.push_back(decoded(uri));
+    if(json.contains(parts))
+      for(const Json& part : json[parts])
+        if(part.contains("uri") && part["uri"].get_ref<const std::string&>().rfind("data:", 0) != 0)
+          names.push_back(decoded(part["uri"]));
     return names;
   }
 
@@ -173,18 +152,18 @@ public:
       refuse_extension(view, extension, "arrays that are compressed");
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
-    result.bytes = (result.component == BYTE_INDEX    ? 1
-                    : result.component == SHORT_INDEX ? 2
-                                                      : 4) *
-                   (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
+    const std::size_t bytes = (result.component == BYTE_INDEX    ? 1
+                               : result.component == SHORT_INDEX ? 2
+                                                                 : 4) *
+                              (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
     result.buffer = whole(view.at("buffer"));
     if(result.buffer >= buffers.size())
       throw std::runtime_error("has an accessor in a buffer that does not exist");
     result.begin = whole(view, "byteOffset", 0) + whole(accessor, "byteOffset", 0);
-    result.stride = whole(view, "byteStride", result.bytes);
+    result.stride = whole(view, "byteStride", bytes);
     result.size = whole(accessor.at("count"));
     const double end = double(result.begin) + double(result.stride) * (double(result.size) - 1) +
-                       double(result.bytes);
+                       double(bytes);
     if(!(double(result.size) <= end && end <= double(buffers[result.buffer].size())))
       throw std::runtime_error("has an accessor that does not fit into its buffer");
     return result;

@@ -24,6 +24,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -35,6 +36,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,11 +58,13 @@ public:
     {
       m_images = m_gltf.names_of_files("images");
       m_gltf.check_required_extensions();
-      for(const auto& node : m_gltf.json.value("nodes", Gltf::Json::array())) // of all scenes
-        if(node.contains("mesh"))
-          ++m_uses[Gltf::whole(node["mesh"])];
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
+      for(std::size_t node = 0; node < m_gltf.json["nodes"].size(); ++node)
+        if(const auto& other = m_gltf.json["nodes"][node];
+           m_nodes.count(node) == 0 && other.contains("mesh") &&
+           m_meshes.count(Gltf::whole(other["mesh"])) > 0)
+          m_shared_mesh = Gltf::whole(other["mesh"]);
     }
     catch(const Gltf::Json::exception& error)
     {
@@ -90,9 +94,9 @@ public:
     check_format(file, format, m_mesh);
     if(!is_gltf_format(format))
       return;
-    if(m_overlapping)
-      throw std::runtime_error(file + ": the accessor " + std::to_string(*m_overlapping) +
-                               " shares bytes with others, which would move in another way");
+    if(m_shared_mesh)
+      throw std::runtime_error(file + ": the mesh " + std::to_string(*m_shared_mesh) +
+                               " is used by a node that is not in the scene, too");
     if(m_shared_directions)
       throw std::runtime_error(file + ": the accessor " + std::to_string(*m_shared_directions) +
                                " has the normals or tangents of two sets of positions, which "
@@ -139,14 +143,8 @@ private:
     std::set<std::size_t> tangents; // their accessors
   };
 
-  // positions, normals or tangents, and the accessors that have them
-  struct Moved
-  {
-    std::size_t first;
-    Gltf::Array array;
-    std::string use;
-    std::set<std::size_t> aliases;
-  };
+  // the use and the place of positions, normals or tangents
+  using Moved = std::tuple<std::string, std::size_t, std::size_t, std::size_t, std::size_t>;
 
   static Eigen::Vector3d vector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
   static std::array<double, 3> coordinates(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
@@ -205,7 +203,7 @@ private:
         throw std::runtime_error("the node " + std::to_string(index) + " has a skin; only rigid "
                                  "nodes can be deformed");
       Gltf::refuse_extension(node, "EXT_mesh_gpu_instancing", "a node that is repeated");
-      if(m_uses[mesh] > 1)
+      if(!m_meshes.insert(mesh).second)
         throw std::runtime_error("the mesh " + std::to_string(mesh) + " is used by two nodes");
       if(!(std::abs(to_scene.linear().determinant()) > 0))
         throw std::runtime_error("the node " + std::to_string(index) + " is flattened");
@@ -239,11 +237,6 @@ private:
     if(tangents)
       tangents = first_alias(*tangents, "TANGENT");
     const Gltf::Array positions = m_gltf.array(accessors.first, "VEC3");
-    if(positions.component != Gltf::FLOAT ||
-       (accessors.second && m_gltf.array(*accessors.second, "VEC3").component != Gltf::FLOAT) ||
-       (tangents && m_gltf.array(*tangents, "VEC4").component != Gltf::FLOAT))
-      throw std::runtime_error("has positions, normals or tangents that are quantized");
-
     const auto same = m_pieces.lower_bound({accessors.first, std::nullopt}); // with any normals
     if(same != m_pieces.end() && same->first.first == accessors.first &&
        same->second.to_scene.matrix() != to_scene.matrix())
@@ -295,23 +288,16 @@ private:
     }
   }
 
-  // The first accessor of this use with the same bytes. Notes what shares only some of them, or has
-  // another use.
+  // the first accessor of this use that has the same elements, which are moved once
   std::size_t first_alias(std::size_t accessor, const std::string& use)
   {
-    const Gltf::Array array = m_gltf.array(accessor, use == "TANGENT" ? "VEC4" : "VEC3");
-    for(Moved& other : m_moved)
-      if(array.overlaps(other.array))
-      {
-        if(use == other.use && array == other.array)
-        {
-          other.aliases.insert(accessor);
-          return other.first;
-        }
-        m_overlapping = accessor;
-      }
-    m_moved.push_back({accessor, array, use, {accessor}});
-    return accessor;
+    const Gltf::Array a = m_gltf.array(accessor, use == "TANGENT" ? "VEC4" : "VEC3");
+    if(a.component != Gltf::FLOAT)
+      throw std::runtime_error("has positions, normals or tangents that are quantized");
+    std::vector<std::size_t>& aliases = m_aliases[{use, a.buffer, a.begin, a.stride, a.size}];
+    if(std::find(aliases.begin(), aliases.end(), accessor) == aliases.end())
+      aliases.push_back(accessor);
+    return aliases[0];
   }
 
   void move_vertices(Gltf& gltf) const
@@ -329,9 +315,9 @@ private:
       for(std::size_t tangents : piece.tangents)
         turn(gltf, gltf.array(tangents, "VEC4"), m, piece);
     }
-    for(const Moved& moved : m_moved)
-      if(moved.use == "POSITION")
-        for(std::size_t accessor : moved.aliases)
+    for(const auto& [moved, aliases] : m_aliases)
+      if(std::get<0>(moved) == "POSITION")
+        for(std::size_t accessor : aliases)
           gltf.update_bounds(accessor);
   }
 
@@ -370,10 +356,9 @@ private:
   std::filesystem::path m_folder;
   std::vector<std::string> m_images; // in files of their own
   bool m_are_images_left = false;
-  std::set<std::size_t> m_nodes; // that were read
-  std::map<std::size_t, int> m_uses; // of each mesh
-  std::vector<Moved> m_moved;
-  std::optional<std::size_t> m_overlapping; // an accessor that shares bytes with another one
+  std::set<std::size_t> m_nodes, m_meshes; // that were read
+  std::optional<std::size_t> m_shared_mesh; // with a node that was not
+  std::map<Moved, std::vector<std::size_t>> m_aliases; // their accessors
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
   std::optional<std::size_t> m_shared_directions;    // one of several positions

@@ -519,6 +519,17 @@ void test_rotations_between_runs(double low, double high)
     d.set_target_position(inner[0], target);
   }) == expected);
   CHECK(run([](Deformation& d, const std::vector<Vertex>&) { CHECK(d.preprocess()); }) == expected);
+  CHECK(run([middle](Deformation& d, const std::vector<Vertex>&) {
+    const CGAL::ARAP::Matrix_3x3 before = d.rotation(middle);
+    const auto state = d.state();
+    CHECK(d.deform(3, 0));
+    CHECK(d.rotation(middle) == identity);
+    CHECK(d.restore(state));
+    CHECK(d.rotation(middle) == before);
+    CHECK(d.preprocess());
+    CHECK(d.restore(d.state()));
+    CHECK(d.rotation(middle) == before);
+  }) == expected);
 
   const std::vector<double> after_a_run =
     run([](Deformation& d, const std::vector<Vertex>&) { CHECK(d.deform(3, 0)); });

@@ -64,6 +64,10 @@ using Tetrahedra_of = decltype(CGAL::ARAP::make_tetrahedron_soup_domain(
 using CGAL::ARAP::internal::is_valid;
 static_assert(is_valid<Polygons_of, const Cells&> && !is_valid<Polygons_of, Cells>);
 static_assert(is_valid<Tetrahedra_of, Cells&> && !is_valid<Tetrahedra_of, const Cells>);
+template <typename Points>
+using Output_of = decltype(CGAL::ARAP::make_polygon_soup_domain(
+  std::declval<Points>(), std::declval<const Cells&>(), std::declval<std::vector<Point>&>()));
+static_assert(is_valid<Output_of, std::vector<Point>&> && !is_valid<Output_of, std::vector<Point>>);
 
 void test_surfaces()
 {

@@ -222,12 +222,17 @@ make_tetrahedron_soup_domain(const PointRange& points, const TetrahedronRange& t
 }
 
 #ifndef DOXYGEN_RUNNING
-// A domain would refer to simplices that are no longer there.
+// A domain would refer to simplices, or points that are only read, that are no longer there.
 template <typename PointRange, typename PolygonRange, typename... OutputPoints>
 void make_polygon_soup_domain(PointRange&&, const PolygonRange&&, OutputPoints&&...) = delete;
 template <typename PointRange, typename TetrahedronRange, typename... OutputPoints>
 void make_tetrahedron_soup_domain(PointRange&&, const TetrahedronRange&&,
                                   OutputPoints&&...) = delete;
+template <typename PointRange, typename PolygonRange>
+void make_polygon_soup_domain(const PointRange&&, const PolygonRange&, PointRange&) = delete;
+template <typename PointRange, typename TetrahedronRange>
+void make_tetrahedron_soup_domain(const PointRange&&, const TetrahedronRange&,
+                                  PointRange&) = delete;
 #endif
 
 } // namespace ARAP

@@ -106,9 +106,9 @@ class Place:
 
 
 def _any_array(name: str, value: ArrayLike, what: str = "numbers") -> NDArray[Any]:
-    """A copy of any shape and type."""
+    """An array of any shape and type."""
     try:
-        return np.array(value)
+        return np.asarray(value)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} must be an array of {what}: {error}") from None
 
@@ -116,7 +116,7 @@ def _any_array(name: str, value: ArrayLike, what: str = "numbers") -> NDArray[An
 def _array(name: str, value: ArrayLike, kinds: str, shape: Sequence[Optional[int]]) -> NDArray[Any]:
     """A copy with the shape; None is any number. An empty list is an array of any dimension."""
     what = "numbers" if "f" in kinds else "integers"
-    array = _any_array(name, value, what)
+    array = np.array(_any_array(name, value, what))
     if array.size == 0 and array.ndim == 1 and array.dtype.kind in "fiu":
         array = array.astype(np.int64).reshape([0] + [k or 3 for k in shape[1:]])
     if array.dtype.kind not in kinds:
@@ -165,7 +165,9 @@ def _simplices(name: str, value: Any, corners: Optional[int] = None) -> NDArray[
 
 def _pair(what: str, indices: Any, name: str, points: Any) -> Tuple[NDArray[Any], Floats]:
     """Indices with (k, 3) numbers, or one index with (3,)."""
-    return _indices(what, indices), _rows(name, points, 3)
+    one = _any_array(what, indices, "integers").ndim == 0
+    return _indices(what, indices), (_rows(name, points, 3) if one
+                                     else _floats(name, points, None, 3))
 
 
 def _rows(name: str, value: ArrayLike, *shape: int) -> Floats:

@@ -54,7 +54,6 @@ public:
   // in the unit of the tree
   struct Nearest
   {
-    Coordinates point;
     const Triangle* triangle;
     double distance;
   };
@@ -95,8 +94,7 @@ public:
       return std::nullopt;
     const Point query(c[0], c[1], c[2]);
     const auto [nearest, triangle] = m_tree.closest_point_and_primitive(query);
-    return Nearest{{nearest.x(), nearest.y(), nearest.z()}, triangle,
-                   std::sqrt(CGAL::squared_distance(query, nearest))};
+    return Nearest{triangle, std::sqrt(CGAL::squared_distance(query, nearest))};
   }
 
   // adds the triangles within a distance, in the unit of the tree, of a point that is not scaled

@@ -27,7 +27,6 @@
 #include <CGAL/ARAP_deformation/internal/solver/Constrained_system.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>

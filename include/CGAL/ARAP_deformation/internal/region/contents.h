@@ -102,18 +102,25 @@ inline Array<double> contents_at_centers(const Region& region)
 
 // The same as the inertia of centers. Thin simplices give their corners next to none, so that any
 // force would throw them away: a center has at least 1e-6 of the square, or the cube, over the
-// longest edge at the first corner of each of its simplices.
+// longest edge of its simplices.
 inline Array<double> inertia_at_centers(const Region& region)
 {
   Array<double> inertia = contents_at_centers(region);
   for(int s = 0; s < region.number_of_simplices(); ++s)
   {
     const Index_range corners = region.corners_of(s);
+    const auto n = static_cast<std::size_t>(corners.size());
     double longest = 0; // squared
-    for(int v : corners)
-    {
-      const Coordinates edge = difference(region.rest[v], region.rest[corners[0]]);
+    const auto look_at = [&](std::size_t k, std::size_t l) {
+      const Coordinates edge = difference(region.rest[corners[k]], region.rest[corners[l]]);
       longest = (std::max)(longest, dot(edge, edge));
+    };
+    for(std::size_t k = 0; k < n; ++k)
+      look_at(k, (k + 1) % n);
+    if(region.dimension == 3) // the other two edges
+    {
+      look_at(0, 2);
+      look_at(1, 3);
     }
     const double least = 1e-6 * longest * (region.dimension == 3 ? std::sqrt(longest) : 1);
     for(int v : corners)

@@ -198,6 +198,7 @@ public:
     Array<Coordinates> positions;
     Cell_rotations<Domain> cells;
     double inertia; // of the constraints
+    Cell_rotations<Domain> cells_here = {}; // in the region that there is, if it is another one
   };
 
   State state() const
@@ -214,15 +215,15 @@ public:
   // whether stiffness and lengths are those of a state
   bool has_values_of(const State& state) const { return state.present.values == m_present.values; }
 
-  // Makes positions and rotations of a state those of the region that there is, if it serves for
-  // the state. find_present(v) is where a vertex with an entry is in the state.
+  // Makes positions of a state those of the region that there is, if it serves for the state, and
+  // finds the rotations there. find_present(v) is where a vertex with an entry is in the state.
   template <typename Function>
   void renumber(State& state, const Domain& domain, const Function& find_present) const
   {
     if(!has_region_of(state.present))
       return;
     if(state.cells.region && state.cells.region != m_prepared->region)
-      state.cells = m_prepared->rotations_from(state.cells, domain);
+      state.cells_here = m_prepared->rotations_from(state.cells, domain);
     if(m_prepared->numbering == state.numbering)
       return;
     Array<Coordinates> positions = m_prepared->positions;
@@ -241,14 +242,14 @@ public:
     m_present.values = values;
     if(is_inertia_other)
       constraints_changed();
-    m_last = Cell_rotations<Domain>();
-    if(!has_region())
+    const bool is_here = has_region() && !state.cells_here.region;
+    Cell_rotations<Domain>& cells = is_here ? state.cells : state.cells_here;
+    if(has_region())
     {
-      m_last = std::move(state.cells);
-      return;
+      m_prepared->positions.swap(state.positions);
+      core().set_rotations(std::move(cells.rotations), cells.are_complete);
     }
-    m_prepared->positions.swap(state.positions);
-    core().set_rotations(std::move(state.cells.rotations), state.cells.are_complete);
+    m_last = is_here ? Cell_rotations<Domain>() : std::move(state.cells);
   }
 
 private:
@@ -285,7 +286,6 @@ private:
       return outcome(Status::no_simplex);
 
     std::unique_ptr<Built_region<Domain>> next;
-    Cell_rotations<Domain> replaced;
     if(needs_region(vertices, roi_size, number_of_fixed))
     {
       stages.region = stages.weights = true;
@@ -296,10 +296,10 @@ private:
                                                     is_whole(roi_size, number_of_fixed));
       if(Outcome made = next->make(vertices, values, m_models, options, m_rules); !made)
         return made;
-      if(!m_last.region && m_prepared && (m_rules.are_rotations_kept || has_region()))
-        replaced = m_prepared->rotations_of_cells();
-      if(const auto& last = m_last.region ? m_last : replaced; last.region)
-        next->take_rotations(last, vertices.domain());
+      if(m_last.region)
+        next->take_rotations(m_last, vertices.domain());
+      else if(m_prepared && (m_rules.are_rotations_kept || has_region()))
+        next->take_rotations(m_prepared->rotations_of_cells(), vertices.domain());
     }
     else if(has_other_values())
     {
@@ -333,8 +333,8 @@ private:
       if(!m_rules.are_erased_put_back) // CGAL's class reads them again
         for(vertex_descriptor v : next->region->vertices)
           vertices.keep_rest(v);
-      if(!m_rules.are_rotations_kept && !replaced.rotations.empty())
-        m_last = std::move(replaced);
+      if(has_region() && !next->is_whole && !m_last.region && !core().rotations().empty())
+        m_last = m_prepared->rotations_of_cells();
       m_prepared = std::move(next);
     }
     m_rows = std::move(constraints.rows());

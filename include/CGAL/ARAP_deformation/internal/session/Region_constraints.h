@@ -37,8 +37,8 @@ struct Region_rows
   std::vector<std::size_t> controls; // all control vertices, by the places of their entries
   std::vector<int> soft_vertices; // their numbers in the region: the first soft rows
   std::vector<Control_point> soft_points, hard_points; // the next ones, and the hard rows
-  // If there is inertia, for each movable vertex its share in the area or volume, or 0 if it is
-  // fixed. Those of the others are the last soft rows.
+  // If there is inertia, for each movable vertex its share in the area or volume, or what thin
+  // simplices have instead; 0 if it is fixed. Those of the others are the last soft rows.
   Array<double> contents;
   std::vector<std::size_t> isolated_controls; // those without an incident simplex, by index
 };
