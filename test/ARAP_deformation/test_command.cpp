@@ -1074,6 +1074,30 @@ void test_gltf()
   rest["buffers"] = json["buffers"];
   CHECK(rest == json); // all else is kept
 
+  test_case() = "two glTF accessors of the same positions";
+  auto alias = json; // a primitive for each triangle
+  alias["buffers"].push_back({{"byteLength", 12},
+                              {"uri", "data:application/octet-stream;base64,AAABAAIAAwAEAAUA"}});
+  alias["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 12}});
+  alias["accessors"].push_back(json["accessors"][0]);
+  auto& primitives = alias["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[1]["attributes"]["POSITION"] = 4;
+  for(std::size_t k = 0; k < 2; ++k)
+  {
+    alias["accessors"].push_back({{"bufferView", 2}, {"byteOffset", 6 * k}, {"count", 3},
+                                  {"componentType", 5123}, {"type", "SCALAR"}});
+    primitives[k]["indices"] = 5 + k;
+  }
+  write("alias.gltf", alias.dump());
+  CHECK(run("alias.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o alias.glb --quiet").exit_code ==
+        0);
+  const Glb twice_named = read_glb("alias.glb");
+  CHECK(twice_named.numbers == glb.numbers);
+  for(const char* bound : {"min", "max"})
+    for(std::size_t k : {std::size_t(0), std::size_t(4)})
+      CHECK(twice_named.json["accessors"][k][bound] == glb.json["accessors"][0][bound]);
+
   test_case() = "parts of a glTF input are no outputs";
   write("red.png", "a picture");
   auto with_image = json;
