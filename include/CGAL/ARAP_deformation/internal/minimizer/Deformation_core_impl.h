@@ -348,8 +348,8 @@ Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
   return blended_rotations(space, rotations, core.m_state->energy.fitted_cells());
 }
 
-// Whether what a part's energy depends on is all in the part: cells do not depend on others that
-// are far away.
+// Whether the energy of each part depends on that part alone: no cell depends on others that are
+// far away.
 CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::is_local(const Targets& targets) const
 {
