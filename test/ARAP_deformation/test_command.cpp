@@ -390,11 +390,15 @@ void test_polygons()
       CHECK(result.degree(f) == (std::size_t(f) < 2 ? 8 : 4));
     if(extension == "ply")
       continue; // CGAL writes points there as float or as double, depending on the version
+    // not the same bits: the command is optimized in another way, with other fused operations
     for(auto v : mesh.vertices())
-      CHECK(result.point(v) == mesh.point(v));
+      CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(result.point(v), mesh.point(v))), 1e-14);
     const auto json = nlohmann::json::parse(content(folder / "r.json"));
     CHECK(json["simplices"] == faces.size());
-    CHECK(json["energy"].get<std::vector<double>>() == report.energy);
+    const auto energy = json["energy"].get<std::vector<double>>();
+    CHECK(energy.size() == report.energy.size());
+    for(std::size_t k = 0; k < energy.size() && k < report.energy.size(); ++k)
+      CHECK_AT_MOST(std::abs(energy[k] - report.energy[k]), 1e-13 * report.energy[0]);
     CHECK_AT_MOST(std::abs(json["edge_length_error"].get<double>() -
                            CGAL::ARAP::quality(mesh, rest.points()).edge_length_error),
                   1e-14);
