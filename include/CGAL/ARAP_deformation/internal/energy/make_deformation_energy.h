@@ -50,8 +50,8 @@ template <typename Function>
 void for_each_facet(const Region& region, int s, const Function& f)
 {
   const Index_range corners = region.corners_of(s);
-  const int n = corners.size();
-  for(int k = 0; k < n; ++k)
+  const auto n = static_cast<std::size_t>(corners.size());
+  for(std::size_t k = 0; k < n; ++k)
   {
     std::array<int, 3> facet = {corners[k], corners[(k + 1) % n], -1};
     if(region.dimension == 3)

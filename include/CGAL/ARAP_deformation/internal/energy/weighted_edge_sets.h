@@ -109,7 +109,8 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
                          scaled_catalan[n - c + a - 1] / (4 * scaled_catalan[n - 2]));
   };
   const auto area = [&](int a, int b, int c) {
-    return relative_area(corner_points<3>(region, {corners[a], corners[b], corners[c]}));
+    return relative_area(
+      corner_points<3>(region, {corners.first[a], corners.first[b], corners.first[c]}));
   };
   constexpr double negligible = 1e-3; // above the rounding errors of float points
   double largest_area = 0;
@@ -122,7 +123,7 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
     const double relative_area = (std::min)(area(a, b, c) / negligible, 1.0);
     fraction *= (std::max)(relative_area * relative_area, smallest_share);
     const std::array<double, 3> w =
-      triangle_weights(model, region, corners[a], corners[b], corners[c]);
+      triangle_weights(model, region, corners.first[a], corners.first[b], corners.first[c]);
     weight(a, b) += fraction * w[0];
     weight(a, c) += fraction * w[1];
     weight(b, c) += fraction * w[2];
