@@ -42,6 +42,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 // The domain of ranges: triangles against a mesh, edges with three faces, faces of either
@@ -52,7 +53,8 @@ using CGAL::ARAP::Polygon_soup_domain;
 using CGAL::ARAP::Status;
 using CGAL::ARAP::Tetrahedron_soup_domain;
 
-// a temporary range of simplices, to which the domain would refer, does not compile
+// a temporary range of simplices, or of points that are only read, to which the domain would refer,
+// does not compile
 using Cells = std::vector<std::array<std::size_t, 4>>;
 template <typename Range>
 using Polygons_of = decltype(CGAL::ARAP::make_polygon_soup_domain(
@@ -68,6 +70,12 @@ template <typename Points>
 using Output_of = decltype(CGAL::ARAP::make_polygon_soup_domain(
   std::declval<Points>(), std::declval<const Cells&>(), std::declval<std::vector<Point>&>()));
 static_assert(is_valid<Output_of, std::vector<Point>&> && !is_valid<Output_of, std::vector<Point>>);
+using Points = std::vector<Point>;
+using Soup = Polygon_soup_domain<Points, Cells>;
+static_assert(std::is_constructible_v<Soup, Points&, const Cells&>);
+static_assert(!std::is_constructible_v<Soup, Points&, Cells>);
+static_assert(!std::is_constructible_v<Soup, const Points&, Cells, Points&>);
+static_assert(!std::is_constructible_v<Soup, Points, const Cells&, Points&>);
 
 void test_surfaces()
 {

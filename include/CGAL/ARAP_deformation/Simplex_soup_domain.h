@@ -99,6 +99,13 @@ public:
                                   std::to_string(output_points.size()) + " output points");
   }
 
+#ifndef DOXYGEN_RUNNING
+  // They would refer to simplices, or points that are only read, that are no longer there.
+  Simplex_soup_domain(PointRange&, const SimplexRange&&) = delete;
+  Simplex_soup_domain(const PointRange&, const SimplexRange&&, PointRange&) = delete;
+  Simplex_soup_domain(const PointRange&&, const SimplexRange&, PointRange&) = delete;
+#endif
+
   /// returns `v`.
   /// \pre `v` is smaller than the number of points. In Release all functions that take a vertex or
   ///      a simplex, except `is_simplex()`, throw `std::out_of_range` if it does not exist.

@@ -56,7 +56,10 @@ public:
 
   int size() const { return m_free.size(); }
 
-  // the part of a movable vertex; negative if it is fixed, or if nothing ties it to free ones
+  // whether a vertex of the region is movable, not fixed, and tied to others that are
+  bool is_free(int v) const { return v < static_cast<int>(m_part.size()) && m_part[v] >= 0; }
+
+  // the part of a movable vertex; negative if it is not free
   int part_of(int v) const { return m_part[v]; }
 
   Index_range free_vertices(int part) const { return m_free.list(part); }
@@ -72,8 +75,6 @@ public:
 private:
   using Pairs = std::vector<std::pair<int, int>>;
   using Row = Weighted_rows::Row;
-
-  bool is_free(int v) const { return v < static_cast<int>(m_part.size()) && m_part[v] >= 0; }
 
   bool is_constraint(int v) const
   {

@@ -168,12 +168,10 @@ private:
       m_motions.push_back({part, before, after, is_at_rest});
   }
 
-  bool is_free(int v) const
+  bool is_deformed(int v) const
   {
-    return v < m_region.number_of_movable_vertices && m_parts.part_of(v) >= 0;
+    return m_parts.is_free(v) && m_motion_of[m_parts.part_of(v)] >= 0;
   }
-
-  bool is_deformed(int v) const { return is_free(v) && m_motion_of[m_parts.part_of(v)] >= 0; }
 
   // Whether the cell of each vertex, all simplices there that have free vertices only, is turned by
   // 120 degrees or more, which is any angle, against the motion before of its part.
@@ -239,7 +237,7 @@ private:
     for(int s = 0; s < m_region.number_of_simplices(); ++s)
     {
       const auto [begin, end] = m_region.corners_of(s);
-      if(std::any_of(begin, end, [&](int v) { return is_free(v) && !is_deformed(v); }))
+      if(std::any_of(begin, end, [&](int v) { return m_parts.is_free(v) && !is_deformed(v); }))
         continue;
       const int* const first = std::find_if(begin, end, [&](int v) { return !is_turned[v]; });
       for(const int* v = first; v != end; ++v)

@@ -85,8 +85,7 @@ void find_torn(const Constraints& constraints, const Targets& targets, const Par
   for(int r = 0; r < constraints.rows.size(); ++r)
   {
     const auto row = constraints.rows.row(r);
-    const auto v =
-      std::find_if(row.begin(), row.end(), [&](int u) { return parts.part_of(u) >= 0; });
+    const auto v = std::find_if(row.begin(), row.end(), [&](int u) { return parts.is_free(u); });
     const int part = v == row.end() ? -1 : parts.part_of(*v);
     if(part < 0 || is_torn[part])
       continue;
