@@ -87,7 +87,7 @@ void add(const Report& report)
     double(stages.order), double(stages.factor), double(stages.border), seconds.preprocess,
     seconds.transfer, seconds.initial_guess, seconds.local_steps, seconds.global_steps,
     seconds.visitor, seconds.total, double(report.end), double(report.saddles_left),
-    double(report.plateaus_left), double(report.looking_iterations),
+    double(report.plateaus_left), double(report.looking_iterations), double(report.initial_guess),
     double(report.unconstrained_components.size())});
   add(report.unconstrained_components);
   add(report.energy);

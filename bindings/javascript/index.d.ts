@@ -125,6 +125,8 @@ export interface Step {
 export interface Report {
   status: Status;
   message: string;
+  /** which was taken */
+  initialGuess: 'previous' | 'rotations' | 'laplacian';
   iterations: number;
   /** of the initial guess, and after each iteration */
   energy: Float64Array;

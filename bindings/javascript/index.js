@@ -11,6 +11,7 @@ export class ArapError extends Error {
 }
 
 const ends = ['unknown', 'minimum', 'flat', 'undecided'];
+const initialGuesses = ['automatic', 'previous', 'rotations', 'laplacian'];
 
 async function machineCode() {
   const url = new URL('./arap.wasm', import.meta.url);
@@ -156,11 +157,12 @@ export async function load({ wasmBinary } = {}) {
   const answer = () => heapNumbers(module._arap_numbers(), module._arap_size()).slice();
 
   function reportOf(a) {
-    const firstEnergy = 24 + a[23],
+    const firstEnergy = 25 + a[24],
       energy = a.slice(firstEnergy);
     return {
       status: text(module._arap_status()),
       message: text(module._arap_message()),
+      initialGuess: initialGuesses[a[23]],
       iterations: a[0],
       energyScale: a[1],
       roundingLevel: a[2],
@@ -188,7 +190,7 @@ export async function load({ wasmBinary } = {}) {
         visitor: a[17],
         total: a[18],
       },
-      unconstrainedComponents: Int32Array.from(a.subarray(24, firstEnergy)),
+      unconstrainedComponents: Int32Array.from(a.subarray(25, firstEnergy)),
       energy,
       finalEnergy: energy.length > 0 ? energy.at(-1) : NaN,
     };

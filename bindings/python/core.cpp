@@ -107,7 +107,8 @@ py::dict result(const Report& r)
 {
   const Phase_seconds& s = r.seconds;
   return py::dict(
-    "status"_a = to_string(r.status), "message"_a = r.message, "iterations"_a = r.iterations,
+    "status"_a = to_string(r.status), "message"_a = r.message,
+    "initial_guess"_a = to_string(r.initial_guess), "iterations"_a = r.iterations,
     "energy"_a = result(r.energy), "energy_scale"_a = r.energy_scale,
     "rounding_level"_a = r.rounding_level, "estimated_relative_gap"_a = r.estimated_relative_gap,
     "free_vertices"_a = r.free_vertices, "simplices"_a = r.simplices,

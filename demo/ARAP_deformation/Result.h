@@ -88,6 +88,7 @@ inline void write_report(Output_file& file, const Result& result)
   json["vertices"] = result.vertices;
   json["simplices"] = result.simplices;
   json["free_vertices"] = report.free_vertices;
+  json["initial_guess"] = to_string(report.initial_guess);
   json["iterations"] = report.iterations;
   json["energy"] = report.energy;
   json["estimated_relative_gap"] = nullptr;

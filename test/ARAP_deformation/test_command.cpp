@@ -169,6 +169,7 @@ void test_success()
   CHECK(json["vertices"] == mesh.number_of_vertices());
   CHECK(json["simplices"] == mesh.number_of_faces());
   CHECK(json["free_vertices"] == report.free_vertices);
+  CHECK(json["initial_guess"] == to_string(report.initial_guess));
   CHECK(json["iterations"] == 30);
   const auto energy = json["energy"].get<std::vector<double>>();
   if(CHECK(energy.size() == report.energy.size()))

@@ -1775,15 +1775,12 @@ void test_all()
         run(shape, s, Initial_guess::previous, Cell_scheme::spokes(), 0, before);
       const Report automatic =
         run(shape, s, Initial_guess::automatic, Cell_scheme::spokes(), 0, points);
-      if(!is_far)
-        CHECK(points == before);
-      else if(rotations.energy[0] < previous.energy[0])
-      {
-        ++number_of_lower;
-        CHECK(points == rotated);
-      }
-      else
-        CHECK(points == before);
+      const bool is_lower = is_far && rotations.energy[0] < previous.energy[0];
+      number_of_lower += is_lower;
+      CHECK(points == (is_lower ? rotated : before));
+      CHECK(previous.initial_guess == Initial_guess::previous);
+      CHECK(rotations.initial_guess == Initial_guess::rotations);
+      CHECK(automatic.initial_guess == (is_lower ? rotations : previous).initial_guess);
       // by which no run ends higher than it does without
       for(Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::spokes_and_rims(),
                                Cell_scheme::elements(), Cell_scheme::k_ring(1)})

@@ -486,6 +486,39 @@ void test_laplacian_after_a_run()
   CHECK_AT_MOST(std::abs(second.energy[0] - first.energy[0]), 1e-9 * first.energy[0]);
 }
 
+// Over a bending length of many edges conjugate gradients do not find the Laplacian guess: the run
+// starts from where the vertices are, and tells so.
+void test_laplacian_with_bending()
+{
+  test_case() = "Laplacian guess with bending";
+  const Shape shape = sheet(40);
+  const Scenario s = scenario(shape);
+  for(const double length : {0.0, 0.2 * shape.diameter()})
+  {
+    Options options = options_for(Cell_scheme::spokes());
+    options.bending_length = length;
+    const auto start = [&](Initial_guess guess, Mesh& mesh) {
+      Deformation d(mesh);
+      options.initial_guess = guess;
+      CHECK(d.set_options(options));
+      d.insert_roi_vertices(vertices(mesh));
+      for(std::size_t v = 0; v < shape.points.size(); ++v)
+        if(s.selection[v] != 1)
+          d.insert_control_vertex(Vertex(v), point(s.targets[v]));
+      return d.deform(0, 0);
+    };
+    Mesh guessed = make_mesh<Mesh>(shape), moved = guessed;
+    const Report laplacian = start(Initial_guess::laplacian, guessed);
+    const Report previous = start(Initial_guess::previous, moved);
+    CHECK(previous.initial_guess == Initial_guess::previous);
+    const bool is_previous = laplacian.initial_guess == Initial_guess::previous;
+    CHECK(is_previous == (points_of(guessed) == points_of(moved)));
+    CHECK(is_previous == (length > 0));
+    CHECK(is_previous || laplacian.initial_guess == Initial_guess::laplacian);
+    CHECK(is_previous == (laplacian.message.find("no Laplacian") != std::string::npos));
+  }
+}
+
 // Handles on a straight line, up to rounding, leave a rotation about it free: there is none.
 void test_line()
 {
@@ -1460,6 +1493,7 @@ int main()
   rigid::test_laplacian();
   rigid::test_laplacian_beside_others();
   rigid::test_laplacian_after_a_run();
+  rigid::test_laplacian_with_bending();
   rigid::test_line();
   rigid::test_rows();
   undo::test_state();

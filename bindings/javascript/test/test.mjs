@@ -311,6 +311,7 @@ session.setTargets([0], [0, 0, 0.55]);
 const looked = session.deform();
 assert.equal(looked.status, 'converged');
 assert.equal(looked.end, 'minimum');
+assert(['previous', 'rotations'].includes(looked.initialGuess));
 for (const count of ['saddlesLeft', 'plateausLeft', 'lookingIterations'])
   assert(Number.isInteger(looked[count]), count);
 assert.equal(session.deform({ iterations: 0 }).end, 'unknown');

@@ -72,6 +72,7 @@ def test_a_bend_and_its_report():
     d = bent()
     report = d.deform()
     assert report.status == "converged" and report.stages["factor"] and report.message
+    assert report.initial_guess == "rotations"
     assert len(report.energy) == report.iterations + 1 and report.seconds["total"] > 0
     assert (np.diff(report.energy) <= 0).all() and report.energy[-1] == d.energy > 0
     fixed, moving = ends(d.rest_vertices)
@@ -418,6 +419,8 @@ def test_a_surface_that_follows_tetrahedra():
             d.positions(short)
     with pytest.raises(ValueError, match="place 1 is None: the point was not located"):
         d.insert_points(d.locate_all([inside[0], np.full(3, np.nan)]))
+    with pytest.raises(TypeError, match=r"place 0 is of type ndarray: locate\(\) returns places"):
+        d.insert_points(inside)
 
 
 @pytest.mark.parametrize("simplex, coordinates, error, match", [
@@ -864,6 +867,6 @@ def test_laplacian_guess_of_random_targets():
             d.set_targets(handles, targets)
             point = d.insert_point(simplex, coordinates)
             d.set_targets([point], [vertices[faces[simplex]].T @ coordinates + shift])
-            d.deform(0, 0)
+            assert d.deform(0, 0).initial_guess == guess
             guesses.append(d.vertices.copy())
         assert not np.array_equal(*guesses)

@@ -26,7 +26,7 @@ namespace ARAP {
 /// the initial guess of a run. Hard control vertices always start at their targets.
 enum class Initial_guess
 {
-  automatic, ///< `previous`, except for connected parts where the distance of a hard handle from a
+  automatic, ///< `previous`, except for connected parts where the distance of a fixed vertex from a
              ///< neighbor has changed by more than a tenth of the diagonal of the bounding box of
              ///< the part, or a soft target is that far from its vertex: these start from
              ///< `rotations` if that lowers the energy. Quasi-Newton runs on surfaces with 20,000
@@ -41,8 +41,24 @@ enum class Initial_guess
   laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
             ///< where they are, and the control vertices, soft ones of positive weight included, at
             ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and
-            ///< \f$p\f$ the rest shape. Costs about as much as some tens of iterations.
+            ///< \f$p\f$ the rest shape. Costs about as much as some tens of iterations. Where 300
+            ///< do not suffice, as with a bending length of many edges, or the result is of no
+            ///< use, far larger than the shape, it is `previous`; `Report::initial_guess` tells.
 };
+
+/// \ingroup PkgARAPDeformationOptions
+/// returns the name of the enumerator `guess`.
+inline const char* to_string(Initial_guess guess)
+{
+  switch(guess)
+  {
+  case Initial_guess::automatic: return "automatic";
+  case Initial_guess::previous: return "previous";
+  case Initial_guess::rotations: return "rotations";
+  case Initial_guess::laplacian: return "laplacian";
+  }
+  return "unknown";
+}
 
 /// \ingroup PkgARAPDeformationOptions
 /// the minimization algorithm. With either one the energy never rises, and an iteration is one fit

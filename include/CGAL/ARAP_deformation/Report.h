@@ -15,6 +15,7 @@
 #include <CGAL/ARAP_deformation/internal/config.h>
 #include <CGAL/license/ARAP_deformation.h>
 
+#include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Status.h>
 
 #include <cstddef>
@@ -92,6 +93,10 @@ struct Stages
 struct Report : Outcome
 {
   unsigned int iterations = 0; ///< the number of iterations; each costs about one solve
+
+  /// the initial guess that the run took: `rotations` if any part starts from these; never
+  /// `automatic`; `previous` where it could not have the Laplacian one.
+  Initial_guess initial_guess = Initial_guess::previous;
 
   /// returns the last of the energies below; not a number if the call failed before the first one.
   double final_energy() const

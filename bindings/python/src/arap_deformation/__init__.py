@@ -44,6 +44,7 @@ class Report:
 
     status: str
     message: str
+    initial_guess: str  # which was taken
     iterations: int
     energy: Floats = field(repr=False)
     energy_scale: float
@@ -187,10 +188,13 @@ def _targets(targets: Any) -> Tuple[NDArray[Any], Floats]:
 
 def _places(places: Sequence[Optional[Place]]) -> Tuple[NDArray[Any], Floats]:
     """Simplices, and coordinates in rows of the same length, which NaN fills."""
-    found = [place for place in places if place is not None]
-    if len(found) < len(places):
-        none = next(k for k, place in enumerate(places) if place is None)
-        raise ValueError(f"place {none} is None: the point was not located")
+    found: List[Place] = []
+    for k, place in enumerate(places):
+        if place is None:
+            raise ValueError(f"place {k} is None: the point was not located")
+        if not isinstance(place, Place):
+            raise TypeError(f"place {k} is of type {type(place).__name__}: locate() returns places")
+        found.append(place)
     given = _floats("coordinates", [x for place in found for x in place.coordinates], None)
     sizes = np.array([len(place.coordinates) for place in found], dtype=int)
     wrong = np.repeat(np.arange(len(found)), sizes)[np.isnan(given)]

@@ -151,6 +151,7 @@ private:
   {
     Array<char> is_placed;       // for each movable vertex: by a rigid motion, or because it stays
     Array<Coordinates> unplaced; // where all are without that, if the energy has to decide
+    bool is_laplacian = false;   // the others are where the Laplacian guess has them
   };
 
   Diagnosis prepare();
@@ -170,7 +171,7 @@ private:
                             Array<char>& is_placed, Report& report);
   bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
   bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
-                          Array<Coordinates>& x);
+                          Array<Coordinates>& x, bool& is_found);
   bool can_have_coarse_start(const Options& options) const;
   Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
   void include_near(const Array<Coordinates>& points, Bounding_box& box) const;

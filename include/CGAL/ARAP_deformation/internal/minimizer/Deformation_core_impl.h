@@ -256,10 +256,10 @@ bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
 }
 
 // Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
-// coordinates. Returns false if the solver fails.
+// coordinates, if it is found. Returns false if the solver fails.
 CGAL_ARAP_INLINE_FUNCTION
 bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
-                                          Array<Coordinates>& x)
+                                          Array<Coordinates>& x, bool& is_found)
 {
   if(!m_state->stars)
     m_state->stars = star_edge_sets(*m_models.weight,
@@ -277,7 +277,8 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
   box.include(m_constraints.hard_rows.places(targets.hard, before));
   const double size = box.squared_length();
   include_near(x, box);
-  if(!guess.is_found() || !(box.squared_length() <= 4 * size) || find_non_finite(x) >= 0)
+  is_found = guess.is_found() && box.squared_length() <= 4 * size && find_non_finite(x) < 0;
+  if(!is_found)
     x = before;
   return true;
 }
@@ -390,11 +391,16 @@ bool Deformation_core::place(const Options& options, Targets& targets, Array<Coo
     if(std::find(is_placed.begin(), is_placed.end(), 1) == is_placed.end())
       Array<Coordinates>().swap(unplaced);
   }
-  if(is_laplacian && !are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x))
-    return false;
-  if(is_laplacian && !unplaced.empty() &&
-     !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced))
-    return false;
+  if(is_laplacian)
+  {
+    bool is_found = true;
+    if(!are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x, is_found))
+      return false;
+    placement.is_laplacian = is_found;
+    if(!unplaced.empty() &&
+       !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced, is_found))
+      return false;
+  }
   return m_state->system.meet(targets.hard, x) &&
          (unplaced.empty() || m_state->system.meet(targets.hard, unplaced));
 }
@@ -434,12 +440,15 @@ bool Deformation_core::start_with_rotations(const Options& options, const Target
     return true;
   // the rotations that rotation_of() makes of values, one for each vertex
   const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {
-    return minimization.start_with([&](Array<Matrix_3x3>& to_set) {
+    const Start result = minimization.start_with([&](Array<Matrix_3x3>& to_set) {
       m_state->energy.complete(to_set);
       set_rotations_of_cells(m_region, has_vertex_cells(),
                              [&](std::size_t v) { return rotation_of(values[v]); }, to_set);
       decltype(values)().swap(values); // memory is at its peak from now on
     }, is_placed, only_if_lower);
+    if(result == Start::taken)
+      report.initial_guess = Initial_guess::rotations;
+    return result;
   };
   Start start = Start::taken;
   if(is_tried || options.initial_guess == Initial_guess::rotations)
@@ -480,6 +489,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     Scoped_seconds seconds(report.seconds.initial_guess);
     if(!place(options, targets, x, placement))
       return {Status::solver_failed};
+    if(placement.is_laplacian)
+      report.initial_guess = Initial_guess::laplacian;
   }
   m_state->energy.set_given_rotations(
     rotations_of_cells(m_region, has_vertex_cells(), number_of_cells(), targets.frames));

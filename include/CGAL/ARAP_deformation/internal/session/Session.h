@@ -226,7 +226,7 @@ private:
     Outcome result = execute(run, options, visitor, report);
     if(result)
     {
-      add_remarks(result, report, m_prepared.roi_size() == 0,
+      add_remarks(result, report, options, m_prepared.roi_size() == 0,
                   inertia == 0 && m_prepared.number_of_controls() == 0,
                   m_prepared.rows().isolated_controls);
       Scoped_seconds seconds(report.seconds.transfer);

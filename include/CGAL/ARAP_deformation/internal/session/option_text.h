@@ -35,6 +35,11 @@ namespace internal {
 template <typename Value>
 using Choices = std::initializer_list<std::pair<const char*, Value>>;
 
+inline std::pair<const char*, Initial_guess> named(Initial_guess guess)
+{
+  return {to_string(guess), guess};
+}
+
 // Calls f with an option, and with what its values are called if they have names.
 template <typename Options_, typename Function>
 Outcome with_option(Options_& options, const std::string& name, const Function& f)
@@ -51,10 +56,9 @@ Outcome with_option(Options_& options, const std::string& name, const Function& 
                                                    {"quasi_newton", Minimizer::quasi_newton}});
   if(name == "initial_guess")
     return f(options.initial_guess,
-             Choices<Initial_guess>{{"automatic", Initial_guess::automatic},
-                                    {"previous", Initial_guess::previous},
-                                    {"rotations", Initial_guess::rotations},
-                                    {"laplacian", Initial_guess::laplacian}});
+             Choices<Initial_guess>{named(Initial_guess::automatic), named(Initial_guess::previous),
+                                    named(Initial_guess::rotations),
+                                    named(Initial_guess::laplacian)});
   if(name == "iterations")
     return f(options.iterations);
   if(name == "threads")

@@ -15,6 +15,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/Control_point.h>
+#include <CGAL/ARAP_deformation/Options.h>
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/Status.h>
 #include <CGAL/ARAP_deformation/internal/linkage.h>
@@ -36,7 +37,8 @@ std::string simplex_name(const Region& region, int simplex);
 std::string about_unconstrained_components(const std::vector<std::size_t>& parts);
 
 // adds to the message of a run what a user would not expect
-void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bool has_no_control,
+void add_remarks(Outcome& result, const Report& report, const Options& options,
+                 bool is_region_empty, bool has_no_control,
                  const std::vector<std::size_t>& isolated_controls);
 
 // The outcome for a status; `what` names the vertex or the simplex concerned.

@@ -95,13 +95,18 @@ inline std::string about_isolated_controls(const std::vector<std::size_t>& verti
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void add_remarks(Outcome& result, const Report& report, bool is_region_empty, bool has_no_control,
+void add_remarks(Outcome& result, const Report& report, const Options& options,
+                 bool is_region_empty, bool has_no_control,
                  const std::vector<std::size_t>& isolated_controls)
 {
   if(report.free_vertices == 0)
     result.message = about_nothing_free(is_region_empty);
   else if(has_no_control)
     result.message += "; there is no control vertex";
+  if(report.free_vertices > 0 && options.initial_guess == Initial_guess::laplacian &&
+     report.initial_guess != Initial_guess::laplacian)
+    result.message += "; there was no Laplacian initial guess of use, and the run started from the "
+                      "current positions";
   result.message += about_end(report) + about_isolated_controls(isolated_controls) +
                     about_unconstrained_components(report.unconstrained_components);
 }
