@@ -36,7 +36,8 @@ inline boost::program_options::options_description described_options()
   task.add_options()
     ("fix", in_order()->value_name("WHAT"), "these vertices stay")
     ("handle", in_order()->value_name("WHAT"),
-     "these are a handle, for the next five options; each --handle is a new one")
+     "these are a handle, for the next five options, which are for all handles of a --selection; "
+     "each --handle is a new one")
     ("move", in_order()->value_name("DX,DY,DZ"), "move the handle")
     ("rotate", in_order()->value_name("AXIS ANGLE [X,Y,Z]"),
      "turn it about x, y, z or a vector, by degrees; about a point or else its own center")
@@ -71,7 +72,7 @@ inline boost::program_options::options_description described_options()
      "frames, each from the one before")
     ("animation", value<std::string>()->default_value("", "")->value_name("FILM"),
      "of the frames, 20 a second; without --frames 24 for each --transform, or 24 in all: .gltf or "
-     ".glb, or as --image .gif, .mp4 or .webm (ffmpeg writes the last two)")
+     ".glb; or drawn as --image is, with povray, .gif, .mp4 or .webm (ffmpeg writes these two)")
     ("report", value<std::string>()->default_value("", "")->value_name("R.json"),
      "write a report as JSON")
     ("quality", "look for self-intersections, too, for the report")
@@ -157,7 +158,8 @@ inline void print_help(std::ostream& out)
          "  plane:X,Y,Z,NX,NY,NZ               the side to which the normal N points\n"
          "  near:X,Y,Z                         the nearest vertex\n"
          "  point:X,Y,Z                        for --fix and --handle: no vertex, but the\n"
-         "                                     nearest point in a face, or in a tetrahedron\n"
+         "                                     nearest point of a surface; in tetrahedra\n"
+         "                                     the point itself\n"
          "  list:0,7,12  list:@FILE            numbers of vertices, from 0\n"
          "A coordinate N% goes from 0% to 100% of the bounding box; a length N% is of its\n"
          "diagonal. Where WHAT picks cells, these are the cells of its vertices, or with\n"
@@ -176,15 +178,15 @@ inline void print_help(std::ostream& out)
          "    --transform bent.def --transform turned.def --frames 24\n"
          "  arap_deform cactus.off -o hanging.off --fix z:..5% --gravity 1,0,0 \\\n"
          "    --modulus 20 --frames 60 --animation hanging.gif\n\n"
-         "The report tells status, message, iterations, energy (initial, and after each),\n"
-         "estimated_relative_gap to the minimum, the kind of end (minimum, flat, undecided,\n"
-         "unknown), saddles_left, plateaus_left, edge_length_error (relative root mean\n"
-         "square), area_change and volume_change (relative), largest_angle_change (degrees),\n"
-         "largest_spike, inverted_simplices (tetrahedra), unconstrained_components (by their\n"
-         "first vertex; nothing holds them, and they stay), vertices_in_no_simplex (free, and\n"
-         "they stay), seconds, and more.\n\n"
+         "The report tells status, message, the initial_guess that was taken, iterations,\n"
+         "energy (initial, and after each), estimated_relative_gap to the minimum, the kind of\n"
+         "end (minimum, flat, undecided, unknown), saddles_left, plateaus_left,\n"
+         "edge_length_error (relative root mean square), area_change and volume_change\n"
+         "(relative), largest_angle_change (degrees), largest_spike, inverted_simplices\n"
+         "(tetrahedra), unconstrained_components (by their first vertex; nothing holds them,\n"
+         "and they stay), vertices_in_no_simplex (free, and they stay), seconds, and more.\n\n"
          "Exit status: 0 success, 1 failure, 2 wrong usage. If it is not 0, no output file\n"
-         "is written, and existing files are unchanged.\n";
+         "is written, except to pipes and devices, and existing files are unchanged.\n";
 }
 
 } // namespace CGAL::ARAP::demo

@@ -201,8 +201,9 @@ public:
   /// \name Region of Interest and Control Vertices
   /// Inserting or erasing a vertex takes constant time, amortized. After changes the next
   /// `deform()` does only what they need, see \ref ARAPDeformation_Session. What is inserted must
-  /// be a vertex of the mesh. In Release a vertex that was removed from a `Surface_mesh` is
-  /// refused, by `false`, and a position beyond a range throws `std::out_of_range`.
+  /// be a vertex of the mesh. In Release a vertex that is not is refused, by `false`, where the
+  /// domain can tell (\ref ARAPDeformation_Errors), and a position beyond a range throws
+  /// `std::out_of_range`.
   /// @{
 
   /// inserts `v` in the region of interest. Returns `true` if it was not in the region.
