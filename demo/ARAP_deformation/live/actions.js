@@ -7,15 +7,15 @@ import {
   membersOf,
   messageOfHandles,
   placeOf,
-  recountHandles,
+  takePaint,
 } from './handles.js';
 import { busy, say } from './messages.js';
 import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { chooseTool } from './opening.js';
-import { cellStiffness, options, sendOptions, showOptions } from './options.js';
+import { cellStiffness, options, sendOptions, sendStiffness, showOptions } from './options.js';
 import { cancelStroke, painted, setTool } from './painting.js';
 import { $, engine, page, view } from './state.js';
-import { changing, commitSoon, forgetPast, optionsOfNow } from './undo.js';
+import { changing, commitSoon, forgetPast } from './undo.js';
 import { THREE } from './view.js';
 
 // while a film goes on
@@ -24,15 +24,15 @@ export const optionsChanged = () =>
     if ($('cells').value === 'elements') $('bending').value = 0;
     const wanted = options(),
       isOfElements = wanted.cells === 'elements',
-      wasOfElements = optionsOfNow().cells === 'elements';
+      wasOfElements = page.shape.held.options.cells === 'elements';
     if (isOfElements !== wasOfElements && page.shape.stiffness) {
       cancelStroke();
       page.shape.stiffness = null;
-      await engine.call('stiffness', { values: [] });
+      await sendStiffness(null);
       say('The painted stiffness was of other cells, and is cleared.');
     }
     await sendOptions(wanted).catch((error) => {
-      showOptions(optionsOfNow());
+      showOptions(page.shape.held.options);
       throw error;
     });
   }, false);
@@ -44,8 +44,8 @@ export async function weightsChanged() {
       engine.call('weights', {
         weights,
         handles: messageOfHandles(),
-        options: options(),
-        stiffness: cellStiffness(),
+        options: page.shape.held.options,
+        stiffness: cellStiffness(page.shape.held.stiffness),
       }),
     );
     page.shape.weights = weights;
@@ -54,11 +54,13 @@ export async function weightsChanged() {
   $('weights').value = page.shape.weights;
 }
 
-export function changeHandle(change) {
+export function changeHandle(to) {
   const handle = page.shape?.handles[page.chosen];
   if (!handle) return;
-  change(handle);
-  changing(hold);
+  changing(() => {
+    Object.assign(handle, to);
+    return hold();
+  });
 }
 
 export async function removeHandle() {
@@ -80,7 +82,7 @@ export const clearPaint = () =>
     page.shape.status.fill(FREE);
     page.shape.handles = [];
     page.keys = [];
-    recountHandles(false);
+    takePaint(false);
     chooseTool();
     const { points } = await engine.call('reset');
     page.spare = view.setPositions(points);

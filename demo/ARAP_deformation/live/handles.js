@@ -6,12 +6,9 @@ import { cornersOf } from './faces.js';
 import { center, fittedMotion, identity } from './motion.js';
 import { changed, engine, page, view } from './state.js';
 
-// without what a stroke that has not ended paints
-export const heldStatus = () => page.stroke?.before ?? page.shape.status;
-
 export function membersOf(k) {
   const list = [],
-    status = heldStatus();
+    { status } = page.shape.held;
   for (let v = 0; v < status.length; ++v) if (status[v] === k + HANDLE) list.push(v);
   return list;
 }
@@ -43,7 +40,7 @@ export const messageOfHandles = () =>
   }));
 
 export const hold = () =>
-  engine.call('hold', { status: heldStatus().slice(), handles: messageOfHandles() });
+  engine.call('hold', { status: page.shape.held.status, handles: messageOfHandles() });
 
 // the place of a point handle when the vertices are at these points
 export function placeOf({ simplex, coordinates }, points) {
@@ -71,12 +68,18 @@ export const nextHandle = () =>
     (k) => !page.shape.handles[k] || !isThere(page.shape.handles[k]),
   );
 
-// after painting: which handles there are, and where they turn about
+// Holds what is painted by the strokes that have ended; hold() then tells the engine.
+export function takePaint(fits) {
+  page.shape.held.status = (page.stroke?.before ?? page.shape).status.slice();
+  recountHandles(fits);
+}
+
+// which handles are held, and where they turn about
 export function recountHandles(fits) {
   const { shape } = page;
   const sizes = new Map();
   let fixed = 0;
-  for (const s of heldStatus()) {
+  for (const s of shape.held.status) {
     if (s >= HANDLE) sizes.set(s - HANDLE, (sizes.get(s - HANDLE) ?? 0) + 1);
     fixed += s === FIXED;
   }

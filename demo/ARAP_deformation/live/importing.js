@@ -8,7 +8,7 @@ import {
   isDeformed,
   matrices,
   moveHandles,
-  recountHandles,
+  takePaint,
   withoutGaps,
 } from './handles.js';
 import { busy, closeHelp, complain, say } from './messages.js';
@@ -36,7 +36,7 @@ function select(status) {
   const fits = isDeformed();
   Object.assign(page.shape, { status, handles: [] });
   page.keys = [];
-  recountHandles(fits);
+  takePaint(fits);
   chooseTool();
 }
 

@@ -3,7 +3,7 @@ import { FIXED, FREE, HANDLE } from './colors.js';
 import { draw, measureChanged, placeGizmo } from './drawing.js';
 import { boundary, startsOf, trianglesOf } from './faces.js';
 import { stopPlaying } from './follow.js';
-import { handlesMoved, hold, isThere, recountHandles } from './handles.js';
+import { handlesMoved, hold, isThere, takePaint } from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { models } from './models.js';
 import { diagonalOf, originOf, shifted } from './motion.js';
@@ -74,6 +74,7 @@ export async function openInTurn(
       handles: [],
       status: status?.slice() ?? new Int32Array(n).fill(FREE),
       stiffness: null,
+      held: { stiffness: null },
       diagonal: diagonalOf(points),
     };
     forgetPast();
@@ -86,7 +87,7 @@ export async function openInTurn(
     view.fit();
     $('measure').value = '';
     measureChanged();
-    recountHandles(false);
+    takePaint(false);
     await sendOptions(options());
     await hold();
     chooseTool();

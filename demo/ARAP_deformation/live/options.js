@@ -8,7 +8,10 @@ export const options = () => ({
   bending_length: String(($('bending').value / 100) * (page.shape?.diagonal ?? 1)),
 });
 
-export const sendOptions = (wanted) => engine.call('options', { options: wanted });
+export async function sendOptions(wanted) {
+  await engine.call('options', { options: wanted });
+  page.shape.held.options = wanted;
+}
 
 export function showOptions(kept) {
   $('cells').value = kept.cells;
@@ -23,13 +26,14 @@ export function stiffnessOfVertices() {
   return page.shape.stiffness;
 }
 
-// without what a stroke that has not ended paints
-export const heldStiffness = () => (page.stroke ?? page.shape).stiffness;
-
 // what the session wants: of its cells, and nothing where nothing is painted
-export function cellStiffness() {
-  const stiffness = heldStiffness();
-  return stiffness && $('cells').value === 'elements'
+export function cellStiffness(stiffness) {
+  return stiffness && page.shape.held.options.cells === 'elements'
     ? ofSimplices(page.shape, stiffness)
     : (stiffness ?? []);
+}
+
+export async function sendStiffness(stiffness) {
+  await engine.call('stiffness', { values: cellStiffness(stiffness) });
+  page.shape.held.stiffness = stiffness;
 }

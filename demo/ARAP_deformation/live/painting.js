@@ -9,11 +9,11 @@ import {
   isThere,
   newHandle,
   placeOf,
-  recountHandles,
+  takePaint,
 } from './handles.js';
 import { say } from './messages.js';
 import { matrixOf } from './motion.js';
-import { cellStiffness, stiffnessOfVertices } from './options.js';
+import { sendStiffness, stiffnessOfVertices } from './options.js';
 import { brushed, isInside, nearestSeen } from './regions.js';
 import { $, changed, engine, page, view } from './state.js';
 import { changing } from './undo.js';
@@ -50,8 +50,7 @@ export function drawStroke(x, y) {
 
 export function cancelStroke() {
   if (!page.stroke) return;
-  page.shape.status = page.stroke.before;
-  page.shape.stiffness = page.stroke.stiffness;
+  Object.assign(page.shape, page.stroke.before);
   page.stroke = null;
   drawStroke();
   drawColors();
@@ -114,9 +113,10 @@ export async function painted(prepare = () => {}) {
     prepare();
     if (tool === 'stiffness') {
       $('measure').value = 'stiffness';
-      await engine.call('stiffness', { values: cellStiffness() });
+      const { stiffness } = page.stroke?.before ?? page.shape;
+      await sendStiffness(stiffness?.slice() ?? null);
     } else {
-      recountHandles(fits);
+      takePaint(fits);
       const handle = page.shape.handles[paints - HANDLE];
       if (handle && isThere(handle)) page.chosen = paints - HANDLE;
       await hold();

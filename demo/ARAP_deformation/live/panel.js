@@ -153,10 +153,7 @@ export const actions = {
   film,
   fit: () => view.fit(),
   remove: removeHandle,
-  home: () =>
-    changeHandle((h) => {
-      h.matrix = identity();
-    }),
+  home: () => changeHandle({ matrix: identity() }),
   moves: () => {
     view.gizmo.setMode('translate');
     showPanel();
@@ -193,17 +190,9 @@ for (const id of ['bending', 'brush', 'stiffness']) $(id).oninput = showPanel;
 $('weights').onchange = weightsChanged;
 $('measure').onchange = measureChanged;
 $('soft').onchange = () =>
-  changeHandle((h) => {
-    h.weight = $('soft').checked ? 10 ** $('weight').value : null;
-  });
-$('weight').onchange = () =>
-  changeHandle((h) => {
-    h.weight = 10 ** $('weight').value;
-  });
+  changeHandle({ weight: $('soft').checked ? 10 ** $('weight').value : null });
+$('weight').onchange = () => changeHandle({ weight: 10 ** $('weight').value });
 $('weight').oninput = () => shown('weight', weightText());
-$('frame').onchange = () =>
-  changeHandle((h) => {
-    h.turns = $('frame').checked;
-  });
+$('frame').onchange = () => changeHandle({ turns: $('frame').checked });
 
 whenChanged(showPanel);

@@ -63,8 +63,10 @@ function pressed(event) {
   if (page.shape.handles[page.paints - HANDLE]?.point) page.paints = nextHandle() + HANDLE;
   page.stroke = {
     screen,
-    before: page.shape.status.slice(),
-    stiffness: page.shape.stiffness?.slice() ?? null,
+    before: {
+      status: page.shape.status.slice(),
+      stiffness: page.shape.stiffness?.slice() ?? null,
+    },
     id: event.pointerId,
   };
   view.canvas.setPointerCapture(event.pointerId);

@@ -18,7 +18,7 @@ export function save(name, content, note = '') {
 // the handles of the files, which are numbered without gaps and have vertices
 function filed() {
   const numbers = handlesWithVertices();
-  return { numbers, status: withoutGaps(page.shape.status, numbers) };
+  return { numbers, status: withoutGaps(page.shape.held.status, numbers) };
 }
 
 // for a shell; where it cannot tell all, a second line has what is left out

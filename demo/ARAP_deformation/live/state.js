@@ -27,7 +27,10 @@ export const engine = new Engine(...window.arapParts());
 export const page = {
   // what is open: points are those of the rest shape less origin, as are positions and handles
   // { name, model, points, origin, simplices, starts, volume, weights, faces, simplexOf, diagonal,
-  //   status, fixed, handles, stiffness }
+  //   status, fixed, handles, stiffness, held }
+  // status and stiffness are as they are painted, by strokes too whose turn is to come; held is what
+  // the engine has been told, { status, stiffness, options }: others may replace these, for the steps
+  // of undo have them too
   shape: null,
   tool: 'grab',
   paints: FIXED,

@@ -1,20 +1,17 @@
 // Undo and redo.
 import { draw } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
-import { heldStatus, recountHandles } from './handles.js';
+import { recountHandles } from './handles.js';
 import { complain, say } from './messages.js';
-import { cellStiffness, heldStiffness, options, sendOptions, showOptions } from './options.js';
+import { sendOptions, sendStiffness, showOptions } from './options.js';
 import { changed, engine, page, view } from './state.js';
 
 let past = [],
   now = -1,
-  timer = 0, // of a commit to come
-  isSure = true; // that the engine has the options and the stiffness of now
+  timer = 0; // of a commit to come
 
 // how many steps can be undone, and done again
 export const steps = () => ({ undo: now, redo: past.length - 1 - now });
-
-export const optionsOfNow = () => past[now].options;
 
 // Runs what changes the shape, or opens another one, one after the other.
 let last = Promise.resolve();
@@ -26,7 +23,6 @@ export function forgetPast() {
   timer = 0;
   past = [];
   now = -1;
-  isSure = true;
 }
 
 export async function commit() {
@@ -35,16 +31,11 @@ export async function commit() {
   const { shape } = page;
   if (!shape) return;
   page.isSaved = false;
-  const stiffness = heldStiffness(),
-    before = past[now]?.stiffness;
   const kept = {
-    status: heldStatus().slice(),
-    // the same object where it is the same: to set it costs a factorization
-    stiffness: stiffness && before?.every((k, v) => k === stiffness[v]) ? before : stiffness?.slice(),
+    held: { ...shape.held },
     keys: page.keys.slice(),
     chosen: page.chosen,
     handles: structuredClone(shape.handles),
-    options: options(),
   };
   const dropped = past.splice(now + 1);
   past.push(kept);
@@ -93,7 +84,6 @@ export async function change(f, stops = true) {
     complain(error);
     clearTimeout(timer);
     timer = 0;
-    isSure = false;
     await goTo(now);
   }
 }
@@ -104,39 +94,36 @@ async function goTo(index) {
   if (index < 0 || index >= past.length || page.dragging || page.stroke) return;
   stopPlaying();
   const kept = past[index],
-    before = past[now],
     state = await kept.state;
   if (!state) {
-    if (kept === before) return;
+    if (index === now) return;
     past.splice(index, 1);
     if (index < now) --now;
     changed();
     return say('There was not enough memory to keep this step.', true);
   }
+  if (index !== now) page.isSaved = false;
   now = index;
-  if (kept !== before) page.isSaved = false;
-  const wasSure = isSure;
-  isSure = false;
+  const { held } = page.shape,
+    { status, stiffness, options } = kept.held;
   try {
+    held.status = status;
     Object.assign(page.shape, {
-      status: kept.status.slice(),
+      status: status.slice(),
       handles: structuredClone(kept.handles),
-      stiffness: kept.stiffness?.slice() ?? null,
+      stiffness: stiffness?.slice() ?? null,
     });
     page.keys = kept.keys.slice();
     page.isSettled = true;
     page.hasNewTargets = false;
     // options and stiffness first: the state has the rotations of their cells
-    const hasOptions =
-      !wasSure || JSON.stringify(kept.options) !== JSON.stringify(before.options);
-    if (hasOptions) {
-      await engine.call('stiffness', { values: [] }); // it may be of other cells
-      showOptions(kept.options);
-      await sendOptions(kept.options);
+    if (JSON.stringify(options) !== JSON.stringify(held.options)) {
+      await sendStiffness(null); // it may be of other cells
+      showOptions(options);
+      await sendOptions(options);
     }
-    if (hasOptions || kept.stiffness !== before.stiffness)
-      await engine.call('stiffness', { values: cellStiffness() });
-    isSure = true;
+    // to set it costs a factorization
+    if (stiffness !== held.stiffness) await sendStiffness(stiffness);
     const { points, rest } = await engine.call('restore', { state });
     page.shape.points = rest;
     page.spare = view.setPositions(points);

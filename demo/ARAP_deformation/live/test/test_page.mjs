@@ -145,6 +145,25 @@ async function callsOf(f) {
     return window.calls;
   });
 }
+// the engine answers nothing until f is done
+async function whileBusy(f) {
+  await page.evaluate(() => {
+    window.messages = [];
+    window.arap.engine.worker.postMessage = (...message) => window.messages.push(message);
+  });
+  await f();
+  await page.evaluate(() => {
+    const { worker } = window.arap.engine;
+    delete worker.postMessage;
+    window.messages.forEach((message) => worker.postMessage(...message));
+  });
+  return settled();
+}
+async function pressCommand(key) {
+  await page.keyboard.down('Control');
+  await page.keyboard.press(key);
+  await page.keyboard.up('Control');
+}
 async function paintMiddle() {
   const [x, y] = await middle();
   await drag([x - 30, y + 30], [x + 30, y - 30]);
@@ -767,6 +786,47 @@ const steps = {
     await settled();
     assert.deepEqual([(await state()).undo, (await state()).redo], [first, 1]);
     assert.equal(await message(), '');
+  },
+
+  async 'changes while a step is under way'() {
+    const isWell = async () => assert.equal(await message(), '');
+    // a step has nothing that the engine was told later
+    await openModel('bar');
+    await page.keyboard.press('b');
+    await page.keyboard.press('3');
+    const painted = await whileBusy(async () => {
+      await page.keyboard.press('r');
+      await paintMiddle();
+    });
+    assert.deepEqual([painted.handles.length, painted.undo], [2, 2]);
+    await page.click('#undo');
+    assert.equal((await settled()).handles.length, 1, 'undo of a stroke');
+    await page.evaluate(() => window.arap.choose(0));
+    await page.keyboard.press('g');
+    const soft = await whileBusy(async () => {
+      await page.keyboard.press('r');
+      await page.click('#soft');
+    });
+    assert.notEqual(soft.handles[0].weight, null);
+    await page.click('#undo');
+    assert.equal((await settled()).handles[0].weight, null, 'undo of a soft handle');
+    assert(!(await page.$eval('#soft', (s) => s.checked)));
+    await isWell();
+    await page.keyboard.press('s');
+    await paintMiddle();
+    await settled();
+    await whileBusy(async () => {
+      await paintMiddle();
+      await page.select('#cells', 'elements');
+    });
+    assert.match(await message(), /stiffness was of other cells/);
+    await page.keyboard.press('Escape');
+    await page.click('#undo');
+    await settled();
+    assert.equal(await page.$eval('#cells', (c) => c.value), 'spokes_and_rims');
+    await isWell();
+    await page.select('#measure', '');
+    await page.keyboard.press('g');
   },
 
   async 'handles that are gone'() {
