@@ -7,7 +7,13 @@ import { cancelStroke, setTool } from './painting.js';
 import { actions, tools } from './panel.js';
 import { addKey, play } from './playing.js';
 import { changed, page } from './state.js';
-import { commitNow, redo, undo } from './undo.js';
+import { commitNow, inTurn, redo, undo } from './undo.js';
+
+addEventListener(
+  'keydown',
+  ({ key }) => /^(Arrow|Page|Shift)/.test(key) || inTurn(commitNow),
+  true, // before the key does anything
+);
 
 addEventListener('keydown', (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -16,7 +22,6 @@ addEventListener('keydown', (event) => {
   if (!isCommand && event.target.closest?.('select')) return;
   if (event.target.closest?.('input') && /^(Arrow|Page)/.test(key)) return;
   if (event.repeat && !isCommand && !/^(Arrow|Page)/.test(key)) return;
-  if (!/^(Arrow|Page|Shift)/.test(key)) commitNow();
   const found = Object.keys(tools).find((id) => tools[id][2] === key);
   if (isCommand) {
     if (key === 'z') (event.shiftKey ? redo : undo)();

@@ -15,7 +15,7 @@ import {
 } from './painting.js';
 import { flood, nearestSeen } from './regions.js';
 import { $, page, view } from './state.js';
-import { commitNow, commitSoon } from './undo.js';
+import { commitNow, commitSoon, inTurn } from './undo.js';
 import { THREE } from './view.js';
 
 const pointers = new Set();
@@ -170,7 +170,7 @@ function released(event) {
   if (hasPainted) painted();
 }
 
-addEventListener('pointerdown', commitNow, true);
+addEventListener('pointerdown', () => inTurn(commitNow), true);
 
 $('view').addEventListener('pointerdown', pressed, true);
 

@@ -28,9 +28,9 @@ export const page = {
   // what is open: points are those of the rest shape less origin, as are positions and handles
   // { name, model, points, origin, simplices, starts, volume, weights, faces, simplexOf, diagonal,
   //   status, fixed, handles, stiffness, held }
-  // status and stiffness are as they are painted, by strokes too whose turn is to come; held is what
-  // the engine has been told, { status, stiffness, options }: others may replace these, for the steps
-  // of undo have them too
+  // status and stiffness are as they are painted, by strokes too whose turn is to come; held is
+  // what the engine has been told, { status, stiffness, options }, which others replace but do not
+  // change, for the steps of undo have them too
   shape: null,
   tool: 'grab',
   paints: FIXED,

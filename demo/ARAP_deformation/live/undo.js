@@ -64,7 +64,7 @@ export function commitSoon(milliseconds = 0) {
   timer = setTimeout(() => inTurn(commitNow), milliseconds);
 }
 
-// before anything else is changed, so that it is a step of its own
+// before anything else is changed, so that it is a step of its own; for what has its turn
 export async function commitNow() {
   if (timer) await commit();
 }

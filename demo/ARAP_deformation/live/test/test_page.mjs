@@ -827,6 +827,35 @@ const steps = {
     await isWell();
     await page.select('#measure', '');
     await page.keyboard.press('g');
+    // a move during an undo, and a key that ends it, make a step after it
+    await openModel('bar');
+    await page.select('#cells', 'spokes');
+    await settled();
+    const moved = await whileBusy(async () => {
+      await pressCommand('z');
+      await page.keyboard.press('ArrowUp');
+      await page.keyboard.press('v');
+    });
+    assert.deepEqual([moved.undo, moved.redo], [1, 0]);
+    const there = async () => [
+      (await settled()).handles[0].matrix[7] !== 0,
+      await page.$eval('#cells', (c) => c.value),
+    ];
+    assert.deepEqual(await there(), [true, 'spokes_and_rims']);
+    await page.click('#undo');
+    assert.deepEqual(await there(), [false, 'spokes_and_rims']);
+    await page.click('#redo');
+    assert.deepEqual(await there(), [true, 'spokes_and_rims']);
+    // with a key frame it makes two
+    await page.keyboard.press('ArrowUp');
+    await page.keyboard.press('k');
+    await rest(100);
+    await settled();
+    await page.click('#undo');
+    const { keys, handles } = await settled();
+    assert.equal(keys, 0);
+    assert.notEqual(handles[0].matrix[7], moved.handles[0].matrix[7]);
+    await isWell();
   },
 
   async 'handles that are gone'() {
