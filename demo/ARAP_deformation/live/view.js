@@ -44,6 +44,9 @@ export class View {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('aria-label', 'the shape');
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.isDirty = true;
+    });
     container.append(this.canvas);
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef1f5);

@@ -455,6 +455,32 @@ const steps = {
     await page.waitForFunction(() => window.arap.view.renderer.getPixelRatio() === 1);
   },
 
+  // as where the graphics driver starts again
+  async 'a lost context'() {
+    await settled();
+    const seen = () =>
+      page.evaluate(() => {
+        const { canvas } = window.arap.view,
+          gl = canvas.getContext('webgl2'),
+          pixel = new Uint8Array(4);
+        gl.readPixels(canvas.width / 2, canvas.height / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel];
+      });
+    await rest(100);
+    const before = await seen();
+    assert(before[3] > 0);
+    await page.evaluate(() => {
+      const { canvas } = window.arap.view;
+      window.context = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+      canvas.addEventListener('webglcontextlost', () => setTimeout(() => window.context.restoreContext()));
+      window.isRestored = new Promise((done) => canvas.addEventListener('webglcontextrestored', done));
+      window.context.loseContext();
+    });
+    await page.evaluate(() => window.isRestored);
+    await rest(300);
+    assert.deepEqual(await seen(), before);
+  },
+
   async 'drag, undo, redo'() {
     await settled();
     const before = await positions();
