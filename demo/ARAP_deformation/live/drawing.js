@@ -10,7 +10,7 @@ let values = null,
   range = [0, 1];
 
 export function drawColors() {
-  if ($('measure').value === 'stiffness' || (page.stroke && page.tool === 'stiffness')) {
+  if ($('measure').value === 'stiffness') {
     const s = page.shape.stiffness;
     view.setColors((v) => (s && s[v] !== 1 ? rampColor((Math.log10(s[v]) + 2) / 5) : gray));
   } else if (values)
@@ -60,6 +60,13 @@ export async function showMeasure() {
     isMeasuring = false;
     if ($('measure').value !== measure) showMeasure(); // another one was chosen meanwhile
   }
+}
+
+// what is painted is seen
+export function drawPaint(measure) {
+  if ($('measure').value === measure) return drawColors();
+  $('measure').value = measure;
+  measureChanged();
 }
 
 export function measureChanged() {

@@ -1,6 +1,6 @@
 // The tools: what they paint, and what they draw over the view.
 import { HANDLE, colorOf, css } from './colors.js';
-import { drawColors, placeGizmo } from './drawing.js';
+import { drawColors, drawPaint, placeGizmo } from './drawing.js';
 import { cornersOf } from './faces.js';
 import {
   choose,
@@ -72,7 +72,7 @@ export function paint(vertices) {
     for (const v of vertices) values[v] = k;
   } else for (const v of vertices) page.shape.status[v] = page.paints;
   page.stroke.hasPainted ||= vertices.length > 0;
-  if (vertices.length) drawColors();
+  if (vertices.length) drawPaint(page.tool === 'stiffness' ? 'stiffness' : '');
 }
 
 export function brushAt(x, y) {
@@ -112,7 +112,6 @@ export async function painted(prepare = () => {}) {
   await changing(async () => {
     prepare();
     if (tool === 'stiffness') {
-      $('measure').value = 'stiffness';
       const { stiffness } = page.stroke?.before ?? page.shape;
       await sendStiffness(stiffness?.slice() ?? null);
     } else {

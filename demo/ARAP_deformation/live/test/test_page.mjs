@@ -997,6 +997,30 @@ const steps = {
       () => /Edges 0\.00%/.test(document.getElementById('quality').textContent),
       { timeout: 20000 },
     );
+    // what is painted is seen, and what is painted next
+    await page.select('#measure', 'edge_length_error');
+    await page.waitForFunction(() => /Edges/.test(document.getElementById('quality').textContent));
+    const colors = () =>
+      page.evaluate(() => [
+        ...new Set([...window.arap.view.mesh.geometry.attributes.color.array]),
+      ]);
+    const paintsWith = async (key) => {
+      await page.keyboard.press(key);
+      const [x, y] = await middle();
+      await drag([x - 30, y + 30], [x + 30, y - 30]);
+      const during = await colors();
+      await page.mouse.up();
+      await settled();
+      assert.deepEqual(await colors(), during);
+      return [during.length, await page.$eval('#measure', (m) => m.value)];
+    };
+    await page.keyboard.press('1');
+    const [regions, none] = await paintsWith('b');
+    assert(regions > 3 && none === '', `${regions} colors`);
+    assert(await page.$eval('#legend', (legend) => legend.hidden));
+    const [stiff, what] = await paintsWith('s');
+    assert(stiff > 3 && what === 'stiffness');
+    await page.select('#measure', 'edge_length_error');
     await openModel('sheet');
     assert.equal(await quality(), '');
     assert(await page.$eval('#legend', (legend) => legend.hidden));
