@@ -1,6 +1,7 @@
 // What buttons and keys do with the shape that is open.
 import { FREE } from './colors.js';
 import { placeGizmo } from './drawing.js';
+import { stopPlaying } from './follow.js';
 import {
   handlesMoved,
   hold,
@@ -123,6 +124,7 @@ export function moveByKey(key, turns) {
       PageDown: [0, 0, 1],
     }[key];
   if (!handle || !direction) return false;
+  stopPlaying();
   const { q, place } = rigidParts(handle),
     axis = new THREE.Vector3(...direction).transformDirection(view.camera.matrixWorld);
   if (turns) q.premultiply(new THREE.Quaternion().setFromAxisAngle(axis, Math.PI / 36));

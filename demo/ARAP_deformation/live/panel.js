@@ -10,6 +10,7 @@ import {
 } from './actions.js';
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
+import { stopPlaying } from './follow.js';
 import { choose, handlesMoved, isThere, keyFrames, moveHandles, nextHandle } from './handles.js';
 import { formats, openFiles } from './importing.js';
 import { closeHelp } from './messages.js';
@@ -118,6 +119,7 @@ function showPanel() {
       onclick() {
         const key = keyFrames()[i];
         if (!key) return;
+        stopPlaying();
         moveHandles(key);
         handlesMoved();
         commitSoon();

@@ -8,14 +8,17 @@ import { save } from './saving.js';
 import { changed, page, view } from './state.js';
 import { commitSoon } from './undo.js';
 
+const sayNoHandle = () => say('There is no handle that could move.', true);
+
 export function addKey() {
+  if (!page.shape.handles.length) return sayNoHandle();
   page.keys.push(matrices());
   commitSoon();
 }
 
 export function play(record) {
   if (page.playing) return stopPlaying();
-  if (!page.shape.handles.length) return say('There is no handle that could move.', true);
+  if (!page.shape.handles.length) return sayNoHandle();
   if (!page.keys.length) return say('There is no key frame: move a handle, and choose Add.', true);
   const path = [page.shape.handles.map(identity), ...keyFrames()];
   page.playing = {

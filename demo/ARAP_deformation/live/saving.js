@@ -51,6 +51,13 @@ export function commandLine() {
 
 const inFile = (matrix) => shiftedMotion(matrix, page.shape.origin, 1);
 
+// f gets the numbers of the handles with vertices
+const ofHandles = (f) => () => {
+  const numbers = handlesWithVertices();
+  if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
+  f(numbers);
+};
+
 async function saveMesh(ending, which, suffix) {
   const { shape } = page, // another one may be opened meanwhile
     isWork = which === 'points',
@@ -75,16 +82,13 @@ export const saves = {
   '.mesh': () => saveMesh('mesh', 'points', ''),
   'Rest shape': () => saveMesh(page.shape.volume ? 'mesh' : 'off', 'rest', '_rest'),
   Selection: () => save(`${page.shape.name}.sel`, writeSelection(filed().status, commandLine())),
-  Transforms: () => {
-    const { numbers } = filed();
-    if (!numbers.length) return say('There is no handle with vertices, and so no transform.', true);
+  Transforms: ofHandles((numbers) =>
     save(
       `${page.shape.name}.def`,
       writeTransforms(numbers.map((k) => inFile(page.shape.handles[k].matrix))),
-    );
-  },
-  'Key frames': () => {
-    const { numbers } = filed();
+    ),
+  ),
+  'Key frames': ofHandles((numbers) => {
     if (!page.keys.length)
       return say('There is no key frame: move a handle, and choose Add.', true);
     keyFrames().forEach((key, i) =>
@@ -93,7 +97,7 @@ export const saves = {
         writeTransforms(numbers.map((k) => inFile(key[k]))),
       ),
     );
-  },
+  }),
   Picture: () => {
     const { name } = page.shape,
       shown = view.gizmo.getHelper().visible;

@@ -1303,6 +1303,48 @@ const steps = {
     assert.deepEqual([last.length, last[1].matrix[7]], [2, 0]);
   },
 
+  async 'key frames without handles, and while they play'() {
+    await openModel('bar');
+    await page.click('#clear');
+    await settled();
+    await page.keyboard.press('k');
+    await settled();
+    assert.match(await message(), /no handle/);
+    assert.equal((await state()).keys, 0);
+    await page.keyboard.press('p');
+    await page.mouse.click(...(await middle()));
+    await settled();
+    await page.keyboard.press('k');
+    await settled();
+    assert.equal((await state()).keys, 1);
+    for (const press of ['Transforms', 'Key frames']) {
+      await page.keyboard.press('Escape');
+      await clickText(press);
+      assert.match(await message(), /no handle with vertices/, press);
+    }
+    await page.keyboard.press('Escape');
+    // what moves a handle ends the film
+    await openModel('bar');
+    await page.keyboard.press('ArrowUp');
+    await page.keyboard.press('k');
+    await page.keyboard.press('k');
+    await settled();
+    const [{ matrix }] = (await state()).handles;
+    const plays = () => page.$eval('#play', (b) => b.textContent === 'Stop');
+    await page.click('#play');
+    await rest(100);
+    assert(await plays());
+    await page.click('#keys button:nth-child(1)');
+    assert(!(await plays()));
+    assert.deepEqual((await settled()).handles[0].matrix, matrix);
+    await page.click('#play');
+    await rest(100);
+    await page.keyboard.press('ArrowLeft');
+    assert(!(await plays()));
+    await rest(600);
+    await settled();
+  },
+
   async 'rest shape from now'() {
     await openModel('bar');
     await dragHandle(100, 30);
