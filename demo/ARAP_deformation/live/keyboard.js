@@ -3,10 +3,10 @@ import { moveByKey, removeHandle, reset } from './actions.js';
 import { FIXED, FREE } from './colors.js';
 import { stopPlaying } from './follow.js';
 import { closeHelp, say } from './messages.js';
-import { cancelStroke, setTool } from './painting.js';
+import { cancelStroke, paintWith, setTool } from './painting.js';
 import { actions, tools } from './panel.js';
 import { addKey, play } from './playing.js';
-import { changed, page } from './state.js';
+import { page } from './state.js';
 import { commitNow, inTurn, redo, undo } from './undo.js';
 
 addEventListener(
@@ -30,9 +30,7 @@ addEventListener('keydown', (event) => {
   } else if (found) {
     if (!page.stroke) setTool(found);
   } else if (/^\d$/.test(key)) {
-    page.paints = key === '0' ? FREE : key === '1' ? FIXED : Number(key);
-    if (page.tool === 'grab') setTool('brush');
-    changed();
+    paintWith(key === '0' ? FREE : key === '1' ? FIXED : Number(key));
   } else if (key === 'Escape') {
     cancelStroke();
     stopPlaying();

@@ -65,6 +65,16 @@ export function setTool(name) {
   changed();
 }
 
+export const paintsRegions = () => !['grab', 'point', 'stiffness'].includes(page.tool);
+
+// from now on
+export function paintWith(status) {
+  page.paints = status;
+  if (!paintsRegions() && !page.stroke) setTool('brush');
+  if (page.shape.handles[status - HANDLE]?.size) choose(status - HANDLE); // no point
+  changed();
+}
+
 export function paint(vertices) {
   if (page.tool === 'stiffness') {
     const values = stiffnessOfVertices(),

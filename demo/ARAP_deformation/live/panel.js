@@ -11,13 +11,19 @@ import {
 import { FIXED, FREE, HANDLE, colorOf, css } from './colors.js';
 import { measureChanged } from './drawing.js';
 import { stopPlaying } from './follow.js';
-import { choose, handlesMoved, isThere, keyFrames, moveHandles, nextHandle } from './handles.js';
+import {
+  handlesMoved,
+  handlesWithVertices,
+  keyFrames,
+  moveHandles,
+  nextHandle,
+} from './handles.js';
 import { formats, openFiles } from './importing.js';
 import { closeHelp } from './messages.js';
 import { models } from './models.js';
 import { identity } from './motion.js';
 import { openModel } from './opening.js';
-import { setTool } from './painting.js';
+import { paintWith, paintsRegions, setTool } from './painting.js';
 import { addKey, film, play } from './playing.js';
 import { saves } from './saving.js';
 import { $, page, view, whenChanged } from './state.js';
@@ -61,24 +67,16 @@ function showPanel() {
   for (const b of $('tools').children) mark(b, b.dataset.tool === page.tool);
   const { shape } = page;
   if (!shape) return;
-  const paintsRegions = () => !['grab', 'point', 'stiffness'].includes(page.tool);
   const region = (status, text) => ({
     content: `<i style="background:${css(colorOf(status))}"></i>${text}`,
     isOn: page.paints === status && paintsRegions(),
-    onclick() {
-      page.paints = status;
-      if (!paintsRegions()) setTool('brush');
-      const painted = page.shape.handles[status - HANDLE];
-      if (painted && isThere(painted)) choose(status - HANDLE);
-      showPanel();
-    },
+    onclick: () => paintWith(status),
   });
-  const areas = shape.handles.map((h, k) => k).filter((k) => !shape.handles[k].point);
   const next = nextHandle();
   showButtons($('regions'), [
     region(FREE, 'Free'),
     region(FIXED, 'Fixed'),
-    ...areas.filter((k) => k !== next).map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
+    ...handlesWithVertices().map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
     region(next + HANDLE, next ? 'New handle' : 'Handle 1'),
   ]);
   const handle = shape.handles[page.chosen];

@@ -814,6 +814,37 @@ const steps = {
     assert.equal(await message(), '');
   },
 
+  async 'digits and regions'() {
+    await openModel('bar');
+    const regions = (isOn) =>
+      page.$$eval(
+        '#regions button',
+        (list, on) =>
+          list
+            .filter((b) => !on || b.getAttribute('aria-pressed') === 'true')
+            .map((b) => b.textContent),
+        isOn,
+      );
+    for (const [tool, digit, text] of [
+      ['g', '0', 'Free'],
+      ['s', '1', 'Fixed'],
+      ['p', '2', 'Handle 1'],
+      ['x', '3', 'New handle'],
+    ]) {
+      await page.keyboard.press(tool);
+      await page.keyboard.press(digit);
+      assert.deepEqual(await regions(true), [text]);
+      assert.equal((await state()).tool, tool === 'x' ? 'box' : 'brush');
+    }
+    // a number that is skipped is no handle
+    await page.keyboard.press('b');
+    await page.keyboard.press('5');
+    await paintMiddle();
+    await settled();
+    assert.deepEqual(await regions(false), ['Free', 'Fixed', 'Handle 1', 'Handle 4', 'New handle']);
+    await page.keyboard.press('g');
+  },
+
   async 'changes while a step is under way'() {
     const isWell = async () => assert.equal(await message(), '');
     // a step has nothing that the engine was told later
