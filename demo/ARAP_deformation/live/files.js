@@ -3,7 +3,7 @@
 import { STLLoader } from 'three/examples/jsm/loaders/STLLoader.js';
 import { mergeVertices } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { cornersOf, cut } from './faces.js';
-import { rigid } from './motion.js';
+import { diagonalOf, rigid } from './motion.js';
 
 const fail = (sentence) => {
   throw new Error(sentence);
@@ -262,6 +262,9 @@ export function readMesh(name, bytes) {
   if (!mesh.simplices.length) fail(`${name} has no faces.`);
   if (!mesh.points.every(Number.isFinite))
     fail(`${name} has a coordinate that is no finite number.`);
+  const size = diagonalOf(mesh.points); // single precision has to hold its square
+  if (!(size > 1e-15 && size < 1e15))
+    fail(`${name} has a diagonal of ${size.toPrecision(3)}; 1e-15 to 1e15 can be drawn.`);
   return mesh;
 }
 

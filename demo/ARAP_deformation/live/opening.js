@@ -7,7 +7,7 @@ import { handlesMoved, hold, isThere, takePaint } from './handles.js';
 import { busy, complain, say } from './messages.js';
 import { models } from './models.js';
 import { diagonalOf, originOf, shifted } from './motion.js';
-import { options, sendOptions } from './options.js';
+import { options } from './options.js';
 import { cancelStroke, setTool } from './painting.js';
 import { $, engine, hasUnsavedWork, history, measured, page, view } from './state.js';
 import { commit, commitNow, forgetPast, inTurn } from './undo.js';
@@ -42,6 +42,22 @@ export async function openInTurn(
     starts = startsOf(simplices, corners),
     weights = $('weights').value;
   if (!n || !simplices.length) throw new Error(`${name} has no faces`);
+  const opened = {
+    name,
+    model,
+    points,
+    origin,
+    simplices,
+    starts,
+    volume,
+    weights,
+    ...(volume ? { faces: boundary(simplices, points) } : trianglesOf({ points, simplices, starts })),
+    handles: [],
+    status: status?.slice() ?? new Int32Array(n).fill(FREE),
+    stiffness: null,
+    diagonal: diagonalOf(points),
+  };
+  opened.held = { stiffness: null, options: options(opened) };
   await stopAll();
   const { shape, chosen } = page;
   $('model').value = shape?.model ?? '';
@@ -58,25 +74,15 @@ export async function openInTurn(
   });
   placeGizmo();
   try {
-    await engine.call('open', { points, simplices, corners, volume, weights });
-    page.shape = {
-      name,
-      model,
+    await engine.call('open', {
       points,
-      origin,
       simplices,
-      starts,
+      corners,
       volume,
       weights,
-      ...(volume
-        ? { faces: boundary(simplices, points) }
-        : trianglesOf({ points, simplices, starts })),
-      handles: [],
-      status: status?.slice() ?? new Int32Array(n).fill(FREE),
-      stiffness: null,
-      held: { stiffness: null },
-      diagonal: diagonalOf(points),
-    };
+      options: opened.held.options,
+    });
+    page.shape = opened;
     forgetPast();
     page.keys = [];
     page.spare = null;
@@ -88,7 +94,6 @@ export async function openInTurn(
     $('measure').value = '';
     measureChanged();
     takePaint(false);
-    await sendOptions(options());
     await hold();
     chooseTool();
     page.isSettled = true;

@@ -2,10 +2,10 @@
 import { ofSimplices } from './regions.js';
 import { $, changed, engine, page } from './state.js';
 
-export const options = () => ({
+export const options = ({ diagonal } = page.shape) => ({
   cells: $('cells').value,
   minimizer: $('minimizer').value,
-  bending_length: String(($('bending').value / 100) * (page.shape?.diagonal ?? 1)),
+  bending_length: String(($('bending').value / 100) * diagonal),
 });
 
 export async function sendOptions(wanted) {

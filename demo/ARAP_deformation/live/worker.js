@@ -23,7 +23,7 @@ function listOf(values, wanted) {
 
 // Replaces the session by a new one, after prepare() has made it ready. If that fails, all is as
 // before.
-function newSession(next, points, weights, prepare = () => {}) {
+function newSession(next, points, weights, prepare) {
   const before = { shape, session, hasStiffness, status, vertices, pointHandles };
   try {
     shape = next;
@@ -95,8 +95,8 @@ const operations = {
   async load({ wasm }) {
     arap = await load({ wasmBinary: wasm });
   },
-  open({ points, simplices, corners, volume, weights }) {
-    newSession({ simplices, corners, volume }, points, weights);
+  open({ points, simplices, corners, volume, weights, options }) {
+    newSession({ simplices, corners, volume }, points, weights, () => session.setOptions(options));
   },
   weights({ weights, handles, options, stiffness }) {
     const kept = status,

@@ -1588,6 +1588,8 @@ const steps = {
       'noise.stl': 'solid x\nendsolid x\n',
       'huge.off': 'OFF\n1e9 1 0\n',
       'nan.obj': 'v nan 0 0\nf 1 1 1\n',
+      'vast.off': 'OFF\n3 1 0\n0 0 0\n1e20 0 0\n0 1e160 0\n3 0 1 2\n',
+      'tiny.obj': 'v 0 0 0\nv 1e-20 0 0\nv 0 1e-20 0\nf 1 2 3\n',
     };
     for (const [name, text] of Object.entries(wrong)) {
       writeFileSync(join(files, name), text);
@@ -1610,6 +1612,16 @@ const steps = {
       [before.name, before.vertices, before.energy],
       'nothing is lost',
     );
+    // nor by a shape that the engine takes, but not its options
+    const vast = { ...models.sheet[1](), points: models.sheet[1]().points.map((x) => 1e160 * x) };
+    await page.keyboard.press('Escape');
+    await assert.rejects(openShape(vast, 'vast'), /bending_length must be finite/);
+    await page.select('#cells', 'spokes');
+    const kept = await settled();
+    assert.deepEqual([kept.name, kept.vertices, kept.undo], [before.name, before.vertices, 1]);
+    await page.select('#cells', 'spokes_and_rims');
+    await settled();
+    assert.equal(await message(), '');
     // two parts, of which one is held by nothing
     const two = sphere(6),
       points = [...two.points, ...two.points.map((x, i) => x + (i % 3 === 0 ? 3 : 0))],
