@@ -153,6 +153,11 @@ function readMedit(text) {
     if (!(Number.isInteger(v) && v >= 1 && v <= n))
       fail(`an element has the vertex ${v}, but there are ${n} vertices`);
   });
+  for (let i = 0; i < simplices.length; i += corners) {
+    const element = simplices.subarray(i, i + corners),
+      twice = element.find((v, k) => element.indexOf(v) < k);
+    if (twice) fail(`an element has the vertex ${twice} twice`);
+  }
   return {
     points: vertices,
     simplices: Int32Array.from(simplices, (v) => v - 1),

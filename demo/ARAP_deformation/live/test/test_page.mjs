@@ -320,6 +320,11 @@ const steps = {
     assert.deepEqual([...large.corners], [...Array(63).fill(3), 64]);
     assert.match(large.note, /were cut into triangles: 1\./);
     assert.throws(() => read('a.obj', `${vertices}f 1 2 1`), /a\.obj .* the vertex 0 twice/);
+    const element = (corners) =>
+      `Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n${corners}`;
+    assert.equal(read('a.mesh', element('Triangles 1\n1 2 3 0')).simplices.length, 3);
+    for (const corners of ['Triangles 1\n1 2 2 0', 'Tetrahedra 2\n1 2 3 4 0\n1 2 3 2 0'])
+      assert.throws(() => read('a.mesh', element(corners)), /a\.mesh .* the vertex 2 twice/);
     // selections and transforms
     const bytes = (text) => new TextEncoder().encode(text).buffer;
     assert.deepEqual([...readSelection('a.sel', bytes('# all\n0\n1\n2 # a handle\n'), 3)], [0, 1, 2]);
