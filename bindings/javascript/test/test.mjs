@@ -356,7 +356,9 @@ assert.equal(session.deform().stages.factor, false);
   assert.equal(mixed.numberOfSimplices, 2);
   const places = mixed.locateAll([0.5, 1.25, 2, 0.5, 0.25, -1, NaN, 0, 0]);
   assert.deepEqual(
-    places.map((place) => place && [place.simplex, place.coordinates.length, place.distance]),
+    places.map(
+      (place) => place && [place.simplex, place.coordinates.length, +place.distance.toFixed(12)],
+    ),
     [[1, 3, 2], [0, 4, 1], null],
   );
   assert.deepEqual(mixed.locate([0.5, 0.25, -1]), places[1]);
