@@ -71,6 +71,8 @@ export interface Options {
   verify_minimum?: boolean;
   /** whether runs of large shapes have a coarse metric, for fewer iterations; default true */
   coarse_metric?: boolean;
+  /** as in the C++ library, but here there is only one, whatever the number is */
+  threads?: number;
 }
 
 export interface Shape {

@@ -508,6 +508,8 @@ export async function load({ wasmBinary } = {}) {
     // f(visits) runs, with a visitor if there is one, and makes the report. What a visitor throws
     // cancels the run, and is thrown.
     #run(visitor, f) {
+      if (visitor != null && typeof visitor !== 'function')
+        throw new TypeError(`the visitor is ${visitor}; it must be a function`);
       let thrown = null;
       const visit = (iteration, energy) => {
         let isCalled = true;

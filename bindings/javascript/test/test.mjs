@@ -258,6 +258,9 @@ for (const change of [
 ])
   refuses(() => session.deform({ tolerance: 0, visitor: change }), ArapError, /visit/, 'in_a_run');
 assert.deepEqual([...session.handles()], [0, 1, 2]);
+for (const visitor of [0, false, '', 'stop', {}])
+  for (const run of ['deform', 'advance'])
+    refuses(() => session[run]({ visitor }), TypeError, /the visitor is .* a function/);
 for (const answer of ['Stop', true, 0, Promise.resolve('stop')])
   refuses(() => session.deform({ tolerance: 0, visitor: () => answer }), TypeError, /a visitor/);
 for (const answer of [undefined, null, 'proceed'])

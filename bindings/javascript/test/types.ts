@@ -10,6 +10,7 @@ const length: number = session.option('bending_length');
 const momentum: number[] = session.advance({ damping: 1 }).momentum;
 session.setOptions({ cells: 'k_ring:2', bending_length: 0.1, verify_minimum: false });
 session.setOption('coarse_metric', true);
+session.setOption('threads', 1);
 session.transform([0], [], { fromRest: true });
 session.setTargetSurface(0, [], [], { corners: [3, 4] });
 const simplices: (number | undefined)[] = session.locateAll([]).map((place) => place?.simplex);
