@@ -322,10 +322,10 @@ public:
   /// coordinates in the region of interest, as free vertices if they are not in it.
   ///
   /// Its target is its current position, with infinite weight. Refuses a nonexistent simplex
-  /// (`ARAP::Status::not_a_simplex`), and coordinates that are not finite, do not add up to one
-  /// within 1e-9, or 1e-14 times the largest if that is more, or are too few or too many
-  /// (`ARAP::Status::invalid_coordinates`). Divide coordinates that were computed in `float` by
-  /// their sum first.
+  /// (`ARAP::Status::not_a_simplex`) if the domain can tell, and coordinates that are not finite,
+  /// do not add up to one within 1e-9, or 1e-14 times the largest if that is more, or are too few
+  /// or too many (`ARAP::Status::invalid_coordinates`). Divide coordinates that were computed in
+  /// `float` by their sum first.
   /// \param s a simplex
   /// \param coordinates a range of numbers, or a list in braces: the barycentric coordinates, in
   ///        the order of `domain().simplex_vertices(s)`
@@ -402,8 +402,9 @@ public:
   ///
   /// The weight must be finite, see `set_target_weight()`; if not, the call returns
   /// `ARAP::Status::invalid_weight` and leaves this target, and in a range those after it, as they
-  /// were. What the function refers to must outlive the target and all states that have it.
-  /// Functions that set or move a target, and `reset()`, make it a point again.
+  /// were. An empty `std::function` throws `std::bad_function_call`, and changes as little. What
+  /// the function refers to must outlive the target and all states that have it. Functions that set
+  /// or move a target, and `reset()`, make it a point again.
   template <typename Handles, typename Projection>
   [[nodiscard]] ARAP::Outcome set_target_set(const Handles& handles, const Projection& projection)
   {
@@ -734,8 +735,8 @@ public:
   /// identity where `v` has no cell in the region, and where no vertex of the cell is free, as
   /// inside a handle that has turned: there take the rotation of the handle. (Not so if rotations
   /// are smoothed, or the cell shares its rotation with others.) It is the identity, too, until the
-  /// next call, after `reset()`, `overwrite_initial_geometry()` and a change of the region of
-  /// interest or the cells, also by `restore()`.
+  /// next call, also one that fails, after `reset()`, `overwrite_initial_geometry()` and a change
+  /// of the region of interest or the cells, also by `restore()`.
   /// \pre `options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 rotation(vertex_descriptor v) const
   {
@@ -745,7 +746,8 @@ public:
   }
 
   /// returns the rotation of the cell of `s` after the last `deform()` or `advance()`; the identity
-  /// in the same cases as `rotation()`. \pre `!options().cells.has_vertex_cells()`
+  /// in the same cases as `rotation()`, and if the domain can tell that `s` is no simplex of it.
+  /// \pre `!options().cells.has_vertex_cells()`
   ARAP::Matrix_3x3 simplex_rotation(simplex_descriptor s) const
   {
     CGAL_precondition_msg(!options().cells.has_vertex_cells(),

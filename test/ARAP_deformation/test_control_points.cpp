@@ -43,6 +43,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -1086,6 +1087,18 @@ void test_refusals()
   CHECK(d.set_target_weight(p, infinite).status == Status::invalid_weight);
   CHECK(d.target_weight(p) == 1);
   CHECK(d.deform());
+
+  // a function that is none is refused, and the set remains
+  bool is_refused = false;
+  try
+  {
+    CHECK(!d.set_target_set(p, std::function<Point(const Point&)>()));
+  }
+  catch(const std::bad_function_call&)
+  {
+    is_refused = true;
+  }
+  CHECK(is_refused && d.set_target_weight(p, infinite).status == Status::invalid_weight);
 
   // an exception rolls back, and what is not finite is a status
   const std::vector<Point> before = sheet.s.points;

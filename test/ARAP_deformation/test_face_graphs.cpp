@@ -224,12 +224,29 @@ void test_with_output_map(const Nasty_shape<N>& shape)
   });
 }
 
+// what is null is no element, in a mesh that does not know its elements either
+template <typename Mesh_>
+void test_null_elements()
+{
+  using Graph_traits = boost::graph_traits<Mesh_>;
+  Mesh_ mesh = make_mesh<Mesh_>(octahedron());
+  CGAL::ARAP_deformation<Mesh_> d(mesh);
+  CHECK(d.set_options(options_for(CGAL::ARAP::Cell_scheme::elements())));
+  CHECK(!d.insert_roi_vertex(Graph_traits::null_vertex()) && d.roi_vertices().empty());
+  CHECK(d.insert_control_point(Graph_traits::null_face(), {1, 0, 0}).status ==
+        CGAL::ARAP::Status::not_a_simplex);
+  const CGAL::ARAP::Matrix_3x3 identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  CHECK(d.simplex_rotation(Graph_traits::null_face()) == identity);
+}
+
 int main()
 {
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   test_mesh_type<Mesh>("Simple_cartesian<double>");
   test_mesh_type<Polyhedron>("Polyhedron_3");
   test_removed_elements();
+  test_null_elements<Mesh>();
+  test_null_elements<Polyhedron>();
   test_const_mesh();
   for(int n : {5, 64, 65, 100, 1000, 2049, 70000})
     test_large_polygon(n, n > 2048);

@@ -846,6 +846,52 @@ void test_mended_points()
   late.insert_control_vertex(Vertex(168), Point(1, 1, 0.5));
   CHECK(late.target_position(v) == sound);
   CHECK(late.deform() && output[v] == sound && late.rest_position(v) == sound);
+
+  input.point(v) = broken;
+  CGAL::ARAP_deformation failed(CGAL::ARAP::make_face_graph_domain(input, output));
+  failed.insert_roi_vertices(vertices(input));
+  failed.insert_control_vertex(Vertex(168), Point(1, 1, 0.5));
+  CHECK(says(failed.deform(), "vertex 3"));
+  input.point(v) = sound;
+  failed.reset();
+  CHECK(output[v] == sound);
+}
+
+// A hard control vertex that was inserted broken, where nothing that moves meets it, has a rest
+// point from the run on that puts it at its target.
+template <typename Domain, typename Points>
+void test_mended_target(const Domain& domain, const Points& points, bool is_reset)
+{
+  const Vertex v(3);
+  const Point target(0.1, 0.2, 0.3);
+  CGAL::ARAP_deformation<Domain> d(domain);
+  d.insert_roi_vertices(domain.vertices());
+  for(Vertex u : domain.vertices())
+    if(u < Vertex(117)) // all but four rows
+      d.insert_control_vertex(u);
+  CHECK(d.set_target_position(v, target));
+  CHECK(d.deform());
+  CHECK(points[v] == target && d.rest_position(v) == target);
+  if(is_reset)
+    d.reset();
+  CHECK(points[v] == target && d.target_position(v) == target);
+  d.clear_control_vertices();
+  d.insert_control_vertex(v);
+  CHECK(d.deform());
+  CHECK(points[v] == target && d.rest_position(v) == target);
+}
+
+void test_mended_targets()
+{
+  test_case() = "mended targets";
+  for(const bool is_reset : {false, true})
+  {
+    Mesh mesh = make_mesh<Mesh>(sheet(12));
+    mesh.point(Vertex(3)) = Point(0, std::nan(""), 0);
+    auto output = mesh.add_property_map<Vertex, Point>("v:output").first;
+    test_mended_target(CGAL::ARAP::make_face_graph_domain(mesh, output), output, is_reset);
+    test_mended_target(CGAL::ARAP::Face_graph_domain<Mesh>(mesh), mesh.points(), is_reset);
+  }
 }
 
 // What is wrong where nothing can move any more is not asked for.
@@ -1500,6 +1546,7 @@ int main()
   undo::test_branches();
   undo::test_points_of_others();
   undo::test_mended_points();
+  undo::test_mended_targets();
   undo::test_refusals_elsewhere();
   user_weights::test_changes();
   user_weights::test_singular();

@@ -24,14 +24,17 @@
 #include "include/Single_precision_solver.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/Edge_map_weight.h>
 #include <CGAL/ARAP_deformation/Multifrontal_cholesky_solver.h>
 #include <CGAL/ARAP_deformation/Newton_closest_rotation.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/check_sparse_solver.h>
+#include <CGAL/property_map.h>
 
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <type_traits>
 #include <vector>
 
@@ -64,6 +67,18 @@ void test_all()
   options.cells = CGAL::ARAP::Cell_scheme::elements();
   CHECK(d.set_options(options));
   CHECK(is_refused([&] { d.rotation(Mesh::Vertex_index(0)); })); // there is one for each face
+
+  // edge weights by indices that have gaps, which are no misuse
+  std::map<Mesh::Vertex_index, int> indices;
+  for(Mesh::Vertex_index v : mesh.vertices())
+    indices[v] = 2 * int(v) + 1;
+  const boost::associative_property_map<std::map<Mesh::Vertex_index, int>> index_map(indices);
+  const CGAL::ARAP::Edge_map_weight weight = CGAL::ARAP::make_edge_map_weight(
+    mesh, CGAL::Constant_property_map<Mesh::Edge_index, double>(3),
+    CGAL::parameters::vertex_index_map(index_map));
+  for(Mesh::Edge_index e : mesh.edges())
+    CHECK(weight.edge_weight(CGAL::ARAP::Edge_set::star, get(index_map, mesh.vertex(e, 0)),
+                             get(index_map, mesh.vertex(e, 1)), 0) == 3);
 
   // in a run, by a visitor
   d.insert_control_vertex(Mesh::Vertex_index(0));

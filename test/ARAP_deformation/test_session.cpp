@@ -1496,6 +1496,7 @@ void test_all()
   CHECK(was_called && mesh.point(w) == Point(3, 1, 2) && d.is_control_vertex(w));
   CHECK(d.rotation(v) != identity);
   CHECK(d.simplex_rotation(Mesh::Face_index(0)) == identity);
+  CHECK(d.simplex_rotation(Mesh::null_face()) == identity);
 
   // and so is a force, or the stiffness of a cell
   const auto state = d.state();

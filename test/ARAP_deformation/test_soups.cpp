@@ -1249,6 +1249,8 @@ void test_lone_vertex(Block block)
   compare(quality(domain, rest), before);
   for(const Vertex_measure measure : all_measures)
     CHECK(quality_at_vertices(domain, measure, rest).back() == 0);
+  rest.back() = Eigen::Vector3d(1e170, 0, 0); // its square overflows
+  compare(quality(domain, rest), before);
 }
 
 // A cube of squares has the measures of the one of triangles whose sides are not its diagonals.

@@ -467,6 +467,12 @@ void test_energy()
   CHECK(d.preprocess() && std::isnan(d.energy()));
   CHECK(d.deform() && d.energy() > 0);
   CHECK(d.restore(state) && std::isnan(d.energy()));
+
+  // a move leaves the weights with the old object, too
+  const auto [a, b, c] = shape.triangles[0];
+  const Edge_map_weight moved = std::move(weight);
+  weight.set_weight(a, b, 3);
+  CHECK(moved.edge_weight(CGAL::ARAP::Edge_set::star, a, b, 0) == 3);
 }
 
 void compare(const std::vector<double>& a, const std::vector<double>& b)

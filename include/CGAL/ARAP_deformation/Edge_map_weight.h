@@ -17,9 +17,9 @@
 
 #include <CGAL/ARAP_deformation/Cell_scheme.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
+#include <CGAL/ARAP_deformation/internal/domain/index_map_of.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
 #include <boost/functional/hash.hpp>
@@ -50,6 +50,10 @@ namespace ARAP {
 class Edge_map_weight
 {
 public:
+  Edge_map_weight() = default;
+  Edge_map_weight(const Edge_map_weight&) = default; // and no move: that would leave no weights
+  Edge_map_weight& operator=(const Edge_map_weight&) = default;
+
   /// sets the weight, in both directions, of the edge between the vertices with the indices `i` and
   /// `j` in the domain.
   void set_weight(std::size_t i, std::size_t j, double weight)
@@ -106,7 +110,7 @@ Edge_map_weight make_edge_map_weight(const Graph& mesh, EdgeWeightMap edge_weigh
                                      const NamedParameters& np = parameters::default_values())
 {
   Edge_map_weight weight;
-  const auto index_map = get_initialized_vertex_index_map(mesh, np);
+  const auto index_map = internal::index_map_of(mesh, np);
   for(auto edge : edges(mesh))
     weight.set_weight(get(index_map, source(edge, mesh)), get(index_map, target(edge, mesh)),
                       get(edge_weight_map, edge));

@@ -16,6 +16,7 @@
 #include <CGAL/license/ARAP_deformation.h>
 
 #include <CGAL/ARAP_deformation/internal/domain/Point_conversion.h>
+#include <CGAL/ARAP_deformation/internal/domain/index_map_of.h>
 #include <CGAL/ARAP_deformation/internal/domain/weighted_points.h>
 #include <CGAL/ARAP_deformation/internal/has_parameter.h>
 #include <CGAL/ARAP_deformation/internal/is_valid.h>
@@ -191,12 +192,12 @@ public:
   auto vertices() const { return internal::vertices_of_graph(*m_mesh); }
 
   /// returns whether `v` is a vertex of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
-  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`.
-  bool is_vertex(vertex_descriptor v) const { return is_element(v); }
+  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`, unless it is null.
+  bool is_vertex(vertex_descriptor v) const { return is_element(v, Graph_traits::null_vertex()); }
 
   /// returns whether `s` is a face of the mesh, and was not removed. Only a `CGAL::Surface_mesh`
-  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`.
-  bool is_simplex(simplex_descriptor s) const { return is_element(s); }
+  /// and a `CGAL::Face_filtered_graph` can tell; for other meshes `true`, unless it is null.
+  bool is_simplex(simplex_descriptor s) const { return is_element(s, Graph_traits::null_face()); }
 
   /// returns whether no face is incident to `v`.
   bool is_isolated(vertex_descriptor v) const
@@ -224,14 +225,14 @@ public:
 
 private:
   template <typename Element>
-  bool is_element([[maybe_unused]] Element e) const
+  bool is_element(Element e, Element null) const
   {
     if constexpr(internal::is_valid<internal::Call_is_removed, Graph>)
       return m_mesh->has_valid_index(e) && !m_mesh->is_removed(e);
     else if constexpr(internal::is_valid<internal::Call_is_in_cc, Graph>)
-      return e != Element() && m_mesh->is_in_cc(e);
+      return e != null && m_mesh->is_in_cc(e);
     else
-      return true;
+      return e != null;
   }
 
   Iterator_range<Halfedge_around_target_iterator<Graph>> halfedges_to(vertex_descriptor v) const
@@ -262,20 +263,6 @@ template <typename PolygonMesh, typename VertexPointMap, typename VertexIndexMap
 Face_graph_domain(PolygonMesh&, VertexPointMap, VertexIndexMap, OutputPointMap)
   -> Face_graph_domain<PolygonMesh, VertexPointMap, VertexIndexMap, OutputPointMap>;
 #endif
-
-namespace internal {
-
-// A map that is passed may have gaps, which get_initialized_vertex_index_map() refuses in Debug.
-template <typename Graph, typename NamedParameters>
-auto index_map_of(const Graph& mesh, const NamedParameters& np)
-{
-  if constexpr(has_parameter<NamedParameters, internal_np::vertex_index_t>)
-    return parameters::get_parameter(np, internal_np::vertex_index);
-  else
-    return get_initialized_vertex_index_map(mesh, np);
-}
-
-} // namespace internal
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the domain of a surface, which may be `const`, whose deformed points are written

@@ -35,8 +35,8 @@ namespace ARAP {
 /// \brief the volumes of a linear cell complex of dimension 3, or the faces of one of dimension 2,
 /// over a combinatorial or a generalized map.
 ///
-/// Volumes must be tetrahedra, and faces must be closed: preprocessing fails if the region of
-/// interest meets any other cell.
+/// Volumes must be tetrahedra, and faces must be closed: preprocessing fails if it meets any
+/// other cell, in or next to the region of interest.
 ///
 /// Construction builds tables of vertices and simplices, in linear time and memory. The complex
 /// must outlive the domain, and its cells must not change in the meantime.

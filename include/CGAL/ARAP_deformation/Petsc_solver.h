@@ -49,9 +49,10 @@ namespace ARAP {
 ///
 /// Starts MPI and PETSc, unless the program has, and ends what it started with the last copy of the
 /// environment and the last solver made with it. MPI cannot be started again after that: keep the
-/// environment as long as the program may need one. PETSc reads the options in the environment
-/// variable `PETSC_OPTIONS`, for solvers those with the prefix `arap_`, as in
-/// `-arap_pc_hypre_boomeramg_strong_threshold 0.5`. It prints no errors and takes no signals.
+/// environment as long as the program may need one, and copy it where another is needed. PETSc
+/// reads the options in the environment variable `PETSC_OPTIONS`, for solvers those with the prefix
+/// `arap_`, as in `-arap_pc_hypre_boomeramg_strong_threshold 0.5`. It prints no errors and takes no
+/// signals.
 class Petsc_environment
 {
 public:
@@ -127,8 +128,8 @@ public:
   ///
   /// \param environment the processes
   /// \param method how it solves
-  /// \param tolerance of conjugate gradients, less than 1: the error of a solution relative to it,
-  ///        both in the norm of the matrix, as the preconditioner estimates it. A step of
+  /// \param tolerance of conjugate gradients, between 0 and 1: the error of a solution relative to
+  ///        it, both in the norm of the matrix, as the preconditioner estimates it. A step of
   ///        local/global then misses the share `tolerance`\f$^2\f$ of what the exact step gains
   ///        with these rotations. The default, which misses a ten-thousandth, is what the
   ///        minimizers need: smaller ones take longer, and no fewer iterations.

@@ -39,8 +39,8 @@ namespace ARAP {
 /// that index them.
 ///
 /// Vertices and simplices are identified by their positions in the ranges. The faces need not be
-/// oriented or manifold, and tetrahedra may have either orientation. Preprocessing fails if the
-/// region of interest meets a simplex with a nonexistent or a repeated corner.
+/// oriented or manifold, and tetrahedra may have either orientation. Preprocessing fails if it
+/// meets a simplex with a nonexistent or a repeated corner, in or next to the region of interest.
 ///
 /// Construction builds a table of the simplices at each vertex, in linear time and memory. The
 /// ranges must outlive the domain; their sizes and the simplices must not change in the meantime.

@@ -151,7 +151,8 @@ auto locate(const Shape& shape, const Point& point)
 
 /// \ingroup PkgARAPDeformationDomains
 /// \brief returns the point of a location for the points that a mesh or domain has now: what was
-/// located in the rest shape follows the deformed one. Linear time in the number of corners.
+/// located in the rest shape follows the deformed one. Linear time in the number of corners, for a
+/// domain; that of a mesh is constructed first, in each call.
 ///
 /// \param shape a mesh or a domain, as for `locate()`
 /// \param location a `Location` in it

@@ -161,12 +161,17 @@ public:
     m_inertia = inertia;
   }
 
+  bool is_up_to_date() const
+  {
+    return has_region() && !has_other_values() && m_ready.constraints == m_present.constraints;
+  }
+
   // Brings all stages up to date, and adds those that this took. If it fails, rotations and
   // positions are as they were.
   Outcome prepare(Vertices& vertices, const Cell_values<Domain>& values, const Options& options,
                   Stages& stages)
   {
-    if(!has_region() || has_other_values() || m_ready.constraints != m_present.constraints)
+    if(!is_up_to_date())
     {
       m_outcome = Outcome(); // as long as something may throw
       m_outcome = update(vertices, values, options, stages);

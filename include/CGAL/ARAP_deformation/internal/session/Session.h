@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/Report.h>
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
+#include <CGAL/ARAP_deformation/internal/domain/is_in_domain.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Scoped_seconds.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/session/Iterate.h>
@@ -134,7 +135,7 @@ public:
   Matrix_3x3 rotation_of_simplex(simplex_descriptor s) const
   {
     const bool has_cell = !m_options.cells.has_vertex_cells();
-    return rotation_of_cell(has_cell, [&](const auto& region) {
+    return rotation_of_cell(has_cell && is_simplex_of(domain(), s), [&](const auto& region) {
       return region.find_simplex(domain(), s);
     });
   }
@@ -150,6 +151,7 @@ protected:
   using Base::m_rules;
   using Base::m_vertices;
   using Base::mend;
+  using Base::mend_rest_points;
   using Base::points_of_entries;
   using Base::refuse_in_a_run;
   using Base::region_changed;
@@ -262,8 +264,8 @@ private:
   Outcome take_points_of_others(double& transfer)
   {
     Scoped_seconds seconds(transfer);
-    if(!m_prepared.has_region() && !domain().is_in_place() && !m_rules.are_erased_put_back)
-      mend_inputs();
+    if(!m_prepared.is_up_to_date() && !m_rules.are_erased_put_back)
+      mend_rest_points();
     if(!takes_points())
       return outcome(Status::success);
     std::vector<std::pair<std::size_t, Point>> changed = m_vertices.changed_points();
@@ -280,18 +282,6 @@ private:
     }
     m_prepared.read_surroundings(m_vertices);
     return outcome(Status::success);
-  }
-
-  // Where results are written elsewhere, inputs are read once, but for those that were not finite.
-  void mend_inputs()
-  {
-    for(std::size_t k = 0; k < m_vertices.entries().size(); ++k)
-      if(Entry& entry = m_vertices.entries()[k]; !is_finite(Domain::coordinates(entry.rest)))
-      {
-        m_vertices.present_points()[k] = domain().point(entry.vertex);
-        if(mend(entry, m_vertices.present_points()[k]))
-          region_changed();
-      }
   }
 
   void write_points(Array<Coordinates>& positions)

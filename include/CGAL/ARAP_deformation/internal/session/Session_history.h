@@ -44,16 +44,14 @@ public:
   using typename Base::Vertices;
 
   using Base::Base;
+  using Base::present;
   using Base::rest_point;
 
   void reset()
   {
     if(refuse_in_a_run())
       return;
-    if(takes_points())
-      for(const auto& [k, point] : m_vertices.changed_points())
-        if(mend(m_vertices.entries()[k], point))
-          region_changed();
+    mend_rest_points();
     Array<Coordinates> positions;
     if(m_prepared.has_region())
     {
@@ -197,6 +195,19 @@ protected:
     if(is_mended)
       entry.rest = point;
     return is_mended;
+  }
+
+  // The same for all, whoever has given them a point that is finite: a run, or the program, also to
+  // the input where results are written elsewhere.
+  void mend_rest_points()
+  {
+    for(std::size_t k = 0; k < m_vertices.entries().size(); ++k)
+      if(Entry& entry = m_vertices.entries()[k]; !is_finite(Domain::coordinates(entry.rest)))
+      {
+        m_vertices.present_points()[k] = present(entry.vertex);
+        if(mend(entry, m_vertices.present_points()[k]))
+          region_changed();
+      }
   }
 
   // f(k, entry) for each entry: points are copied before any is changed, as copies may throw

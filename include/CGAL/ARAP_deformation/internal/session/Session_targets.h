@@ -25,6 +25,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,7 +83,10 @@ public:
     return with_target(handle, [&](auto& target) {
       if(target.is_hard())
         return refuse_hard_set(handle);
-      target.set = std::move(projection);
+      decltype(target.set) set(std::move(projection));
+      if(!set)
+        throw std::bad_function_call();
+      target.set = std::move(set);
       return Outcome(Status::success, std::string());
     });
   }

@@ -49,8 +49,9 @@ public:
     // no measure has a unit: so that no square of a length overflows or underflows, both shapes
     // are scaled by a power of two
     Bounding_box box;
-    for(const Coordinates& p : m_rest)
-      box.include(p);
+    for(const Simplex& s : m_list.simplices())
+      for(std::size_t v : s)
+        box.include(m_rest[v]);
     const double side = box.longest_side();
     if(!(side > 0) || !is_finite(side))
       return;
