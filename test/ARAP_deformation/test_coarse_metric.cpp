@@ -20,6 +20,7 @@
 #include "include/shapes.h"
 
 #include <CGAL/ARAP_deformation.h>
+#include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_matrix.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_metric.h>
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_region.h>
@@ -33,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -258,6 +260,75 @@ void test_fan()
   }
 }
 
+// A vertex with many neighbors does not make balls around these take longer: that took hundreds of
+// times as long as in a sheet.
+void test_hub()
+{
+  test_case() = "a hub";
+  const int side = 400, n = side * side;
+  const auto seconds = [](int size, const auto& for_each_edge) {
+    const Index_lists graph = CGAL::ARAP::internal::lists_of_pairs(size, [&](const auto& f) {
+      for_each_edge([&](int v, int w) {
+        f(v, w);
+        f(w, v);
+      });
+    });
+    Array<Coordinates> points;
+    for(int v = 0; v < size; ++v)
+      points.push_back({double(v == 0 ? size : v), 0, 0}); // the hub comes last
+    const auto begin = std::chrono::steady_clock::now();
+    const Coarse_space space(graph, points, Array<char>(points.size(), false), 12);
+    const std::chrono::duration<double> result = std::chrono::steady_clock::now() - begin;
+    CHECK(space.number_of_nodes() > size / 20 && space.number_of_nodes() < size / 2);
+    return result.count();
+  };
+  const double of_sheet = seconds(n, [&](const auto& f) {
+    for(int v = 0; v < n; ++v)
+    {
+      if((v + 1) % side != 0)
+        f(v, v + 1);
+      if(v + side < n)
+        f(v, v + side);
+    }
+  });
+  const double of_fan = seconds(n, [&](const auto& f) {
+    for(int v = 1; v < n; ++v)
+    {
+      f(0, v);
+      f(v, v % (n - 1) + 1);
+    }
+  });
+  CHECK_AT_MOST(of_fan / of_sheet, 20);
+}
+
+// Where there would be about as many nodes as vertices, as in small parts, there is no matrix.
+void test_small_parts()
+{
+  for(const int side : {4, 12})
+  {
+    test_case() = "parts with sides of " + std::to_string(side);
+    const Shape part = grid("part", side, side, [](double u, double v) {
+      return Eigen::Vector3d(u, v, 0.1 * u * v);
+    });
+    Shape parts = part;
+    for(int k = 1; k < 30; ++k)
+    {
+      for(const auto& [a, b, c] : part.triangles)
+        parts.triangles.push_back({a + parts.points.size(), b + parts.points.size(),
+                                   c + parts.points.size()});
+      for(const Eigen::Vector3d& p : part.points)
+        parts.points.emplace_back(p + Eigen::Vector3d(2 * k, 0, 0));
+    }
+    Problem problem(problem::region_of(parts.points, parts.triangles), Energy_model(), 0.01);
+    Minimization run = problem.minimization();
+    run.evaluate();
+    const CGAL::ARAP::Sparse_matrix& laplacian = problem.system.laplacian().matrix;
+    Coarse_metric metric(problem.energy, laplacian, problem.region.rest);
+    CHECK(metric.build(problem.energy, laplacian, problem.constraints.is_fixed, problem.x,
+                       problem.rotations) == (side == 12));
+  }
+}
+
 // An isolated vertex takes no part, wherever it is.
 void test_far_isolated_vertex(const Shape& sheet)
 {
@@ -422,5 +493,7 @@ int main()
   coarse::test_matrix("sheet", sheet.points, sheet.triangles);
   coarse::test_matrix("bar", bar.points, bar.tetrahedra);
   coarse::test_fan();
+  coarse::test_hub();
+  coarse::test_small_parts();
   return checks_result();
 }

@@ -128,7 +128,8 @@ struct Options
   /// about 160 bytes more for each vertex of the region. To prepare it takes as long as some ten
   /// iterations; this is done when it is first needed, and kept until the weights change.
   /// Local/global runs, time steps, runs with `smoothing_length` or with control points that are
-  /// not soft, and weights for which the energy may be negative, do without.
+  /// not soft, weights for which the energy may be negative, and thousands of small parts, do
+  /// without.
   bool coarse_metric = true;
 
   /// the maximum number of threads at a time; 0 lets TBB choose. Without TBB (the macro

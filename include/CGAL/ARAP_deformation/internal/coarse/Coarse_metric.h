@@ -21,6 +21,8 @@
 #include <CGAL/ARAP_deformation/internal/coarse/Coarse_transfer.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
 
+#include <optional>
+
 namespace CGAL {
 namespace ARAP {
 namespace internal {
@@ -36,8 +38,13 @@ public:
   // what depends on neither positions nor constraints
   Coarse_metric(const Deformation_energy& energy, const Sparse_matrix& laplacian,
                 const Array<Coordinates>& rest)
-    : m_transfer(Coarse_space(laplacian, rest)), m_matrix(m_transfer, energy, laplacian)
-  {}
+    : m_transfer(Coarse_space(laplacian, rest))
+  {
+    // with more nodes, as in thousands of small parts, a solution costs more than it saves
+    const int nodes = m_transfer.space().number_of_nodes();
+    if(nodes > 0 && nodes <= m_transfer.space().number_of_vertices() / 32)
+      m_matrix.emplace(m_transfer, energy, laplacian);
+  }
 
   // Computes P and the factor of C at the positions x; false if there is none. `matrix` is L with
   // the rows of the constraints.
@@ -45,10 +52,10 @@ public:
              const Array<char>& is_fixed, const Array<Coordinates>& x,
              const Array<Matrix_3x3>& rotations)
   {
-    if(m_transfer.space().number_of_nodes() == 0)
+    if(!m_matrix)
       return false;
     m_transfer.place(is_fixed, x);
-    return m_matrix.build(m_transfer, energy, matrix, rotations);
+    return m_matrix->build(m_transfer, energy, matrix, rotations);
   }
 
   // step += P C^-1 P^T f
@@ -68,7 +75,7 @@ public:
   }
 
   // u := C^-1 u
-  bool solve(Array<Coordinates>& u) { return m_matrix.solve(u); }
+  bool solve(Array<Coordinates>& u) { return m_matrix->solve(u); }
 
   // step += P u
   void add_prolonged(const Array<Coordinates>& u, Array<Coordinates>& step) const
@@ -78,7 +85,7 @@ public:
 
 private:
   Coarse_transfer m_transfer;
-  Coarse_matrix m_matrix;
+  std::optional<Coarse_matrix> m_matrix; // if it pays
 };
 
 } // namespace internal

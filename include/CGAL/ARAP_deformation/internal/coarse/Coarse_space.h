@@ -89,7 +89,8 @@ private:
 
   // A vertex is a node if it is not in the ball around any node before it. A ball grows by rings,
   // which do not depend on the order of neighbors: by those of the node, and then by all vertices
-  // with two neighbors in it, which makes it round.
+  // with two neighbors in it, which makes it round. The neighbors of a hub, which has far more than
+  // a ball, are not walked for each ball there; as it then is no neighbor, one other is enough.
   void choose_nodes(const Index_lists& graph, const Array<int>& vertices,
                     std::size_t vertices_of_a_ball)
   {
@@ -97,18 +98,27 @@ private:
     Array<char> is_in_ball(graph.size(), false);
     Array<int> last_node(graph.size(), -1), ball;
     Array<Link> links(graph.size()); // from the ball of a node to vertices that are not in it
+    const auto is_hub = [&](int v) {
+      return std::size_t(graph.begin[v + 1] - graph.begin[v]) > 10 * vertices_of_a_ball;
+    };
     const auto cover = [&](int node) {
       ball.assign(1, m_vertices[node]);
       last_node[m_vertices[node]] = node;
+      bool has_hub = false;
       for(std::size_t k = 0, end = 1; k < ball.size() && ball.size() < vertices_of_a_ball;
           end = ball.size())
+      {
+        has_hub = has_hub || std::any_of(ball.begin() + std::ptrdiff_t(k), ball.end(), is_hub);
         for(; k < end; ++k)
+        {
+          if(k > 0 && is_hub(ball[k]))
+            continue;
           for(int e = graph.begin[ball[k]]; e < graph.begin[ball[k] + 1]; ++e)
           {
             const int i = graph.items[e];
             if(last_node[i] == node)
               continue;
-            if(k > 0 && (links[i].node != node || links[i].vertex == ball[k]))
+            if(k > 0 && !has_hub && (links[i].node != node || links[i].vertex == ball[k]))
             {
               links[i] = {node, ball[k]};
               continue;
@@ -116,6 +126,8 @@ private:
             last_node[i] = node;
             ball.push_back(i);
           }
+        }
+      }
       for(int i : ball)
         is_in_ball[i] = true;
     };

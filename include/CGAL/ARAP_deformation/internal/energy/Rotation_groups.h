@@ -35,12 +35,14 @@ public:
   // all cells have rotations of their own
   Rotation_groups() = default;
 
+  // of the cells of each group; one alone shares its rotation with none
   Rotation_groups(Index_lists cells, int number_of_cells)
     : m_cells(std::move(cells)), m_group_of(number_of_cells, none)
   {
     for(int g = 0; g < m_cells.size(); ++g)
-      for(int c : m_cells.list(g))
-        m_group_of[c] = g;
+      if(const Index_range group = m_cells.list(g); group.size() > 1)
+        for(int c : group)
+          m_group_of[c] = g;
   }
 
   // The rotations of some cells; a group has the mean of those of its cells.
@@ -71,7 +73,8 @@ public:
   void for_each_group(const Function& f) const
   {
     for(int g = 0; g < m_cells.size(); ++g)
-      f(m_cells.list(g).begin(), m_cells.list(g).end());
+      if(const Index_range group = m_cells.list(g); group.size() > 1)
+        f(group.begin(), group.end());
   }
 
   // calls f for c and all cells that share its rotation
