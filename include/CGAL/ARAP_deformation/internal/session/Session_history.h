@@ -203,11 +203,11 @@ protected:
   {
     for(std::size_t k = 0; k < m_vertices.entries().size(); ++k)
       if(Entry& entry = m_vertices.entries()[k]; !is_finite(Domain::coordinates(entry.rest)))
-      {
-        m_vertices.present_points()[k] = present(entry.vertex);
-        if(mend(entry, m_vertices.present_points()[k]))
+        if(const Point point = present(entry.vertex); mend(entry, point))
+        {
+          m_vertices.present_points()[k] = point;
           region_changed();
-      }
+        }
   }
 
   // f(k, entry) for each entry: points are copied before any is changed, as copies may throw
