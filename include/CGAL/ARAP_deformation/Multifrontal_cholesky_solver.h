@@ -52,10 +52,10 @@ enum class Factor_precision
 /// times the square root of the condition number of the matrix in the norm of the energy, and up to
 /// that number itself in other norms: with `check_sparse_solver()`, allow residuals of 0.02.
 ///
-/// If the matrix is so ill-conditioned that the steps would suffer, or if its entries are out of
-/// the range of `float`, `factorize()` computes the factor again and stores it in double precision.
-/// It finds out by refining the solution for a random right-hand side three times: in the norm of
-/// the energy, each correction must be at most a tenth of the one before.
+/// If the matrix is so ill-conditioned that the steps would suffer, or if an entry of its diagonal
+/// is not between 1e-15 and 1e15, `factorize()` computes the factor in double precision instead. It
+/// finds out the former by refining the solution for a random right-hand side three times: in the
+/// norm of the energy, each correction must be at most a tenth of the one before.
 ///
 /// A copy has the same ordering and precision, and nothing analyzed; a move keeps the factor.
 ///

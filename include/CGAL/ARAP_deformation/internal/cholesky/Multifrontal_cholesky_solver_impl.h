@@ -75,6 +75,18 @@ struct Multifrontal_cholesky_solver::State
     single_factor.substitution.solve(structure(), single_factor.values.get(), n, x, unit);
   }
 
+  // Whether solutions, and what a border makes of them, remain in the range of float for all kinds
+  // of right-hand sides: smooth ones have large solutions, and one column may be much smaller than
+  // another.
+  static bool is_in_range(const Sparse_matrix& a)
+  {
+    for(int column = 0; column < a.outerSize(); ++column)
+      if(const Sparse_matrix::InnerIterator diagonal(a, column);
+         !diagonal || !(1e-15 < diagonal.value() && diagonal.value() < 1e15))
+        return false;
+    return true;
+  }
+
   // Whether refining the solution for a random right-hand side works. That is a power iteration: it
   // finds what the factor is worst for, however little of it the right-hand side has.
   bool is_accurate(const Sparse_matrix& a)
@@ -111,7 +123,7 @@ struct Multifrontal_cholesky_solver::State
               residual[j][c] -= entry.value() * step[entry.row()][c];
           }
     }
-    return first > 0; // or entries are out of the range of float
+    return first > 0;
   }
 
   internal::Supernodal_cholesky cholesky;
@@ -133,7 +145,8 @@ bool Multifrontal_cholesky_solver::factorize(const Sparse_matrix& a)
   if(m_precision == Factor_precision::single_precision)
   {
     state.double_factor.remove();
-    if(state.single_factor.compute(state.cholesky, a) && state.is_accurate(a))
+    if(State::is_in_range(a) && state.single_factor.compute(state.cholesky, a) &&
+       state.is_accurate(a))
       return true;
     state.single_factor.remove();
   }
