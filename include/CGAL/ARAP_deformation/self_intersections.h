@@ -91,10 +91,11 @@ std::vector<std::vector<std::size_t>> cut_polygon(const std::vector<std::size_t>
 /// those that are not convex into such that do not overlap.
 /// Triangles without area do not count, nor do faces with a corner that is not finite. Those beside
 /// a triangle without area may, and so may triangles where the surface is not an orientable
-/// manifold, as at an edge of three faces or along a seam whose sides are not joined. Takes \f$O(n
-/// \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which have bounding boxes that
-/// intersect, and \f$O(m^3)\f$ for a polygon of \f$m\f$ corners that is not convex. No other header
-/// needs CGAL's package Polygon Mesh Processing.
+/// manifold, as at an edge of three faces or along a seam whose sides are not joined. Takes
+/// \f$O(n \log^3 n + k)\f$ time for \f$n\f$ triangles, \f$k\f$ pairs of which have bounding boxes
+/// that intersect, and \f$O(m^3)\f$ for a polygon of \f$m\f$ corners that is not convex. No other
+/// header needs CGAL's package Polygon Mesh Processing.
+///
 /// \param shape the deformed shape: a mesh as the template parameter `Mesh` of `ARAP_deformation`,
 ///        with its own points, or a model of `ARAPDomain`, which may have others
 template <typename Shape>
