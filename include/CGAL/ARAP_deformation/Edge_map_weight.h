@@ -50,8 +50,13 @@ namespace ARAP {
 class Edge_map_weight
 {
 public:
+  /// has no weights.
   Edge_map_weight() = default;
-  Edge_map_weight(const Edge_map_weight&) = default; // and no move: that would leave no weights
+
+  /// shares the weights of another one, which keeps them when it is moved from, too.
+  Edge_map_weight(const Edge_map_weight&) = default;
+
+  /// shares the weights of another one, which keeps them when it is moved from, too.
   Edge_map_weight& operator=(const Edge_map_weight&) = default;
 
   /// sets the weight, in both directions, of the edge between the vertices with the indices `i` and
