@@ -217,11 +217,12 @@ public:
     prepare_covariances(x);
     m_smooth.keep(rotations);
     const bool has_steps = is_smooth && m_number_of_rotation_steps > 0;
-    if(has_steps)
+    const bool are_covariances_kept = has_steps || !m_groups.is_none();
+    if(are_covariances_kept)
       m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     const auto compute_covariances = [&](int begin, int end, Matrix_3x3* covariances) {
       covariances_of_cells(x, begin, end, covariances);
-      if(has_steps)
+      if(are_covariances_kept)
         std::copy_n(covariances, end - begin, m_covariances.data() + begin);
       if(is_smooth)
         m_smooth.add_covariances(begin, end, covariances);
@@ -243,7 +244,7 @@ public:
     m_groups.for_each_group([&](const int* begin, const int* end) {
       if(!m_is_chosen[*begin])
         return;
-      const Matrix_3x3 sum = sum_of_covariances(begin, end, compute_covariances);
+      const Matrix_3x3 sum = sum_of_kept_covariances(begin, end, is_smooth);
       closest_rotations(1, &sum, &rotations[*begin]);
       m_groups.set(*begin, rotations[*begin], rotations);
     });
@@ -404,19 +405,21 @@ private:
                             const std::function<void(int, const Matrix_3x3&)>& f)
   {
     const Array<char> is_fitted = fitted_cells();
+    if(!m_groups.is_none())
+      m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     prepare_covariances(x);
     m_batches.for_each([&](int begin, int end) {
       std::array<Matrix_3x3, batch_size> covariances;
       covariances_of_cells(x, begin, end, covariances.data());
+      if(!m_groups.is_none())
+        std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
       for(int c = begin; c < end; ++c)
         if(is_fitted[c] && m_groups.is_alone(c))
           f(c, covariances[static_cast<std::size_t>(c - begin)]);
     });
     m_groups.for_each_group([&](const int* begin, const int* end) {
       if(is_fitted[*begin])
-        f(*begin, sum_of_covariances(begin, end, [&](int first, int last, Matrix_3x3* covariances) {
-          covariances_of_cells(x, first, last, covariances);
-        }));
+        f(*begin, sum_of_kept_covariances(begin, end, false));
     });
   }
 
@@ -450,15 +453,15 @@ private:
     return rigidity + m_bending.evaluate(rotations.data(), forces) + m_smooth.evaluate(rotations);
   }
 
-  // of the cells of a group; compute_covariances(begin, end, result) does that for cells
-  template <typename Function>
-  static Matrix_3x3 sum_of_covariances(const int* begin, const int* end,
-                                       const Function& compute_covariances)
+  // of the cells of a group
+  Matrix_3x3 sum_of_kept_covariances(const int* begin, const int* end, bool is_smooth) const
   {
-    Matrix_3x3 sum{}, covariance;
+    Matrix_3x3 sum{};
     for(const int* c = begin; c != end; ++c)
     {
-      compute_covariances(*c, *c + 1, &covariance);
+      Matrix_3x3 covariance = m_covariances[*c];
+      if(is_smooth)
+        m_smooth.add_covariances(*c, *c + 1, &covariance);
       add(sum, 1, covariance);
     }
     return sum;
@@ -479,7 +482,7 @@ private:
   double m_squared_length = 0; // of the diagonal of the box of the vertices in these cells
   double m_sum_of_weights = 0;
   std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
-  Array<Matrix_3x3> m_covariances;                // for these
+  Array<Matrix_3x3> m_covariances;                // for these, and for groups
   Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
   Array<Matrix_3x3> m_changes;                    // of the rotations
   int m_number_of_rotation_steps = 0;             // of each fit

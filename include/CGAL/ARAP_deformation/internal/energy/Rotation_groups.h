@@ -17,10 +17,12 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/parallel/parallel.h>
 #include <CGAL/ARAP_deformation/internal/region/vector_algebra.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Svd_rotation.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -49,7 +51,7 @@ public:
   void give(std::vector<std::pair<int, Matrix_3x3>> given)
   {
     m_given = std::move(given);
-    if(m_cells.size() == 0)
+    if(is_none())
       return;
     Array<Matrix_3x3> sums(m_cells.size(), Matrix_3x3{});
     for(const auto& [c, rotation] : m_given)
@@ -62,19 +64,26 @@ public:
 
   const std::vector<std::pair<int, Matrix_3x3>>& given() const { return m_given; }
 
+  // whether there are none
+  bool is_none() const { return m_cells.size() == 0; }
+
   // whether a cell has a rotation of its own
   bool is_alone(int c) const { return group_of(c) == none; }
 
   // the first of the cells that share a rotation with c
   int leader(int c) const { return is_alone(c) ? c : m_cells.list(group_of(c))[0]; }
 
-  // calls f(begin, end) for the cells of each group
+  // calls f(begin, end) for the cells of each group, in any order
   template <typename Function>
   void for_each_group(const Function& f) const
   {
-    for(int g = 0; g < m_cells.size(); ++g)
-      if(const Index_range group = m_cells.list(g); group.size() > 1)
-        f(group.begin(), group.end());
+    constexpr std::size_t block_size = 64;
+    const auto n = static_cast<std::size_t>(m_cells.size());
+    for_each_block(n, [&](std::size_t first, std::size_t last) {
+      for(std::size_t g = first; g < last; ++g)
+        if(const Index_range group = m_cells.list(static_cast<int>(g)); group.size() > 1)
+          f(group.begin(), group.end());
+    }, block_size);
   }
 
   // calls f for c and all cells that share its rotation
