@@ -1292,6 +1292,35 @@ void test_matrices()
   try_weight(infinity, Status::non_finite_weight, "vertex ");
 }
 
+// not finite in stars, which the default cells do not have
+struct Bad_in_stars : CGAL::ARAP::Uniform_weight
+{
+  double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t, double sum) const
+  {
+    return edge_set == CGAL::ARAP::Edge_set::star && i == 7 ? not_a_number : sum;
+  }
+};
+
+void test_weights_of_laplacian_guess()
+{
+  test_case() = "weights that only the Laplacian guess needs";
+  using Traits = CGAL::ARAP_deformation_traits<CGAL::Default, Bad_in_stars>;
+  const Shape shape = sheet();
+  const Mesh rest = make_mesh<Mesh>(shape);
+  Mesh mesh = rest;
+  CGAL::ARAP_deformation<Mesh, Traits> d(mesh);
+  prepare(d, scenario(shape), all_vertices(mesh));
+  CHECK(d.preprocess());
+  CGAL::ARAP::Options options = d.options();
+  options.initial_guess = CGAL::ARAP::Initial_guess::laplacian;
+  CHECK(d.set_options(options));
+  for(int call = 0; call < 2; ++call)
+    check_refused(d.deform(), Status::non_finite_weight, "vertex 7 ");
+  CHECK(same_or_bad_points(mesh, rest));
+  options.initial_guess = CGAL::ARAP::Initial_guess::automatic;
+  CHECK(d.set_options(options) && d.deform());
+}
+
 // a solver that fails where it is told to
 struct Failing_solver : CGAL::ARAP::Multifrontal_cholesky_solver
 {
@@ -1389,6 +1418,7 @@ void test_all()
   test_nothing_fixed();
   test_nothing_free();
   test_matrices();
+  test_weights_of_laplacian_guess();
   test_solver();
   test_rising_energy();
 }

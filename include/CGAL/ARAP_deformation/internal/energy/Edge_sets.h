@@ -17,6 +17,7 @@
 #include <CGAL/ARAP_deformation/flat_types.h>
 #include <CGAL/ARAP_deformation/internal/Array.h>
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
+#include <CGAL/ARAP_deformation/internal/is_finite.h>
 #include <CGAL/ARAP_deformation/internal/simd/Vector4.h>
 #include <CGAL/ARAP_deformation/internal/simd/run_kernel.h>
 
@@ -64,6 +65,16 @@ struct Stars
           return false;
       }
     return true;
+  }
+
+  // a vertex with an edge whose weight is not finite, or -1
+  int find_vertex_of_non_finite_weight() const
+  {
+    for(int i = 0; i < size(); ++i)
+      for(int e = neighbors.begin[i]; e < neighbors.begin[i + 1]; ++e)
+        if(!is_finite(weights[e]))
+          return i;
+    return -1;
   }
 
   // calls f(i, j, w) for each edge (i, j) of the star of i with its weight w

@@ -162,16 +162,16 @@ private:
                          Report& report);
   bool is_local(const Targets& targets) const;
   const Parts& parts();
-  bool place(const Options& options, Targets& targets, Array<Coordinates>& x,
-             Placement& placement);
+  Diagnosis place(const Options& options, Targets& targets, Array<Coordinates>& x,
+                  Placement& placement);
   bool find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
                        Minimization& minimization, Array<char>& is_placed);
   bool start_with_rotations(const Options& options, const Targets& targets,
                             const Array<Coordinates>& x, Minimization& minimization,
                             Array<char>& is_placed, Report& report);
   bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
-  bool guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
-                          Array<Coordinates>& x, bool& is_found);
+  Diagnosis guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
+                               Array<Coordinates>& x, bool& is_found);
   bool can_have_coarse_start(const Options& options) const;
   Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
   void include_near(const Array<Coordinates>& points, Bounding_box& box) const;

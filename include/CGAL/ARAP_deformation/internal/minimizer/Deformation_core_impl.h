@@ -256,18 +256,20 @@ bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
 }
 
 // Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
-// coordinates, if it is found. Returns false if the solver fails.
+// coordinates, if it is found.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
+Diagnosis Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                                           Array<Coordinates>& x, bool& is_found)
 {
   if(!m_state->stars)
     m_state->stars = star_edge_sets(*m_models.weight,
                                     weighted_simplices(*m_models.weight, m_region), m_region);
+  if(const int v = m_state->stars->find_vertex_of_non_finite_weight(); v >= 0)
+    return {Status::non_finite_weight, v};
   const Array<Coordinates> before = x;
   Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
   if(!guess(targets, x))
-    return false;
+    return {Status::solver_failed};
   // where rounding errors decide, as in parts that hardly any weight ties, it may be anywhere; a
   // bounding box takes no notice of what is no number
   Bounding_box box;
@@ -280,7 +282,7 @@ bool Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Ta
   is_found = guess.is_found() && box.squared_length() <= 4 * size && find_non_finite(x) < 0;
   if(!is_found)
     x = before;
-  return true;
+  return {};
 }
 
 // Whether a run on a coarser surface may tell where to start. It does not pay in volumes, which
@@ -370,10 +372,9 @@ const Parts& Deformation_core::parts()
 }
 
 // Moves x to where a run starts, but for rotations that do better: parts are at their minimum where
-// a rigid motion takes them there, the Laplacian guess is made, hard targets are met. Returns false
-// if the solver fails.
+// a rigid motion takes them there, the Laplacian guess is made, hard targets are met.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::place(const Options& options, Targets& targets, Array<Coordinates>& x,
+Diagnosis Deformation_core::place(const Options& options, Targets& targets, Array<Coordinates>& x,
                              Placement& placement)
 {
   Array<char>& is_placed = placement.is_placed;
@@ -394,15 +395,20 @@ bool Deformation_core::place(const Options& options, Targets& targets, Array<Coo
   if(is_laplacian)
   {
     bool is_found = true;
-    if(!are_all_placed(is_placed) && !guess_by_laplacian(is_placed, targets, x, is_found))
-      return false;
+    Diagnosis diagnosis;
+    if(!are_all_placed(is_placed))
+      diagnosis = guess_by_laplacian(is_placed, targets, x, is_found);
     placement.is_laplacian = is_found;
-    if(!unplaced.empty() &&
-       !guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced, is_found))
-      return false;
+    if(!unplaced.empty() && diagnosis.status == Status::success)
+      diagnosis = guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced,
+                                     is_found);
+    if(diagnosis.status != Status::success)
+      return diagnosis;
   }
-  return m_state->system.meet(targets.hard, x) &&
-         (unplaced.empty() || m_state->system.meet(targets.hard, unplaced));
+  if(!m_state->system.meet(targets.hard, x) ||
+     (!unplaced.empty() && !m_state->system.meet(targets.hard, unplaced)))
+    return {Status::solver_failed};
+  return {};
 }
 
 // Finds the parts from which handles were torn away. If there is one, all others are placed, as
@@ -487,8 +493,9 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   Placement placement;
   {
     Scoped_seconds seconds(report.seconds.initial_guess);
-    if(!place(options, targets, x, placement))
-      return {Status::solver_failed};
+    if(const Diagnosis placed = place(options, targets, x, placement);
+       placed.status != Status::success)
+      return placed;
     if(placement.is_laplacian)
       report.initial_guess = Initial_guess::laplacian;
   }
