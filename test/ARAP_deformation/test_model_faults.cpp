@@ -357,6 +357,33 @@ void test_undo_after_failed_insertion()
   }
 }
 
+// A control point that cannot be inserted leaves no vertex behind that reset() would move.
+void test_reset_after_failed_insertion()
+{
+  test_case() = "reset after an insertion that failed";
+  bool has_thrown = true;
+  for(std::size_t first = 0; has_thrown; ++first)
+  {
+    Solid_of<Faulty_point> solid;
+    CGAL::ARAP_deformation d(solid.domain());
+    d.insert_roi_vertex(0);
+    has_thrown = throws(point_faults, first, [&] {
+      CHECK(d.insert_control_point(solid.tetrahedra.size() - 1, {0.1, 0.2, 0.3, 0.4}));
+    });
+    if(!has_thrown)
+      break;
+    for(std::size_t v = 1; v < solid.points.size(); ++v)
+      solid.points[v] = Faulty_point(10 + double(v), 0, 0);
+    CHECK(d.roi_vertices().size() == 1);
+    d.reset();
+    for(std::size_t v = 1; v < solid.points.size(); ++v)
+      CHECK(solid.points[v][0] == 10 + double(v));
+    CHECK(d.insert_control_point(solid.tetrahedra.size() - 1, {0.1, 0.2, 0.3, 0.4}));
+    CHECK(d.roi_vertices().size() == 5);
+    CHECK(first < 100);
+  }
+}
+
 // Points that others have moved are all seen by the run after one that a copy of a point stopped.
 template <typename Point_>
 void test_points_of_others_after_faults()
@@ -503,6 +530,7 @@ int main()
   test_domain();
   test_points();
   test_undo_after_failed_insertion();
+  test_reset_after_failed_insertion();
   test_points_of_others_after_faults<Faulty_point>();
   test_points_of_others_after_faults<Copied_point>();
   test_points_after_faults();

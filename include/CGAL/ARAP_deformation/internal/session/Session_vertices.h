@@ -265,10 +265,19 @@ public:
   Control_point insert_point(Held_point held)
   {
     const Control_point point(m_last_point + 1);
+    const std::size_t size = m_entries.size();
     std::vector<std::size_t> corners; // their places: what can throw comes first
-    for(vertex_descriptor v : held.corners)
-      corners.push_back(place(find_or_insert(v)));
-    m_points.emplace(point, std::move(held));
+    try
+    {
+      for(vertex_descriptor v : held.corners)
+        corners.push_back(place(find_or_insert(v)));
+      m_points.emplace(point, std::move(held));
+    }
+    catch(...)
+    {
+      remove_entries_from(size);
+      throw;
+    }
     ++m_last_point;
     for(std::size_t k : corners)
       enter_roi(m_entries[k]);
@@ -494,6 +503,16 @@ private:
         m_present_points.pop_back();
       throw;
     }
+  }
+
+  // those that were inserted last
+  void remove_entries_from(std::size_t size)
+  {
+    for(; m_entries.size() > size; m_entries.pop_back(), m_present_points.pop_back())
+      m_slots.set(m_domain.index(m_entries.back().vertex), Paged_index_map::none);
+    if(m_first_points.size() > size)
+      m_first_points.erase(m_first_points.begin() + static_cast<std::ptrdiff_t>(size),
+                           m_first_points.end());
   }
 
   Domain m_domain;
