@@ -1,5 +1,6 @@
 # Builds TARGET in BUILD_DIR. If SENTENCE is empty this must succeed, else it must fail, and the first
-# error must contain SENTENCE. The compiler may not say more than MAX_LINES lines, if there is a limit.
+# error must contain SENTENCE. If there are limits, the compiler may not say more than MAX_LINES lines,
+# and must find as many ERRORS.
 execute_process(
   COMMAND ${CMAKE_COMMAND} --build ${BUILD_DIR} --target ${TARGET} --config "${CONFIG}"
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -16,6 +17,11 @@ string(REGEX MATCH "error[ :][^\n]*" first_error "${output}")
 string(FIND "${first_error}" "${SENTENCE}" position)
 if(position EQUAL -1)
   message(FATAL_ERROR "the first error does not contain \"${SENTENCE}\":\n${output}")
+endif()
+string(REGEX MATCHALL "error[ :]" errors "${output}")
+list(LENGTH errors number_of_errors)
+if(ERRORS AND NOT number_of_errors EQUAL ERRORS)
+  message(FATAL_ERROR "the compiler finds ${number_of_errors} errors, not ${ERRORS}:\n${output}")
 endif()
 if(MAX_LINES)
   string(REGEX REPLACE "(^|\n)(\\[|Consolidat|ninja|g?make)[^\n]*" "" lines "${output}")
