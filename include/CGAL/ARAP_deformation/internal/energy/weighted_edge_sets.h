@@ -122,6 +122,8 @@ inline void compute_polygon_weights(const Edge_weight_model& model, const Region
   for_each_triangle([&](int a, int b, int c, double fraction) {
     const double relative_area = (std::min)(area(a, b, c) / negligible, 1.0);
     fraction *= (std::max)(relative_area * relative_area, smallest_share);
+    if(fraction == 0) // its weights may be infinite
+      return;
     const std::array<double, 3> w =
       triangle_weights(model, region, corners.first[a], corners.first[b], corners.first[c]);
     weight(a, b) += fraction * w[0];
