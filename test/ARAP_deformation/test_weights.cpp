@@ -215,6 +215,7 @@ using CGAL::ARAP::Cotangent_weight;
 using CGAL::ARAP::internal::Region;
 
 // one polygon, with the weights of all pairs of its corners
+template <typename Weight = Cotangent_weight>
 CGAL::ARAP::internal::Simplices weighted_polygon(const std::vector<Eigen::Vector3d>& points)
 {
   Region region;
@@ -225,7 +226,7 @@ CGAL::ARAP::internal::Simplices weighted_polygon(const std::vector<Eigen::Vector
     region.rest.push_back({p.x(), p.y(), p.z()});
   }
   region.first_corner.push_back(region.number_of_vertices());
-  const CGAL::ARAP::internal::Edge_weight_model_of<Cotangent_weight> model{Cotangent_weight()};
+  const CGAL::ARAP::internal::Edge_weight_model_of<Weight> model{Weight()};
   return CGAL::ARAP::internal::weighted_simplices(model, region);
 }
 
@@ -352,6 +353,31 @@ void test_corners_next_to_a_line()
   }
 }
 
+// infinite in triangles without area
+struct Textbook_weight : Cotangent_weight
+{
+  std::array<double, 3>
+  simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& triangle) const
+  {
+    const auto corner = [&](std::size_t k) { return Eigen::Vector3d(triangle[k].data()); };
+    const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
+    const double quadruple_area = 2 * a.cross(b).norm();
+    return {b.dot(c) / quadruple_area, -a.dot(c) / quadruple_area, a.dot(b) / quadruple_area};
+  }
+};
+
+// A corner on a side, as of a larger face beside two smaller ones, makes a triangle without area.
+void test_corner_on_a_side()
+{
+  test_case() = "a corner on a side";
+  const std::vector<Eigen::Vector3d> points = {
+    {0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  const std::vector<double> weights = weighted_polygon<Textbook_weight>(points).weights;
+  const std::vector<double> expected = weights_of(points);
+  for(std::size_t k = 0; k < weights.size(); ++k)
+    CHECK_AT_MOST(std::abs(weights[k] - expected[k]), 1e-14);
+}
+
 // Weights that a class inherits from the cotangents are known to be those of shapes.
 void test_inheritance()
 {
@@ -403,6 +429,7 @@ void test_all()
   test_inheritance();
   test_generic_weight();
   test_corners_next_to_a_line();
+  test_corner_on_a_side();
 }
 
 } // namespace polygons
@@ -692,6 +719,14 @@ struct Divides : Cotangent_weight
   double edge_weight(Edge_set, std::size_t, std::size_t, double sum) const { return 1 / sum; }
 };
 
+struct Depends_on_direction : Cotangent_weight
+{
+  double edge_weight(Edge_set, std::size_t i, std::size_t j, double sum) const
+  {
+    return i < j ? sum : 2 * sum;
+  }
+};
+
 struct Sparse_solver_that_refuses : Multifrontal_cholesky_solver
 {
   bool factorize(const Sparse_matrix&) { return false; }
@@ -744,6 +779,7 @@ void test_all()
   CHECK_CAUGHT(check_edge_weight(Counts_calls()), "asked for again");
   CHECK_CAUGHT(check_edge_weight(Copies_are_doubled()), "of a copy");
   CHECK_CAUGHT(check_edge_weight(Divides()), "not finite for a finite sum");
+  CHECK_CAUGHT(check_edge_weight(Depends_on_direction()), "depends on which vertex is first");
 
   // what a traits object hands out
   CHECK_CONFORMS(check_deformation_traits(CGAL::ARAP_deformation_traits<>()));

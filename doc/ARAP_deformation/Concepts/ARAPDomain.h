@@ -9,10 +9,10 @@ The simplices are the triangles and polygons of a surface, or the tetrahedra of 
 connectivity needed is which simplices are incident to a vertex.
 
 The class reads points when vertices are inserted and when it preprocesses. If `is_in_place()`, it
-also reads them at the start of each run, where a control vertex or a control point is inserted, and
-in `state()`, `overwrite_initial_geometry()`, `control_point_position()` and, if the target is a set,
-`target_position()`, for others may have moved them. `rest_position()` reads those of vertices that
-it does not know. It computes on arrays of coordinates, and writes the points at the end of a run, in
+also reads them, as others may have moved them, at the start of each run, where a control vertex or a
+control point is inserted, in `state()`, `overwrite_initial_geometry()` and
+`control_point_position()`, and where a target is asked for, or changed, that is a set.
+`rest_position()` reads those of vertices that it does not know. It computes on arrays of coordinates, and writes the points at the end of a run, in
 `reset()` and in `restore()`. It traverses the simplices of the region of interest from vertex to
 vertex, and never the whole mesh.
 
@@ -84,8 +84,8 @@ public:
 
   /// returns the index of `v`, which is unique.
   ///
-  /// Use indices 0, 1, ... with few gaps: the memory of index tables grows with the spread of the
-  /// indices. Messages and models of `ARAPEdgeWeight` identify a vertex by its index.
+  /// Use indices 0, 1, ... with few gaps: the memory of index tables grows with the largest index.
+  /// Messages and models of `ARAPEdgeWeight` identify a vertex by its index.
   std::size_t index(vertex_descriptor v) const;
 
   /// returns the point of `v`.
@@ -124,8 +124,9 @@ public:
   /// @{
 
   /// returns the corners of `s`: a range whose iterators have the value type `vertex_descriptor`,
-  /// also where it is `const`, valid until the next call. The corners of a polygon are in cyclic
-  /// order, starting anywhere and in either direction; those of a tetrahedron are in any order.
+  /// also where it is `const`, valid until the next call of this function or of
+  /// `for_each_incident_simplex()`. The corners of a polygon are in cyclic order, starting anywhere
+  /// and in either direction; those of a tetrahedron are in any order.
   unspecified_type simplex_vertices(simplex_descriptor s) const;
 
   /// returns whether `s` is a simplex of the mesh; a control point in one that is not is refused.
@@ -134,7 +135,8 @@ public:
   bool is_simplex(simplex_descriptor s) const;
 
   /// calls `f(s, corners)` once for each simplex `s` incident to `v`, with the range `corners` that
-  /// `simplex_vertices(s)` returns, or one that begins with another corner.
+  /// `simplex_vertices(s)` returns, or one that begins with another corner. `f` may throw, and may
+  /// call any function of the domain, also this one.
   ///
   /// The cells need not be valid simplices: for a face with fewer than three corners, a volume
   /// without exactly four, or a repeated corner, `CGAL::ARAP_deformation::preprocess()` returns

@@ -32,8 +32,10 @@ of the indices \f$i\f$ and \f$j\f$, or of the stiffness of cells
 
 A model may have state. `CGAL::ARAP_deformation` works on a copy of the object that its traits
 provide. If copies share their state, and it may change, the model tells so by `version()`. In
-programs linked with TBB several threads call it concurrently: a call must not change
-the state. `CGAL::ARAP::check_edge_weight()` tests a model.
+programs linked with TBB several threads call it concurrently: a call must not change the state. It
+may throw; the deformation is then as it was before.
+
+The function `CGAL::ARAP::check_edge_weight()` tests a model.
 
 \cgalRefines{CopyConstructible}
 
@@ -68,7 +70,8 @@ public:
   std::array<double, 6>
   simplex_weights(const std::array<CGAL::ARAP::Coordinates, 4>& tetrahedron) const;
 
-  /// returns the weight of an edge in an edge set of the given kind.
+  /// returns the weight of an edge, or of a diagonal of a polygon, in an edge set of the given kind.
+  /// In a simplex it must not depend on which vertex comes first.
   ///
   /// \param edge_set the kind of the edge set
   /// \param i the domain's index of one vertex of the edge; in a star, of its center
@@ -78,7 +81,8 @@ public:
   ///
   /// Preprocessing fails with `CGAL::ARAP::Status::non_finite_weight` if a weight is infinite or not
   /// a number, and with `CGAL::ARAP::Status::singular_matrix` if the weights at a free vertex that
-  /// is connected by non-zero ones do not add up to a positive number.
+  /// is connected by non-zero ones do not add up to a positive number. Weights in stars that only
+  /// `CGAL::ARAP::Initial_guess::laplacian` needs are computed, and tested, when a run begins.
   double edge_weight(CGAL::ARAP::Edge_set edge_set, std::size_t i, std::size_t j, double sum) const;
 
   /// returns a number that changes when weights do: the next `deform()` computes all weights again.

@@ -18,8 +18,8 @@ public:
   /// returns the number of iterations so far: 0 for the initial guess.
   unsigned int iteration() const;
 
-  /// returns the energy of this iterate, with the optimal rotations for its positions. The report
-  /// will have the same value in `CGAL::ARAP::Report::energy`.
+  /// returns the energy of this iterate, with the rotations fitted to its positions. The report will
+  /// have the same value in `CGAL::ARAP::Report::energy`.
   double energy() const;
 
   /// writes the points of this iterate: calls `put(map, v, point)` for each vertex `v` of the region

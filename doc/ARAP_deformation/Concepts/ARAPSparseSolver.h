@@ -11,13 +11,17 @@ not depend on its accuracy; how many iterations it takes may.
 The calls come in the order `analyze()`, `factorize()`, and then `solve()` any number of times, and
 `set_border()` between them where there is one. `factorize()` may follow again at any time, without
 `analyze()`, with other values of the same pattern: also after `solve()` and `set_border()`, and after
-it has returned `false`. No two calls of one solver overlap; they may come from different threads one
-after the other.
+it has returned `false`. `solve()` and `set_border()` may follow again after they have failed or
+thrown. No two calls of one solver overlap; they may come from different threads one after the other.
 
 `CGAL::ARAP_deformation` copies the solver that its traits hand out, once for each pattern that it
 analyzes, and it does so before the first call of `analyze()`. A copy of a solver that has a factor
 need not have it too. Eigen's solvers cannot be copied; `CGAL::ARAP::Eigen_sparse_solver` makes a
 model of any of them.
+
+Smooth rotations and coarse starts have solvers of their own; harmonic rotations and the second look
+at a minimum solve the system of the deformation once more. Where one of these fails, the run goes on
+without what it is for. Other failures have the status that is named below.
 
 The function `CGAL::ARAP::check_sparse_solver()` tests a model.
 
@@ -60,10 +64,12 @@ public:
   /// \f$A Y = X\f$, where \f$A\f$ is the matrix of the last call of `factorize()` and `n` the number
   /// of its rows.
   ///
-  /// Returns whether it succeeded. If not, `x` may hold anything, and the run ends with
-  /// `CGAL::ARAP::Status::solver_failed`, as it does where a solution makes the energy rise by more than
-  /// a hundredth, and by more than rounding errors. The iteration solves for corrections, so that
-  /// rounding errors of a solution are made up for by the next one.
+  /// Returns whether it succeeded. If not, `x` may hold anything, and the call of the deformation
+  /// returns `CGAL::ARAP::Status::solver_failed`. So does a run in which a solution makes the energy
+  /// rise by more than a hundredth, and by more than rounding errors; where it rises by less, the run
+  /// may seem to be at its end. If the solution is not finite, the run ends with
+  /// `CGAL::ARAP::Status::non_finite_energy`, as with targets that are too far away. The iteration
+  /// solves for corrections, so that rounding errors of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
 
   /// gives the matrix \f$A\f$ of the last call of `factorize()` a border, or removes it if `b` has no

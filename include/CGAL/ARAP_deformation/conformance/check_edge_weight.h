@@ -148,7 +148,15 @@ private:
                                "edge_weight() differs when asked for again");
             m_violations.check(copy.edge_weight(edge_set, i, j, sum) == w,
                                "edge_weight() of a copy differs");
+            if(edge_set == Edge_set::simplex && is_known(j, i))
+              m_violations.check(m_weight.edge_weight(edge_set, j, i, sum) == w, "edge_weight() in "
+                                 "a simplex depends on which vertex is first");
           }
+  }
+
+  bool is_known(std::size_t i, std::size_t j) const
+  {
+    return std::find(m_edges.begin(), m_edges.end(), std::make_pair(i, j)) != m_edges.end();
   }
 
   EdgeWeight m_weight;
@@ -166,7 +174,8 @@ private:
 ///
 /// In well-shaped triangles, and in tetrahedra if the model supports them, the weights must be
 /// finite, independent of the order of the vertices, and the same in a second call and for a copy.
-/// `edge_weight()` must be finite for their sums. Takes milliseconds.
+/// `edge_weight()` must be finite for their sums, and in simplices the same from both vertices of
+/// an edge, if `edges` has it twice. Takes milliseconds.
 ///
 /// \param weight the model
 /// \param edges the edges to call `edge_weight()` with, given by the indices of their vertices; if

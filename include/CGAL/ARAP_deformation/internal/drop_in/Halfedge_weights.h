@@ -91,8 +91,8 @@ public:
   }
 
   // The weights of the edges (0, 1), (0, 2) and (1, 2) of the triangle with these vertices in the
-  // order of its face: those of its halfedges. Not used for stars, whose faces may have more
-  // corners.
+  // order of its face: those of its halfedges. For stars, whose faces may have more corners, they
+  // only have to be finite.
   std::array<double, 3> weights_of_halfedges(const std::array<std::size_t, 3>& indices) const
   {
     const auto& [a, b, c] = indices;

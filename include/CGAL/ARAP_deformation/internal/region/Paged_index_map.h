@@ -23,8 +23,9 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// A map from the indices 0, 1, ... of a mesh to int. It takes memory only for pages of indices that
-// were written, so that its cost follows the region of interest and not the mesh.
+// A map from the indices 0, 1, ... of a mesh to int. It takes memory for pages of indices that were
+// written, and next to none for those below, so that its cost follows the region of interest and
+// not the mesh.
 class Paged_index_map
 {
 public:
