@@ -943,6 +943,47 @@ void test_failing_solver()
   refusals::check_refused(s, Status::solver_failed, "solve");
 }
 
+// Soft control points in a part that nothing holds, and that stays, as stiffness of zero makes one:
+// their pull is no part of the energy, by whose size it is judged when the run is at its end.
+void test_constant_pull()
+{
+  test_case() = "the pull of what stays";
+  const Shape shape = grid("sheet", 12, 12, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0.05 * std::sin(7 * u) * std::cos(5 * v));
+  });
+  std::vector<Report> reports;
+  std::vector<std::vector<Point>> points;
+  for(const double weight : {0.0, 1.0, 1e6})
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    CHECK(d.set_options(options_for(Cell_scheme::spokes())));
+    prepare(d, scenario(shape), all_vertices(mesh));
+    const Mesh::Face_index face(12 * 12 + 12); // in the middle
+    std::set<Mesh::Vertex_index> loose;
+    for(auto v : vertices_around_face(mesh.halfedge(face), mesh))
+      for(auto w : vertices_around_target(v, mesh))
+        loose.insert(w);
+    CHECK(d.set_stiffness([&](Mesh::Vertex_index v) { // 0 at all their edges
+      const auto around = vertices_around_target(v, mesh);
+      return loose.count(v) == 1 || std::any_of(around.begin(), around.end(), [&](auto w) {
+        return loose.count(w) == 1;
+      }) ? 0 : 1;
+    }));
+    if(weight > 0)
+    {
+      const auto inserted = d.insert_control_point(face, {0.2, 0.3, 0.5});
+      CHECK(d.set_target_weight(inserted.point, weight));
+      CHECK(d.translate(inserted.point, Kernel::Vector_3(0, 0, shape.diameter())));
+    }
+    reports.push_back(d.deform());
+    CHECK(reports.back() && reports.back().unconstrained_components.size() >= loose.size());
+    points.push_back(points_of(mesh));
+    CHECK(reports.back().energy == reports[0].energy && reports.back().energy[0] > 0);
+    CHECK(points.back() == points[0]);
+  }
+}
+
 } // namespace histories
 
 namespace sets {
@@ -1606,6 +1647,7 @@ int main()
   histories::test_fixed_corners();
   histories::test_fixed_soft_point();
   histories::test_failing_solver();
+  histories::test_constant_pull();
   sets::test_plane();
   sets::test_line_at_vertex();
   sets::test_surface();

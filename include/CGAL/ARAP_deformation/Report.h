@@ -108,10 +108,9 @@ struct Report : Outcome
   /// initial guess, `energy[k]` after `k` iterations. Each edge of each cell contributes
   /// \f$k w \|e' - R e\|^2\f$ with the stiffness \f$k\f$ of the cell, without any further factor,
   /// and each soft control vertex or control point \f$m \|p' - t\|^2\f$, except for control
-  /// points whose corners are all fixed; bending and smooth
-  /// rotations add their terms. Smooth rotations are those that one fit makes of the last ones.
-  /// With cotangent weights it is an area on a surface and a volume in tetrahedra, in the unit of
-  /// the points.
+  /// points of which no corner can move; bending and smooth rotations add their terms. Smooth
+  /// rotations are those that one fit makes of the last ones. With cotangent weights it is an area
+  /// on a surface and a volume in tetrahedra, in the unit of the points.
   std::vector<double> energy;
 
   /// \f$s\f$, the natural unit of the energy: the sum of \f$|w| \|e\|^2\f$ over the edges of all

@@ -80,6 +80,9 @@ public:
 
   double weight(int r) const { return m_weights[r]; }
 
+  // Takes their weights from rows that have no free vertex: all that they add is a constant.
+  void clear_weights_of_fixed(const Array<char>& is_fixed);
+
   // Calls f(i, j, a) for each entry a of M B^T B of each row with i >= j, in the order of the rows:
   // what entries of B^T M B consist of.
   template <typename Function>

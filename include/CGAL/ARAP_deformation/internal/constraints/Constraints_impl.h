@@ -60,6 +60,15 @@ void Weighted_rows::append(const Row& row, double weight)
 }
 
 CGAL_ARAP_INLINE_FUNCTION
+void Weighted_rows::clear_weights_of_fixed(const Array<char>& is_fixed)
+{
+  for(int r = 0; r < size(); ++r)
+    if(const Row vertices = row(r);
+       std::all_of(vertices.begin(), vertices.end(), [&](int v) { return is_fixed[v] != 0; }))
+      m_weights[r] = 0;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
 double Weighted_rows::pull(const Array<Coordinates>& targets,
                            const Array<Coordinates>& x,
                            Array<Coordinates>& force) const
@@ -89,7 +98,9 @@ Array<Coordinates> Weighted_rows::places(const Array<Coordinates>& targets,
 {
   Array<Coordinates> result;
   for(int r = 0; r < size(); ++r)
-    if(position(r) >= 0)
+    if(m_weights[r] == 0)
+      continue;
+    else if(position(r) >= 0)
       result.push_back(targets[r]);
     else if(const Row vertices = row(r); vertices.begin() != vertices.end())
     {

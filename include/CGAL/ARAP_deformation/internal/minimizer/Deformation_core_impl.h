@@ -170,6 +170,8 @@ Diagnosis Deformation_core::constrain(Constraints constraints,
     return {Status::no_fixed_vertex, smallest_index.begin()->first};
   for(int v = 0; v < n; ++v)
     constraints.is_fixed[v] |= components.is_unconstrained(v);
+  if(!smallest_index.empty())
+    constraints.rows.clear_weights_of_fixed(constraints.is_fixed);
   if(const int v = find_lost_row(constraints.hard_rows, constraints.is_fixed, components); v >= 0)
     return {Status::no_fixed_vertex, v};
 
