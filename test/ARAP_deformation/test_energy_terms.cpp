@@ -1721,6 +1721,28 @@ void test_cost_of_guess()
   CHECK(Counting_solver::count() == before + 2);
 }
 
+// A Laplacian guess that is not found is given up when that is known: 300 iterations, two solutions
+// each.
+void test_cost_of_lost_guess()
+{
+  test_case() = "the cost of a Laplacian guess that is not found";
+  const Shape shape = grid("sheet", 40, 40, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0.05 * std::sin(7 * u) * std::cos(5 * v));
+  });
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Counted d(mesh);
+  Options options = options_for(Cell_scheme::spokes(), Minimizer::local_global,
+                                Initial_guess::laplacian);
+  options.bending_length = 0.2 * shape.diameter();
+  CHECK(d.set_options(options));
+  prepare(d, scenario(shape), all_vertices(mesh));
+  CHECK(d.preprocess());
+  const int before = Counting_solver::count();
+  const Report report = d.deform(0, 0);
+  CHECK(report && report.initial_guess == Initial_guess::previous);
+  CHECK_AT_MOST(Counting_solver::count() - before, 600);
+}
+
 void test_all()
 {
   test_cut_region(Initial_guess::rotations);
@@ -1733,6 +1755,7 @@ void test_all()
   test_far_soft_target();
   test_turned_handle();
   test_cost_of_guess();
+  test_cost_of_lost_guess();
   test_two_handles<2>(iterates::surfaces().back());
   test_two_handles<3>(iterates::solid());
   int number_of_lower = 0;

@@ -92,10 +92,11 @@ public:
       bool is_solved = false;
       if(!solve(normal_product(from_x, false), correction, is_solved))
         return false;
-      if(pass == 0)
-        m_is_found = is_solved;
-      else if(!is_solved) // what is left is below what rounding permits
+      if(!is_solved) // in later passes what is left is below what rounding permits
+      {
+        m_is_found = pass > 0;
         break;
+      }
       const Coordinates size = products(correction, correction);
       for(std::size_t c = 0; c < 3; ++c)
         if(pass == 0 || size[c] < 0.25 * last[c])
