@@ -22,12 +22,14 @@
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Pseudorandom_vectors.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Second_look.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/gap_estimate.h>
 #include <CGAL/ARAP_deformation/set_option.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -283,6 +285,65 @@ void test_all()
 }
 
 } // namespace derivative
+
+// The estimate of the gap, for decreases that are known.
+namespace estimate {
+
+using CGAL::ARAP::Report;
+using CGAL::ARAP::internal::Gap_estimate;
+
+// the least and the largest ratio of the estimate and the gap in the last tenth of n iterations, of
+// which the k-th decreases an energy that tends to 1 by `decrease(k)`, to 1 + remainder(k)
+template <typename Decrease, typename Remainder>
+std::pair<double, double> ratios(int n, const Decrease& decrease, const Remainder& remainder)
+{
+  std::pair<double, double> result = {HUGE_VAL, 0};
+  Gap_estimate estimate;
+  Report report;
+  report.energy_scale = 1;
+  report.energy = {1 + remainder(0)};
+  for(int k = 1; k <= n; ++k)
+  {
+    estimate.add(decrease(k), report);
+    report.energy.push_back(1 + remainder(k));
+    const double ratio = estimate(report.energy.back(), report) / remainder(k);
+    if(k > 0.9 * n)
+      result = {(std::min)(result.first, ratio), (std::max)(result.second, ratio)};
+  }
+  return result;
+}
+
+void test_known_series()
+{
+  test_case() = "decreases that form a geometric series";
+  const auto [least, largest] = ratios(300, [](int k) { return 0.05 * std::pow(0.95, k - 1); },
+                                       [](int k) { return std::pow(0.95, k); });
+  CHECK(least >= 1);
+  CHECK_AT_MOST(largest, 100);
+}
+
+// It took quadratic time in the number of iterations: 256 times as long for 16 times as many.
+void test_time()
+{
+  test_case() = "time of the estimate";
+  const auto seconds = [](int n) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto of_series = ratios(n, [](int k) { return 1.0 / k / (k + 1); },
+                                  [](int k) { return 1.0 / (k + 1); });
+    CHECK(of_series.first > 0.05); // this converges too slowly for it
+    const std::chrono::duration<double> result = std::chrono::steady_clock::now() - begin;
+    return result.count();
+  };
+  double few = HUGE_VAL, many = HUGE_VAL;
+  for(int repetition = 0; repetition < 3; ++repetition)
+  {
+    few = (std::min)(few, seconds(10000));
+    many = (std::min)(many, seconds(160000));
+  }
+  CHECK_AT_MOST(many / few, 64);
+}
+
+} // namespace estimate
 
 namespace ends {
 
@@ -750,6 +811,8 @@ void test_all()
 int main()
 {
   derivative::test_all();
+  estimate::test_known_series();
+  estimate::test_time();
   ends::test_all();
   return checks_result();
 }
