@@ -519,6 +519,46 @@ void test_laplacian_with_bending()
   }
 }
 
+// Handles that turn a sheet rigidly, to where it is already, beside a frame that turns a cell the
+// other way: no guess over a long bending length does better, found or not, than to stay.
+void test_laplacian_that_is_not_taken()
+{
+  test_case() = "Laplacian guess that is not taken";
+  const Shape shape = grid("sheet", 39, 29, [](double u, double v) {
+    return Eigen::Vector3d(39 * u, 29 * v, 0);
+  });
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Deformation d(mesh);
+  Options options = options_for(Cell_scheme::spokes_and_rims());
+  options.bending_length = 30;
+  CHECK(d.set_options(options));
+  d.insert_roi_vertices(vertices(mesh));
+  Vertex middle;
+  for(Vertex v : vertices(mesh))
+  {
+    const Eigen::Vector3d& p = shape.points[v];
+    if(p.x() < 0.5 || p.x() > 38.5)
+      d.insert_control_vertex(v, point(turn * p));
+    else if(std::abs(p.x() - 20) < 0.5 && std::abs(p.y() - 15) < 0.5)
+      middle = v;
+    mesh.point(v) = point(turn * p);
+  }
+  d.insert_control_vertex(middle);
+  CHECK(d.set_target_weight(middle, 0));
+  CHECK(d.set_target_rotation(
+    middle, Eigen::Matrix3d(Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitY()) * turn)));
+  CHECK(d.deform(1000, 1e-4));
+  const std::vector<Point> before = points_of(mesh);
+  options.initial_guess = Initial_guess::laplacian;
+  CHECK(d.set_options(options));
+  const Report report = d.deform(0, 1e-4);
+  CHECK(points_of(mesh) == before);
+  CHECK(report && report.initial_guess == Initial_guess::previous);
+  CHECK(says(report, "no Laplacian"));
+}
+
 // Handles on a straight line, up to rounding, leave a rotation about it free: there is none.
 void test_line()
 {
@@ -1535,6 +1575,7 @@ int main()
   rigid::test_laplacian_beside_others();
   rigid::test_laplacian_after_a_run();
   rigid::test_laplacian_with_bending();
+  rigid::test_laplacian_that_is_not_taken();
   rigid::test_line();
   rigid::test_rows();
   undo::test_state();

@@ -151,7 +151,8 @@ private:
   {
     Array<char> is_placed;       // for each movable vertex: by a rigid motion, or because it stays
     Array<Coordinates> unplaced; // where all are without that, if the energy has to decide
-    bool is_laplacian = false;   // the others are where the Laplacian guess has them
+    // whether the others, or all of `unplaced`, are where the Laplacian guess has them
+    bool is_laplacian = false, is_unplaced_laplacian = false;
   };
 
   Diagnosis prepare();

@@ -396,14 +396,13 @@ Diagnosis Deformation_core::place(const Options& options, Targets& targets, Arra
   }
   if(is_laplacian)
   {
-    bool is_found = true;
     Diagnosis diagnosis;
+    placement.is_laplacian = true;
     if(!are_all_placed(is_placed))
-      diagnosis = guess_by_laplacian(is_placed, targets, x, is_found);
-    placement.is_laplacian = is_found;
+      diagnosis = guess_by_laplacian(is_placed, targets, x, placement.is_laplacian);
     if(!unplaced.empty() && diagnosis.status == Status::success)
       diagnosis = guess_by_laplacian(Array<char>(is_placed.size(), false), targets, unplaced,
-                                     is_found);
+                                     placement.is_unplaced_laplacian);
     if(diagnosis.status != Status::success)
       return diagnosis;
   }
@@ -518,8 +517,13 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
   {
     x.swap(placement.unplaced);
     if(!minimization.try_positions(std::move(placement.unplaced)))
+    {
       placement.is_placed.assign(placement.is_placed.size(), false);
+      placement.is_laplacian = placement.is_unplaced_laplacian;
+    }
   }
+  if(placement.is_laplacian)
+    report.initial_guess = Initial_guess::laplacian;
   if(!start_with_rotations(options, targets, x, minimization, placement.is_placed, report))
     return {Status::solver_failed};
   if(m_order == Minimization_order::global_first)
