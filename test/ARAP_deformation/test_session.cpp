@@ -1259,6 +1259,17 @@ void test_nothing_free()
     for(Vertex v : mesh.vertices())
       CHECK(mesh.point(v) == rest.point(v) + Kernel::Vector_3(1, 0, 0));
   }
+
+  test_case() = "nothing is free but smooth rotations";
+  options.smoothing_length = 0.5 * shape.diameter();
+  options.tolerance = 1e-6;
+  CHECK(d.set_options(options));
+  for(Vertex v : mesh.vertices())
+    d.set_target_position(v, point(
+      Eigen::AngleAxisd(shape.points[v].x(), Eigen::Vector3d::UnitX()) * shape.points[v]));
+  const auto first = d.deform(), second = d.deform();
+  CHECK(first.status == Status::converged && first.iterations > 0);
+  CHECK_AT_MOST(first.final_energy() - second.final_energy(), 1e-5 * first.final_energy());
 }
 
 // weights under which the matrix is not positive definite, or not finite

@@ -497,8 +497,6 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     if(const Diagnosis placed = place(options, targets, x, placement);
        placed.status != Status::success)
       return placed;
-    if(placement.is_laplacian)
-      report.initial_guess = Initial_guess::laplacian;
   }
   m_state->energy.set_given_rotations(
     rotations_of_cells(m_region, has_vertex_cells(), number_of_cells(), targets.frames));
@@ -528,7 +526,8 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     return {Status::solver_failed};
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
-  return {is_quasi_newton(options) ? minimize_quasi_newton(minimization)
+  return {is_quasi_newton(options) && !minimization.is_nothing_free()
+                                   ? minimize_quasi_newton(minimization)
                                    : minimize_local_global(minimization)};
 }
 

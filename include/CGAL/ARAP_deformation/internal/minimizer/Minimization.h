@@ -244,6 +244,11 @@ public:
   // the same for other forces
   bool solve_for(const Array<Coordinates>& force, Array<Coordinates>& step)
   {
+    if(is_nothing_free()) // there is no factor
+    {
+      step.assign(force.size(), Coordinates{0, 0, 0});
+      return true;
+    }
     step.resize(force.size());
     for_each_block(force.size(), [&](std::size_t begin, std::size_t end) {
       std::copy(force.data() + begin, force.data() + end, step.data() + begin);
@@ -396,20 +401,23 @@ private:
 
   void estimate_gap()
   {
-    report.estimated_relative_gap = is_nothing_free() ? 0 : m_gap(m_value, report);
+    report.estimated_relative_gap = is_nothing_left() ? 0 : m_gap(m_value, report);
   }
 
   // What rotations that are state can still gain: they may creep, which the energies do not tell.
   double gap_of_rotations()
   {
-    const double gain = is_nothing_free() ? 0 : m_energy.gain_of_rotation_step(x, m_rotations);
+    const double gain = m_energy.gain_of_rotation_step(x, m_rotations);
     return gain > report.rounding_level
              ? gain / (std::max)(std::abs(m_value), negligible_energy(report)) : 0;
   }
 
+  // whether neither a vertex is free nor are rotations: where they are state they take several fits
+  bool is_nothing_left() const { return is_nothing_free() && !m_energy.are_rotations_state(); }
+
   bool is_within_tolerance() const
   {
-    return is_nothing_free() ||
+    return is_nothing_left() ||
            (options.tolerance > 0 &&
             report.estimated_relative_gap <= m_trust * options.tolerance);
   }
