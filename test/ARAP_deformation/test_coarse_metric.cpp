@@ -244,8 +244,9 @@ bool has_coarse_metric(const std::vector<Eigen::Vector3d>& points,
   run.evaluate();
   const CGAL::ARAP::Sparse_matrix& laplacian = problem.system.laplacian().matrix;
   Coarse_metric metric(problem.energy, laplacian, problem.region.rest);
-  return metric.build(problem.energy, laplacian, problem.constraints.is_fixed, problem.x,
-                      problem.rotations);
+  return metric.is_of_use() && metric.build(problem.energy, laplacian,
+                                            problem.constraints.is_fixed, problem.x,
+                                            problem.rotations);
 }
 
 // Where a vertex has so many neighbors that it couples hundreds of nodes there is no matrix: it

@@ -46,14 +46,14 @@ public:
       m_matrix.emplace(m_transfer, energy, laplacian);
   }
 
+  bool is_of_use() const { return m_matrix.has_value(); }
+
   // Computes P and the factor of C at the positions x; false if there is none. `matrix` is L with
   // the rows of the constraints.
   bool build(const Deformation_energy& energy, const Sparse_matrix& matrix,
              const Array<char>& is_fixed, const Array<Coordinates>& x,
              const Array<Matrix_3x3>& rotations)
   {
-    if(!m_matrix)
-      return false;
     m_transfer.place(is_fixed, x);
     return m_matrix->build(m_transfer, energy, matrix, rotations);
   }

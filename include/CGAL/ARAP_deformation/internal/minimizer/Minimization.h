@@ -230,6 +230,8 @@ public:
     const Sparse_matrix& laplacian = m_system.laplacian().matrix;
     if(!m_coarse_metric)
       m_coarse_metric = std::make_unique<Coarse_metric>(m_energy, laplacian, m_region.rest);
+    if(!m_coarse_metric->is_of_use())
+      return nullptr;
     const bool has_rows = m_constraints.rows.size() > 0;
     const Sparse_matrix own = has_rows ? m_system.with_rows(m_constraints.rows) : Sparse_matrix();
     return m_coarse_metric->build(m_energy, has_rows ? own : laplacian, m_constraints.is_fixed, x,
