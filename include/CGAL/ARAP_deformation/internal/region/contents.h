@@ -83,7 +83,7 @@ inline double content_of(const Region& region, int s)
   if(region.dimension == 3)
     return std::abs(signed_volume(corner));
   const Coordinates area = vector_area(static_cast<std::size_t>(corners.size()), corner);
-  return std::sqrt(dot(area, area));
+  return std::hypot(area[0], area[1], area[2]); // squares may underflow
 }
 
 // the share of each center in the area or volume of its simplices

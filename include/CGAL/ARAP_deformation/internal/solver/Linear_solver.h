@@ -65,9 +65,6 @@ public:
 
   bool can_have_border() const override { return internal::can_have_border<Solver>; }
 
-  const Solver& solver() const { return m_solver; }
-  Solver& solver() { return m_solver; }
-
 private:
   Solver m_solver;
 };
