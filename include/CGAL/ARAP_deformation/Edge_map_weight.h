@@ -116,8 +116,9 @@ Edge_map_weight make_edge_map_weight(const Graph& mesh, EdgeWeightMap edge_weigh
 {
   Edge_map_weight weight;
   const auto index_map = internal::index_map_of(mesh, np);
+  const auto index_of = [&](auto v) { return static_cast<std::size_t>(get(index_map, v)); };
   for(auto edge : edges(mesh))
-    weight.set_weight(get(index_map, source(edge, mesh)), get(index_map, target(edge, mesh)),
+    weight.set_weight(index_of(source(edge, mesh)), index_of(target(edge, mesh)),
                       get(edge_weight_map, edge));
   return weight;
 }

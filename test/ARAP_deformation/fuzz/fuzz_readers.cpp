@@ -76,7 +76,7 @@ void read(const std::string& file)
     require(gltf.mesh().is_valid(false), "a valid mesh");
     const std::string copy = (folder / ("out." + format)).string();
     Output_file out(copy);
-    gltf.write(out, '.' + format);
+    gltf.write(out, '.' + format, Skin());
     out.replace();
     out.keep();
     require(Gltf_file(copy, "").number_of_simplices() == gltf.number_of_simplices(),
