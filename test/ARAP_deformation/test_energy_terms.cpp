@@ -1740,7 +1740,7 @@ void test_cost_of_lost_guess()
   const int before = Counting_solver::count();
   const Report report = d.deform(0, 0);
   CHECK(report && report.initial_guess == Initial_guess::previous);
-  CHECK_AT_MOST(Counting_solver::count() - before, 600);
+  CHECK(Counting_solver::count() - before == 600);
 }
 
 void test_all()

@@ -1255,6 +1255,7 @@ void test_nothing_free()
     CHECK(d.set_options(options));
     const auto report = d.deform();
     CHECK(report.status == Status::converged);
+    CHECK(report.end == CGAL::ARAP::End::minimum);
     CHECK(report.energy == std::vector<double>{0});
     for(Vertex v : mesh.vertices())
       CHECK(mesh.point(v) == rest.point(v) + Kernel::Vector_3(1, 0, 0));
@@ -1270,6 +1271,12 @@ void test_nothing_free()
   const auto first = d.deform(), second = d.deform();
   CHECK(first.status == Status::converged && first.iterations > 0);
   CHECK_AT_MOST(first.final_energy() - second.final_energy(), 1e-5 * first.final_energy());
+  options.smoothing_length = 2 * shape.diameter();
+  CHECK(d.set_options(options));
+  const auto short_run = d.deform(1, 1e-9);
+  CHECK(short_run.status == Status::iteration_limit);
+  for(const char* part : {"number of iterations", "nothing is free"})
+    CHECK(short_run.message.find(part) != std::string::npos);
 }
 
 // weights under which the matrix is not positive definite, or not finite

@@ -12,9 +12,9 @@ The class reads points when vertices are inserted and when it preprocesses. If `
 also reads them, as others may have moved them, at the start of each run, where a control vertex or a
 control point is inserted, in `state()`, `overwrite_initial_geometry()` and
 `control_point_position()`, and where a target is asked for, or changed, that is a set.
-`rest_position()` reads those of vertices that it does not know. It computes on arrays of coordinates, and writes the points at the end of a run, in
-`reset()` and in `restore()`. It traverses the simplices of the region of interest from vertex to
-vertex, and never the whole mesh.
+`rest_position()` reads those of vertices that it does not know. The class computes on arrays of
+coordinates, and writes the points at the end of a run, in `reset()` and in `restore()`. It traverses
+the simplices of the region of interest from vertex to vertex, and never the whole mesh.
 
 An object is a handle: its copies refer to the same mesh. All member functions are `const`,
 including `set_point()`, which changes the mesh and not the handle. While a `CGAL::ARAP_deformation`

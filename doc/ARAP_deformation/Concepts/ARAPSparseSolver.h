@@ -65,12 +65,11 @@ public:
   /// of its rows.
   ///
   /// Returns whether it succeeded. If not, `x` may hold anything, and the call of the deformation
-  /// returns `CGAL::ARAP::Status::solver_failed`. So does a run in which a solution makes the energy
-  /// rise by more than a hundredth, and by more than rounding errors, or in which no share of it makes
-  /// the energy fall though the run is not yet within its tolerance. If the solution is not finite, the
-  /// run ends with `CGAL::ARAP::Status::non_finite_energy`, as with targets that are too far away. The
-  /// iteration solves for corrections, so that rounding errors of a solution are made up for by the
-  /// next one.
+  /// returns `CGAL::ARAP::Status::solver_failed`. So does a run in which a solution \f$y\f$ for the
+  /// force \f$f\f$ makes the energy rise by more than a hundredth, or has \f$f^T y < 0\f$, by more than
+  /// rounding errors and the tolerance. If the solution is not finite, the run ends with
+  /// `CGAL::ARAP::Status::non_finite_energy`, as with targets that are too far away. The iteration
+  /// solves for corrections, so that rounding errors of a solution are made up for by the next one.
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x);
 
   /// gives the matrix \f$A\f$ of the last call of `factorize()` a border, or removes it if `b` has no

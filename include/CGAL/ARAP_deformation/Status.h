@@ -61,8 +61,8 @@ enum class Status
                         ///< corners in no other, one unconstrained component is enough
   singular_matrix,      ///< the matrix of the system is not positive definite
   solver_failed,        ///< the solver could not solve with the matrix that it had factorized, or
-                        ///< its solution made the energy rise by more than a hundredth, or not
-                        ///< fall where it was not yet within the tolerance of a minimum
+                        ///< its solution made the energy rise by more than a hundredth, or led
+                        ///< uphill
   non_finite_energy     ///< the energy overflowed during the run
 };
 

@@ -198,7 +198,7 @@ public:
       [](const auto& cells) -> const Array<double>& { return cells.weights(); }, m_cells);
     if(!std::all_of(weights.begin(), weights.end(), [](double w) { return is_finite(w); }))
       for_each_edge([&](int i, int, double weight) {
-        if(!is_finite(weight))
+        if(vertex < 0 && !is_finite(weight))
           vertex = i;
       });
     return vertex;

@@ -261,13 +261,16 @@ bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
 // coordinates, if it is found.
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
-                                          Array<Coordinates>& x, bool& is_found)
+                                               Array<Coordinates>& x, bool& is_found)
 {
   if(!m_state->stars)
-    m_state->stars = star_edge_sets(*m_models.weight,
-                                    weighted_simplices(*m_models.weight, m_region), m_region);
-  if(const int v = m_state->stars->find_vertex_of_non_finite_weight(); v >= 0)
-    return {Status::non_finite_weight, v};
+  {
+    Stars stars = star_edge_sets(*m_models.weight,
+                                 weighted_simplices(*m_models.weight, m_region), m_region);
+    if(const int v = stars.find_vertex_of_non_finite_weight(); v >= 0)
+      return {Status::non_finite_weight, v};
+    m_state->stars = std::move(stars);
+  }
   const Array<Coordinates> before = x;
   Laplacian_guess guess(*m_state->stars, m_region, m_constraints, is_placed, m_state->system);
   if(!guess(targets, x))
@@ -377,7 +380,7 @@ const Parts& Deformation_core::parts()
 // a rigid motion takes them there, the Laplacian guess is made, hard targets are met.
 CGAL_ARAP_INLINE_FUNCTION
 Diagnosis Deformation_core::place(const Options& options, Targets& targets, Array<Coordinates>& x,
-                             Placement& placement)
+                                  Placement& placement)
 {
   Array<char>& is_placed = placement.is_placed;
   Array<Coordinates>& unplaced = placement.unplaced;
@@ -526,9 +529,9 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     return {Status::solver_failed};
   if(m_order == Minimization_order::global_first)
     return {minimize_global_local(minimization)};
-  return {is_quasi_newton(options) && !minimization.is_nothing_free()
-                                   ? minimize_quasi_newton(minimization)
-                                   : minimize_local_global(minimization)};
+  const bool are_rotations_all = minimization.is_nothing_free() && are_rotations_state();
+  return {is_quasi_newton(options) && !are_rotations_all ? minimize_quasi_newton(minimization)
+                                                         : minimize_local_global(minimization)};
 }
 
 CGAL_ARAP_INLINE_FUNCTION

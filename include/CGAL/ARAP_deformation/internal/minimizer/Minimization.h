@@ -286,13 +286,11 @@ public:
     return m_value > before + 1e-2 * std::abs(before) + 1e4 * energy_resolution(before, report);
   }
 
-  // Whether a solution x of L x = f by which the energy does not fall is nothing like the right
-  // one: by f x it should fall at least, which is more than what is tolerated and than rounding
-  // errors, or below zero by as much.
-  bool is_lost(double f_x) const
+  // Whether a solution x of L x = f leads uphill, as no right one does: f x is below zero by more
+  // than is tolerated, and than rounding errors.
+  bool is_uphill(double f_x) const
   {
-    return options.tolerance > 0 &&
-           std::abs(f_x) > tolerated_decrease() + energy_resolution(report.energy.back(), report);
+    return -f_x > tolerated_decrease() + energy_resolution(report.energy.back(), report);
   }
 
   // Makes x the next iterate, reached by the given decrease of the energy, or the first one.

@@ -69,7 +69,7 @@ inline Status minimize_local_global(Minimization& run)
     for(; t > 0 && run.is_higher(); run.evaluate())
     {
       const double shorter = t < 0.05 || !(force_before > 0) ? 0 : 0.5 * t;
-      if(shorter == 0 && (is_wrong || run.is_lost(force_before)))
+      if(shorter == 0 && (is_wrong || run.is_uphill(force_before)))
         return Status::solver_failed;
       add_step(shorter - t); // back, if rounding errors are all that is left
       t = shorter;

@@ -129,7 +129,7 @@ inline Status minimize_quasi_newton(Minimization& run)
       is_wrong |= is_safe && t == 1 && run.is_far_higher();
       if(is_safe && (t < 0.05 || !(slope > 0)))
       {
-        if(is_wrong || run.is_lost(slope))
+        if(is_wrong || run.is_uphill(slope))
           return Status::solver_failed;
         shorten(0, before, run.x); // rounding errors are all that is left
         run.evaluate();

@@ -266,7 +266,9 @@ public:
   {
     const Control_point point(m_last_point + 1);
     const std::size_t size = m_entries.size();
-    std::vector<std::size_t> corners; // their places: what can throw comes first
+    std::vector<std::size_t> indices, corners; // their places: what can throw comes first
+    for(vertex_descriptor v : held.corners)
+      indices.push_back(m_domain.index(v));
     try
     {
       for(vertex_descriptor v : held.corners)
@@ -275,7 +277,7 @@ public:
     }
     catch(...)
     {
-      remove_entries_from(size);
+      remove_entries_from(size, indices);
       throw;
     }
     ++m_last_point;
@@ -505,11 +507,14 @@ private:
     }
   }
 
-  // those that were inserted last
-  void remove_entries_from(std::size_t size)
+  // those that were inserted last, of vertices with indices that are among these
+  void remove_entries_from(std::size_t size, const std::vector<std::size_t>& indices)
   {
-    for(; m_entries.size() > size; m_entries.pop_back(), m_present_points.pop_back())
-      m_slots.set(m_domain.index(m_entries.back().vertex), Paged_index_map::none);
+    for(std::size_t index : indices)
+      if(m_slots[index] >= static_cast<int>(size))
+        m_slots.set(index, Paged_index_map::none);
+    for(; m_entries.size() > size; m_entries.pop_back())
+      m_present_points.pop_back();
     if(m_first_points.size() > size)
       m_first_points.erase(m_first_points.begin() + static_cast<std::ptrdiff_t>(size),
                            m_first_points.end());

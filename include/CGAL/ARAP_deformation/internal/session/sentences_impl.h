@@ -99,8 +99,9 @@ void add_remarks(Outcome& result, const Report& report, const Options& options,
                  bool is_region_empty, bool has_no_control,
                  const std::vector<std::size_t>& isolated_controls)
 {
-  if(report.free_vertices == 0)
-    result.message = about_nothing_free(is_region_empty);
+  if(report.free_vertices == 0) // rotations that are to be smooth may still have changed
+    result.message = (result.status == Status::converged ? std::string() : result.message + "; ") +
+                     about_nothing_free(is_region_empty);
   else if(has_no_control)
     result.message += "; there is no control vertex";
   if(report.free_vertices > 0 && options.initial_guess == Initial_guess::laplacian &&
