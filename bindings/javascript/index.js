@@ -87,7 +87,7 @@ function rowsOf(array, columns, what) {
 }
 
 // The corners of simplices as rows: those of polygons of different numbers of corners end with -1.
-function simplexRows(simplices, corners, what) {
+function simplexRows(simplices, corners, what, least) {
   const s = numbersOf(simplices, what, Int32Array);
   const isCount = (k) => Number.isInteger(k) && k > 0;
   if (typeof corners === 'number') {
@@ -98,7 +98,7 @@ function simplexRows(simplices, corners, what) {
   if (!counts.every(isCount)) throw new TypeError('corners must be positive integers');
   const sum = counts.reduce((a, b) => a + b, 0),
     m = counts.length,
-    k = counts.reduce((a, b) => Math.max(a, b), 3);
+    k = counts.reduce((a, b) => Math.max(a, b), least);
   if (sum !== s.length)
     throw new RangeError(`${what}: ${s.length} numbers, but ${sum} corners of ${m} faces`);
   const rows = new Int32Array(m * k).fill(-1);
@@ -234,7 +234,7 @@ export async function load({ wasmBinary } = {}) {
       corners ??= volume ? 4 : 3;
       const p = numbersOf(points, 'points', Float64Array);
       const n = rowsOf(p, 3, 'points');
-      const { rows, m, k } = simplexRows(simplices, corners, 'simplices');
+      const { rows, m, k } = simplexRows(simplices, corners, 'simplices', volume ? 4 : 3);
       this.#pointer =
         withCopies([p, rows], (pp, sp) =>
           withText([weights], (wp) => module._arap_create(pp, n, sp, m, k, volume, wp)),
@@ -380,8 +380,10 @@ export async function load({ wasmBinary } = {}) {
     }
     // simplices, and coordinates in rows of the same length, which NaN fills
     #callWithPlaces(name, places) {
-      const none = places.indexOf(null);
-      if (none >= 0) throw new TypeError(`place ${none} is null: the point was not located`);
+      if (!Array.isArray(places)) throw new TypeError('places must be an array');
+      const none = places.findIndex((place) => place == null);
+      if (none >= 0)
+        throw new TypeError(`place ${none} is ${places[none]}: the point was not located`);
       const of = places.map(({ coordinates }, i) => {
         const c = numbersOf(coordinates, `the coordinates of place ${i}`, Float64Array);
         if (!c.some(Number.isNaN)) return c;
@@ -421,7 +423,7 @@ export async function load({ wasmBinary } = {}) {
       refuseUnknown(rest, 'setTargetSurface()');
       const p = numbersOf(points, 'points', Float64Array);
       const n = rowsOf(p, 3, 'points');
-      const { rows, m, k } = simplexRows(faces, corners, 'faces');
+      const { rows, m, k } = simplexRows(faces, corners, 'faces', 3);
       withCopies([p, rows], (pp, fp) =>
         this.#callWithIndices('set_target_surface', 'handles', handles, pp, n, fp, m, k),
       );

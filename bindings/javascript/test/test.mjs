@@ -213,6 +213,7 @@ refuses(() => arap.session(points, faces, { corners: [3, 0] }), TypeError, /posi
 refuses(() => arap.session(points, faces, { corners: '3' }), TypeError, /corners must be/);
 refuses(() => arap.session(new BigInt64Array(3), faces), TypeError, /bigint/);
 refuses(() => arap.session(points, faces, { corners: 2 }), ArapError, /three corners/);
+arap.session(points, [], { volume: true, corners: [] }).dispose(); // is as without a list
 refuses(() => arap.session(points, faces, { weights: 'none' }), ArapError, /weights 'none'/);
 session.insertHandles([0, 1, 2]);
 refuses(() => session.setTargets([0, 1], [0, 0, 0]), ArapError, /2 handles/);
@@ -411,6 +412,10 @@ assert.equal(session.deform().stages.factor, false);
   assert(mixed.positions(found).every((x, i) => Math.abs(x - known[i]) < 1e-12));
   assert.equal(mixed.positions(found).length, 6);
   refuses(() => mixed.positions(places), TypeError, /place 2 is null/);
+  for (const f of ['positions', 'insertPoints']) {
+    refuses(() => mixed[f]([places[1], undefined]), TypeError, /place 1 is undefined/);
+    refuses(() => mixed[f](places[1]), TypeError, /places must be an array/);
+  }
   for (const f of ['positions', 'insertPoints'])
     refuses(
       () => mixed[f]([places[1], { simplex: 0, coordinates: [0, 0, 1] }]),
