@@ -1,10 +1,11 @@
 // What buttons and keys do with the shape that is open.
-import { FREE } from './colors.js';
+import { FREE, HANDLE } from './colors.js';
 import { placeGizmo } from './drawing.js';
 import { stopPlaying } from './follow.js';
 import {
   handlesMoved,
   hold,
+  isThere,
   membersOf,
   messageOfHandles,
   placeOf,
@@ -15,6 +16,7 @@ import { center, identity, matrixOf, rigidParts } from './motion.js';
 import { chooseTool } from './opening.js';
 import { cellStiffness, options, sendOptions, sendStiffness, showOptions } from './options.js';
 import { cancelStroke, painted, setTool } from './painting.js';
+import { endDrag } from './pointers.js';
 import { $, engine, page, view } from './state.js';
 import { changing, commitSoon, forgetPast } from './undo.js';
 import { THREE } from './view.js';
@@ -55,31 +57,43 @@ export async function weightsChanged() {
   $('weights').value = page.shape.weights;
 }
 
+// f for the handle that is chosen now and its number, unless it is gone when its turn comes
+function ofChosen(f) {
+  const { shape, chosen } = page;
+  return () => {
+    const handle = shape === page.shape && shape.handles[chosen];
+    return !!handle && isThere(handle) && f(handle, chosen);
+  };
+}
+
 export function changeHandle(to) {
-  const handle = page.shape?.handles[page.chosen];
-  if (!handle) return;
-  changing(() => {
-    Object.assign(handle, to);
-    return hold();
-  });
+  if (!page.shape?.handles[page.chosen]) return;
+  changing(
+    ofChosen((handle) => {
+      Object.assign(handle, to);
+      return hold();
+    }),
+  );
 }
 
 export async function removeHandle() {
-  const handle = page.shape?.handles[page.chosen];
-  if (!handle) return;
+  if (!page.shape?.handles[page.chosen]) return;
   cancelStroke();
   setTool('grab');
-  await painted(() => {
-    cancelStroke();
-    const k = page.shape.handles.indexOf(handle); // it may be gone by now
-    for (const v of k < 0 ? [] : membersOf(k)) page.shape.status[v] = FREE;
-    handle.point = null;
-  });
+  await painted(
+    ofChosen((handle, k) => {
+      cancelStroke();
+      const { status } = page.shape; // strokes that wait for their turn may have taken some
+      for (const v of membersOf(k)) if (status[v] === k + HANDLE) status[v] = FREE;
+      handle.point = null;
+    }),
+  );
 }
 
 export const clearPaint = () =>
   changing(async () => {
     cancelStroke();
+    endDrag(true);
     page.shape.status.fill(FREE);
     page.shape.handles = [];
     page.keys = [];
@@ -92,6 +106,7 @@ export const clearPaint = () =>
 
 export const reset = () =>
   changing(async () => {
+    endDrag(true);
     page.shape.handles.forEach((h) => {
       h.matrix = identity();
     });
@@ -102,6 +117,7 @@ export const reset = () =>
 export const restFromNow = () =>
   changing(async () => {
     const { rest } = await engine.call('rest');
+    endDrag(true); // it was of the old rest shape
     page.shape.points = rest;
     page.shape.handles.forEach((handle, k) => {
       if (handle.point) handle.pivot = placeOf(handle.point, rest);

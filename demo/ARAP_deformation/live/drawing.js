@@ -29,10 +29,11 @@ export async function showMeasure() {
   if (!measure || measure === 'stiffness') {
     values = null;
     $('legend').hidden = true;
+    $('quality').textContent = '';
     if (page.shape) drawColors();
-    if (!measure) return void ($('quality').textContent = '');
+    return;
   }
-  if (isMeasuring || !page.shape || measure === 'stiffness') return;
+  if (isMeasuring || !page.shape) return;
   isMeasuring = true;
   try {
     const answer = await engine.call('colors', { measure });

@@ -35,15 +35,16 @@ class Words {
 // memory and time grow with the square of the number of corners
 const mostCorners = 64;
 
-// The corners of polygons one after the other, and their numbers if they differ from 3.
-function surface(points, polygons) {
+// The corners of polygons one after the other, and their numbers if they differ from 3. A file
+// counts its vertices from `first`.
+function surface(points, polygons, first = 0) {
   const n = points.length / 3;
   for (const polygon of polygons) {
     if (polygon.length < 3) fail(`a face has ${polygon.length} corners`);
     polygon.forEach((v, k) => {
       if (!(Number.isInteger(v) && v >= 0 && v < n))
-        fail(`a face has the vertex ${v}, but there are ${n} vertices`);
-      if (polygon.indexOf(v) < k) fail(`a face has the vertex ${v} twice`);
+        fail(`a face has the vertex ${v + first}, but there are ${n} vertices`);
+      if (polygon.indexOf(v) < k) fail(`a face has the vertex ${v + first} twice`);
     });
   }
   const large = polygons.filter((polygon) => polygon.length > mostCorners).length,
@@ -92,7 +93,9 @@ function readOff(text) {
   }
   for (let f = 0; f < m; ++f) {
     const [k, ...corners] = numbers(`face ${f}`);
-    if (!(corners.length >= k)) fail(`face ${f} has fewer corners than it says`);
+    if (!(Number.isInteger(k) && k >= 0))
+      fail(`face ${f} does not begin with the number of its corners`);
+    if (corners.length < k) fail(`face ${f} has fewer corners than it says`);
     polygons.push(corners.slice(0, k));
   }
   return surface(points, polygons);
@@ -103,7 +106,11 @@ function readObj(text) {
     polygons = [];
   text
     .replace(/#[^\n]*/g, '')
-    .replace(/\\\r?\n/g, ' ')
+    .replace(
+      /^(?:[^\n]*\\\r?\n)+[^\n]*/gm,
+      // one line, and empty ones that keep the numbers of those that follow
+      (lines) => lines.replace(/\\\r?\n/g, ' ') + '\n'.repeat(lines.split('\n').length - 1),
+    )
     .split('\n')
     .forEach((line, number) => {
       const [key, ...words] = line.trim().split(/\s+/);
@@ -116,12 +123,15 @@ function readObj(text) {
       if (key === 'f')
         polygons.push(
           words.map((word) => {
-            const v = parseInt(word, 10);
-            return v < 0 ? points.length / 3 + v : v - 1;
+            const v = Number(word.split('/')[0]),
+              n = points.length / 3;
+            if (!Number.isInteger(v) || v < -n)
+              fail(`line ${number + 1}: a face has the vertex ${word}`);
+            return v < 0 ? n + v : v - 1;
           }),
         );
     });
-  return surface(points, polygons);
+  return surface(points, polygons, 1);
 }
 
 function readMedit(text) {
@@ -224,6 +234,8 @@ function readStl(bytes) {
   if (!geometry.attributes.position?.count) fail('it has no vertices');
   for (const name of Object.keys(geometry.attributes))
     if (name !== 'position') geometry.deleteAttribute(name);
+  if (!geometry.attributes.position.array.every(Number.isFinite))
+    fail('a coordinate is no finite number');
   geometry.computeBoundingSphere();
   const before = geometry.attributes.position.count;
   geometry = mergeVertices(geometry, 1e-7 * geometry.boundingSphere.radius);

@@ -1,11 +1,10 @@
 // The keys: those of tools and buttons, and those that move the chosen handle.
 import { moveByKey, removeHandle, reset } from './actions.js';
 import { FIXED, FREE } from './colors.js';
-import { stopPlaying } from './follow.js';
 import { closeHelp, say } from './messages.js';
 import { cancelStroke, paintWith, setTool } from './painting.js';
 import { actions, tools } from './panel.js';
-import { addKey, play } from './playing.js';
+import { addKey, play, stop } from './playing.js';
 import { page } from './state.js';
 import { commitNow, inTurn, redo, undo } from './undo.js';
 
@@ -27,13 +26,12 @@ addEventListener('keydown', (event) => {
     if (key === 'z') (event.shiftKey ? redo : undo)();
     else if (key === 'y') redo();
     else return;
-  } else if (found) {
-    if (!page.stroke) setTool(found);
-  } else if (/^\d$/.test(key)) {
+  } else if (found) setTool(found);
+  else if (/^\d$/.test(key)) {
     paintWith(key === '0' ? FREE : key === '1' ? FIXED : Number(key));
   } else if (key === 'Escape') {
     cancelStroke();
-    stopPlaying();
+    if (page.playing) stop();
     say('');
     closeHelp();
   } else if (moveByKey(key, event.shiftKey)) closeHelp();

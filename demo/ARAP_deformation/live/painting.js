@@ -56,7 +56,9 @@ export function cancelStroke() {
   drawColors();
 }
 
+// not while a stroke goes on, which is of one tool
 export function setTool(name) {
+  if (page.stroke) return;
   page.tool = name;
   drawStroke();
   placeGizmo();
@@ -70,7 +72,7 @@ export const paintsRegions = () => !['grab', 'point', 'stiffness'].includes(page
 // from now on
 export function paintWith(status) {
   page.paints = status;
-  if (!paintsRegions() && !page.stroke) setTool('brush');
+  if (!paintsRegions()) setTool('brush');
   if (page.shape.handles[status - HANDLE]?.size) choose(status - HANDLE); // no point
   changed();
 }
@@ -87,14 +89,14 @@ export function paint(vertices) {
 
 export function brushAt(x, y) {
   const list = brushed(
-    page.stroke.screen,
+    view.screen(),
     page.stroke.last ?? [x, y],
     [x, y],
     Number($('brush').value),
   );
   if (!list.length && !page.stroke.last) {
     // the shape is coarser than the brush
-    const v = nearestSeen(page.stroke.screen, x, y, 40);
+    const v = nearestSeen(view.screen(), x, y, 40);
     if (v >= 0) list.push(v);
   }
   page.stroke.last = [x, y];
@@ -102,7 +104,8 @@ export function brushAt(x, y) {
 }
 
 export function paintArea() {
-  const { screen, path } = page.stroke,
+  const screen = view.screen(),
+    { path } = page.stroke,
     [[x0, y0], [x1, y1]] = [path[0], path.at(-1)],
     list = [];
   if (Math.hypot(x1 - x0, y1 - y0) < 3 && path.length < 4) return;
@@ -115,12 +118,12 @@ export function paintArea() {
   paint(list);
 }
 
-// `prepare` is called first, when it is its turn
+// `prepare` is called first, when it is its turn; if it returns false, there is nothing to do
 export async function painted(prepare = () => {}) {
   const fits = isDeformed(),
     { tool, paints } = page; // they may change until it is their turn
   await changing(async () => {
-    prepare();
+    if (prepare() === false) return false;
     if (tool === 'stiffness') {
       const { stiffness } = page.stroke?.before ?? page.shape;
       await sendStiffness(stiffness?.slice() ?? null);
@@ -138,13 +141,14 @@ export async function painted(prepare = () => {}) {
 // a handle in a face, or at a vertex if that is clicked
 export async function placePoint(x, y) {
   view.mesh.geometry.computeBoundingSphere(); // that of the present positions
-  const hit = view.ray(x, y).intersectObject(view.mesh)[0];
+  const { shape } = page,
+    hit = view.ray(x, y).intersectObject(view.mesh)[0];
   if (!hit) return;
   const triangle = [hit.face.a, hit.face.b, hit.face.c],
     points = triangle.map((v) => new THREE.Vector3().fromArray(view.positions, 3 * v));
   const b = THREE.Triangle.getBarycoord(hit.point, ...points, new THREE.Vector3());
   await changing(async () => {
-    const { shape } = page;
+    if (shape !== page.shape) return false; // another one was opened before
     let place;
     if (!shape.volume) {
       const simplex = shape.simplexOf?.[hit.faceIndex] ?? hit.faceIndex,
@@ -159,12 +163,12 @@ export async function placePoint(x, y) {
     } else
       ({ place } = await engine.call('locate', { point: hit.point.toArray() }));
     if (!place) throw new Error('there is no tetrahedron at this place');
-    const pivot = placeOf(place, page.shape.points); // in the rest shape
+    const pivot = placeOf(place, shape.points); // in the rest shape
     const matrix = matrixOf(pivot, new THREE.Quaternion(), hit.point);
-    page.shape.handles.push(newHandle({ pivot, matrix, point: place }));
+    shape.handles.push(newHandle({ pivot, matrix, point: place }));
     await hold();
     page.isHeld = true;
     setTool('grab');
-    choose(page.shape.handles.length - 1);
+    choose(shape.handles.length - 1);
   });
 }

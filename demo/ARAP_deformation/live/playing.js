@@ -2,7 +2,7 @@
 import { placeGizmo } from './drawing.js';
 import { stopPlaying } from './follow.js';
 import { handlesMoved, keyFrames, matrices } from './handles.js';
-import { say } from './messages.js';
+import { complain, say } from './messages.js';
 import { identity, matrixOf, rigidParts } from './motion.js';
 import { save } from './saving.js';
 import { changed, page, view } from './state.js';
@@ -16,8 +16,14 @@ export function addKey() {
   commitSoon();
 }
 
+// The motion up to now is a step that can be undone.
+export function stop() {
+  stopPlaying();
+  commitSoon();
+}
+
 export function play(record) {
-  if (page.playing) return stopPlaying();
+  if (page.playing) return stop();
   if (!page.shape.handles.length) return sayNoHandle();
   if (!page.keys.length) return say('There is no key frame: move a handle, and choose Add.', true);
   const path = [page.shape.handles.map(identity), ...keyFrames()];
@@ -47,10 +53,7 @@ export function playFrame(time) {
       : matrixOf(handle.pivot, a.q.slerp(b.q, share), a.place.lerp(b.place, share));
   });
   handlesMoved();
-  if (isEnd) {
-    stopPlaying();
-    commitSoon();
-  }
+  if (isEnd) stop();
 }
 
 export function film() {
@@ -59,19 +62,23 @@ export function film() {
   );
   if (!type) return say('This browser cannot record films.', true);
   const { name } = page.shape; // another one may be opened meanwhile
-  play(() => {
-    const stream = view.canvas.captureStream(30),
-      recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6e6 }),
-      parts = [];
-    recorder.ondataavailable = ({ data }) => parts.push(data);
-    recorder.onstop = () => {
-      stream.getTracks().forEach((track) => track.stop());
-      save(
-        `${name}.${type.includes('mp4') ? 'mp4' : 'webm'}`,
-        new Blob(parts, { type }),
-      );
-    };
-    recorder.start();
-    return recorder;
-  });
+  try {
+    play(() => {
+      const stream = view.canvas.captureStream(30),
+        recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6e6 }),
+        parts = [];
+      recorder.ondataavailable = ({ data }) => parts.push(data);
+      recorder.onstop = () => {
+        stream.getTracks().forEach((track) => track.stop());
+        save(
+          `${name}.${type.includes('mp4') ? 'mp4' : 'webm'}`,
+          new Blob(parts, { type }),
+        );
+      };
+      recorder.start();
+      return recorder;
+    });
+  } catch (error) {
+    complain(error); // the browser cannot record this after all
+  }
 }

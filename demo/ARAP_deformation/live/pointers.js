@@ -62,7 +62,6 @@ function pressed(event) {
   }
   if (page.shape.handles[page.paints - HANDLE]?.point) page.paints = nextHandle() + HANDLE;
   page.stroke = {
-    screen,
     before: {
       status: page.shape.status.slice(),
       stiffness: page.shape.stiffness?.slice() ?? null,
@@ -123,11 +122,11 @@ function grab(event, x, y, k) {
 }
 
 // The motion is a step that can be undone, unless it is cancelled.
-function endDrag(isCancelled = false) {
-  if (page.dragging?.gizmo) return view.gizmo.pointerUp(null);
+export function endDrag(isCancelled = false) {
   if (!page.dragging) return;
   const { k, before, hasMoved } = page.dragging;
   page.dragging = null;
+  if (view.gizmo.dragging) view.gizmo.pointerUp(null);
   const handle = page.shape.handles[k];
   if (isCancelled && hasMoved && handle) {
     handle.matrix = before;
@@ -193,12 +192,8 @@ view.gizmo.addEventListener('objectChange', () => {
 });
 
 view.gizmo.addEventListener('dragging-changed', ({ value }) => {
-  const hasMoved = page.dragging?.hasMoved;
   view.orbit.enabled = !value;
-  page.dragging = value ? { gizmo: true, hasMoved: false } : null;
-  if (value) return;
-  page.isSettled = false;
-  if (!hasMoved) return;
-  closeHelp();
-  commitSoon();
+  if (!value) return endDrag();
+  const k = page.chosen;
+  page.dragging = { k, before: page.shape.handles[k].matrix, hasMoved: false };
 });

@@ -27,9 +27,10 @@ export function commandLine() {
     { cells, minimizer, bending_length } = options(),
     diagonal = diagonalOf(page.shape.points), // of the rest shape that is saved
     ending = volume ? 'mesh' : 'off',
-    held = filed().numbers.map((k) => page.shape.handles[k]);
+    held = filed().numbers.map((k) => page.shape.handles[k]),
+    path = name.replace(/^-/, './-'); // not an option
   const file = (end) =>
-    /^[\w.-]+$/.test(name) ? name + end : `'${(name + end).replaceAll("'", "'\\''")}'`;
+    /^[\w./-]+$/.test(path) ? path + end : `'${(path + end).replaceAll("'", "'\\''")}'`;
   const differ = (what) => held.some((handle) => handle[what] !== held[0][what]);
   const ofAll = (what) => (held.length && !differ(what) ? held[0][what] : null);
   const untold = [

@@ -1,7 +1,7 @@
 // Undo and redo.
 import { draw } from './drawing.js';
 import { pump, stopPlaying } from './follow.js';
-import { recountHandles } from './handles.js';
+import { hold, recountHandles } from './handles.js';
 import { complain, say } from './messages.js';
 import { sendOptions, sendStiffness, showOptions } from './options.js';
 import { changed, engine, page, view } from './state.js';
@@ -69,11 +69,12 @@ export async function commitNow() {
   if (timer) await commit();
 }
 
-// Runs what changes the shape, which then follows. What fails is undone. For what has its turn.
+// Runs what changes the shape, which then follows. What fails is undone; what returns false has
+// changed nothing, and is no step. For what has its turn.
 export async function change(f, stops = true) {
   if (stops) stopPlaying();
   try {
-    await f();
+    if ((await f()) === false) return;
     page.failed = '';
     page.isSettled = false;
     page.hasNewTargets = page.shape.handles.length > 0;
@@ -127,15 +128,19 @@ async function goTo(index) {
     const { points, rest } = await engine.call('restore', { state });
     page.shape.points = rest;
     page.spare = view.setPositions(points);
-    page.chosen = kept.chosen;
-    recountHandles(false);
-    page.isSettled = false;
-    page.hasNewTargets = page.shape.handles.length > 0;
-    draw();
-    pump();
   } catch (error) {
     complain(error);
+    // the handles are those of this step; the shape follows them from where it is
+    showOptions(held.options);
+    page.shape.stiffness = held.stiffness?.slice() ?? null;
+    await hold().catch(complain);
   }
+  page.chosen = kept.chosen;
+  recountHandles(false);
+  page.isSettled = false;
+  page.hasNewTargets = page.shape.handles.length > 0;
+  draw();
+  pump();
 }
 
 const step = (by) =>

@@ -110,9 +110,13 @@ export class View {
     if (target) this.orbit.target.copy(target);
     this.orbit.enableDamping = false;
     this.orbit.zoomToCursor = true; // where two fingers turn, there is no other way aside
-    this.orbit.addEventListener('change', () => {
-      this.isDirty = true;
-    });
+    this.orbit.addEventListener('change', () => this.moved());
+  }
+
+  // what is drawn is elsewhere on the screen
+  moved() {
+    this.isDirty = true;
+    this.lastScreen = null;
   }
 
   // whether a drag of the first button or finger turns the view
@@ -135,7 +139,7 @@ export class View {
     this.marks.material.size = 15 * ratio;
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
-    this.isDirty = true;
+    this.moved();
   }
 
   setShape(points, faces) {
@@ -158,7 +162,7 @@ export class View {
     }
     this.material.flatShading = !this.isSmooth;
     this.material.needsUpdate = true;
-    this.isDirty = true;
+    this.moved();
   }
 
   get positions() {
@@ -172,7 +176,7 @@ export class View {
     attribute.array = points;
     attribute.needsUpdate = true;
     this.updateNormals();
-    this.isDirty = true;
+    this.moved();
     return before;
   }
 
@@ -297,7 +301,7 @@ export class View {
     this.orbit.target.copy(sphere.center);
     this.orbit.update();
     this.camera.updateMatrixWorld();
-    this.isDirty = true;
+    this.moved();
   }
 
   render() {
@@ -324,6 +328,10 @@ export class View {
 
   // where the vertices are on the screen, and which are seen
   screen() {
+    return (this.lastScreen ??= this.newScreen());
+  }
+
+  newScreen() {
     const w = this.container.clientWidth,
       h = this.container.clientHeight,
       far = this.camera.far;

@@ -113,6 +113,18 @@ async function dragHandle(dx, dy, number = 1) {
   } = (await state()).handles[number - 1];
   await drag([x, y], [x + dx, y + dy]);
 }
+// where the first handle can be taken beside the gizmo
+async function besideGizmo() {
+  const p = await positions(),
+    members = await page.evaluate(() =>
+      [...window.arap.status().entries()].filter(([, s]) => s === 2).map(([v]) => v),
+    );
+  for (const place of await onPage(members.map((v) => p.slice(3 * v, 3 * v + 3)))) {
+    await page.mouse.move(...place);
+    if (await page.evaluate(() => !window.arap.view.gizmo.axis)) return place;
+  }
+  return assert.fail('the gizmo is everywhere');
+}
 // where points in space are
 const onPage = (points, p = page) =>
   p.evaluate((list) => {
@@ -319,7 +331,25 @@ const steps = {
       large = read('a.obj', many.join('') + face(65) + face(64));
     assert.deepEqual([...large.corners], [...Array(63).fill(3), 64]);
     assert.match(large.note, /were cut into triangles: 1\./);
-    assert.throws(() => read('a.obj', `${vertices}f 1 2 1`), /a\.obj .* the vertex 0 twice/);
+    // .obj counts from 1
+    for (const [rest, why] of [
+      ['f 1 2 1', / the vertex 1 twice/],
+      ['f 1 2 9', / the vertex 9, but there are 4/],
+      ['f 0 1 2', / the vertex 0, but there are 4/],
+      ['f -5 1 2', /: line 5: .* the vertex -5\./],
+      ['f 1 \\\n2 \\\r\n3\nf 1 2x 3', /: line 8: .* the vertex 2x\./],
+      ['f 1 2.7 3', / the vertex 2\.7\./],
+    ])
+      assert.throws(() => read('a.obj', vertices + rest), why);
+    for (const count of [-1, 2.5, 'x'])
+      assert.throws(
+        () => read('a.off', `OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n${count} 0 1 2 2\n`),
+        /face 0 does not begin with the number/,
+      );
+    const triangle = new DataView(new ArrayBuffer(134));
+    triangle.setUint32(80, 1, true);
+    triangle.setFloat32(96, NaN, true);
+    assert.throws(() => readMesh('a.stl', triangle.buffer), /a\.stl .* no finite number/);
     const element = (corners) =>
       `Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n${corners}`;
     assert.equal(read('a.mesh', element('Triangles 1\n1 2 3 0')).simplices.length, 3);
@@ -819,6 +849,32 @@ const steps = {
     await settled();
     assert.deepEqual([(await state()).undo, (await state()).redo], [first, 1]);
     assert.equal(await message(), '');
+    // a redo that fails: the engine holds what the page does
+    await page.keyboard.press('p');
+    await page.mouse.click(...(await middle()));
+    await settled();
+    await page.click('#undo');
+    await settled();
+    await page.evaluate(() => {
+      const { engine } = window.arap,
+        call = engine.call.bind(engine);
+      engine.call = (name, ...others) => {
+        if (name !== 'restore') return call(name, ...others);
+        delete engine.call;
+        return Promise.reject(new Error('there is not enough memory'));
+      };
+    });
+    await page.click('#redo');
+    assert.equal((await settled()).handles.length, 2);
+    assert.match(await message(), /not enough memory/);
+    await page.keyboard.press('Escape');
+    const held = await positions();
+    await page.keyboard.press('ArrowLeft');
+    await rest(600);
+    await settled();
+    assert.equal(await message(), '');
+    assert(largestDifference(held, await positions()) > 0.01, 'the shape follows');
+    await page.keyboard.press('g');
   },
 
   async 'digits and regions'() {
@@ -920,14 +976,80 @@ const steps = {
     assert.equal(keys, 0);
     assert.notEqual(handles[0].matrix[7], moved.handles[0].matrix[7]);
     await isWell();
+    // after an undo it is another object that has the number of the handle, or there is none
+    await page.evaluate(() => {
+      for (const id of ['undo', 'soft']) document.getElementById(id).click();
+    });
+    await rest(100);
+    assert.notEqual((await settled()).handles[0].weight, null);
+    await page.keyboard.press('3');
+    await paintMiddle();
+    const { undo } = await settled();
+    await page.evaluate(() => {
+      window.arap.choose(1);
+      document.getElementById('undo').click();
+      dispatchEvent(new KeyboardEvent('keydown', { key: 'Delete' }));
+    });
+    await rest(100);
+    const gone = await settled();
+    assert.deepEqual([gone.handles.length, gone.undo, gone.redo], [1, undo - 1, 1]);
+    await isWell();
+    // a handle that is removed leaves what was painted since
+    await openModel('bar');
+    let fixed;
+    const removed = await whileBusy(async () => {
+      for (const key of ['r', 'Delete', '1']) await page.keyboard.press(key);
+      const [x, y] = (await state()).handles[0].screen;
+      await drag([x - 40, y + 5], [x + 40, y + 5]);
+      await page.mouse.up();
+      fixed = await page.evaluate(() => window.arap.status().filter((s) => s === 0).length);
+    });
+    assert.deepEqual([removed.fixed, removed.handles.length], [fixed, 0]);
+    // a motion of the rest shape of before ends with it, by the gizmo and without
+    for (const byGizmo of [true, false]) {
+      await openModel('bar');
+      await page.keyboard.down('Shift');
+      for (let k = 0; k < 6; ++k) await page.keyboard.press('ArrowLeft');
+      await page.keyboard.up('Shift');
+      await rest(600);
+      await settled();
+      const resting = whileBusy(async () => {
+        await page.click('#rest');
+        const [x, y] = byGizmo ? (await state()).handles[0].screen : await besideGizmo();
+        await drag([x, y], [x + 5, y]);
+        assert.equal(await page.evaluate(() => window.arap.view.gizmo.dragging), byGizmo);
+      });
+      await page.waitForFunction(() => /rest shape/.test(window.arap.state().message));
+      await page.mouse.move(300, 300);
+      await page.mouse.up();
+      const { matrix } = (await resting).handles[0];
+      assert.deepEqual(matrix, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+    }
+    // no point in a shape that was opened after the click
+    await whileBusy(async () => {
+      await page.keyboard.press('r');
+      await page.evaluate(() => void window.arap.openModel('sheet'));
+      await page.keyboard.press('p');
+      await page.mouse.click(...(await middle()));
+    });
+    await page.waitForFunction(() => window.arap.state()?.name === 'sheet');
+    await rest(100);
+    const opened = await settled();
+    assert.deepEqual([opened.handles.length, opened.undo], [1, 0]);
+    await isWell();
   },
 
   async 'handles that are gone'() {
     await openModel('sheet');
     await page.keyboard.press('b');
     await page.keyboard.press('3');
-    await paintMiddle();
-    assert.equal((await settled()).handles.length, 2);
+    const [x, y] = await middle();
+    await drag([x + 90, y], [x + 130, y]);
+    await page.mouse.up();
+    assert.deepEqual(
+      (await settled()).handles.map(({ vertices }) => vertices > 0),
+      [true, true],
+    );
     await page.evaluate(() => window.arap.choose(0));
     await page.keyboard.press('Delete');
     const left = await settled();
@@ -983,7 +1105,10 @@ const steps = {
     assert.equal(await message(), '');
     await page.evaluate(() => document.activeElement.blur());
     // a new handle is not what one with its number was
-    await page.evaluate(() => window.arap.choose(0));
+    await page.keyboard.press('b');
+    await page.keyboard.press('2');
+    await paintMiddle();
+    await settled();
     await page.click('#soft');
     assert.notEqual((await settled()).handles[0].weight, null);
     await page.keyboard.press('Delete');
@@ -1017,6 +1142,38 @@ const steps = {
     await page.mouse.up();
     assert((await settled()).fixed > more, 'what was painted when a key was pressed is held');
     assert.equal(await message(), '');
+    // nor does a button
+    await page.keyboard.press('s');
+    const calls = await callsOf(async () => {
+      await drag([x + 60, y + 30], [x + 90, y]);
+      await page.evaluate(() => document.querySelector('[data-tool=brush]').click());
+      await page.mouse.up();
+    });
+    assert(calls.includes('stiffness'), 'the stiffness is told to the engine');
+    assert.equal((await state()).tool, 'stiffness');
+    // the view may change during a stroke
+    await openModel('bar');
+    await page.keyboard.press('b');
+    await page.keyboard.press('1');
+    const [a, b] = await middle(),
+      painted = () =>
+        page.evaluate(() =>
+          [...window.arap.status().entries()].filter(([, s]) => s === 0).map(([v]) => v),
+        );
+    await page.mouse.move(a, b);
+    await page.mouse.down();
+    await page.mouse.wheel({ deltaY: -600 });
+    await rest(200);
+    const early = new Set(await painted());
+    await page.mouse.move(a, b + 40);
+    const added = (await painted()).filter((v) => !early.has(v)),
+      p = await positions(),
+      places = await onPage(added.map((v) => p.slice(3 * v, 3 * v + 3)));
+    await page.mouse.up();
+    await settled();
+    const far = places.map(([c, d]) => Math.hypot(c - a, d - Math.max(b, Math.min(b + 40, d))));
+    assert(far.length > 0 && Math.max(...far) < 27, `${far.length}, up to ${Math.max(...far)} px`);
+    await page.keyboard.press('v');
     await page.keyboard.press('g');
   },
 
@@ -1059,6 +1216,10 @@ const steps = {
     const [stiff, what] = await paintsWith('s');
     assert(stiff > 3 && what === 'stiffness');
     await page.select('#measure', 'edge_length_error');
+    await page.waitForFunction(() => /Edges/.test(document.getElementById('quality').textContent));
+    await page.select('#measure', 'stiffness');
+    assert.equal(await quality(), '');
+    await page.select('#measure', 'edge_length_error');
     await openModel('sheet');
     assert.equal(await quality(), '');
     assert(await page.$eval('#legend', (legend) => legend.hidden));
@@ -1094,6 +1255,9 @@ const steps = {
     };
     assert((await line()).includes(" --selection 'it'\\''s a bar.sel' "), await line());
     assert(!/soft|leaves out/.test(await line()));
+    await openShape(bar, '-x');
+    assert.match(await line(), /^arap_deform \.\/-x_rest\.off .* \.\/-x\.sel .* \.\/-x\.def /);
+    await openShape({ ...bar, status }, "it's a bar");
     await soften(0);
     assert.doesNotMatch(await line(), / --soft/);
     assert.match(await line(), /\nThis line leaves out: weights/);
@@ -1256,6 +1420,16 @@ const steps = {
     await page.mouse.up();
     for (let k = 0; k < 3; ++k) await page.keyboard.down('k'); // held, it adds one
     await page.keyboard.up('k');
+    await page.evaluate(() => {
+      const { canvas } = window.arap.view,
+        { captureStream } = canvas;
+      canvas.captureStream = () => {
+        canvas.captureStream = captureStream;
+        throw new Error('this is not recorded');
+      };
+    });
+    await page.click('#film');
+    assert.match(await message(), /^This is not recorded/);
     await dragHandle(-200, 0);
     await page.mouse.up();
     await page.keyboard.press('k');
@@ -1380,7 +1554,21 @@ const steps = {
     await page.keyboard.press('ArrowLeft');
     assert(!(await plays()));
     await rest(600);
-    await settled();
+    const before = await settled();
+    // what was played until it is stopped is a step
+    for (const stop of [() => page.click('#play'), () => page.keyboard.press('Escape')]) {
+      await page.click('#play');
+      await rest(300);
+      await stop();
+      await rest(100);
+      assert(!(await plays()));
+      assert.equal((await settled()).undo, before.undo + 1);
+      await pressCommand('z');
+      await rest(100);
+      const undone = await settled();
+      assert.equal(undone.undo, before.undo);
+      assert.deepEqual(undone.handles[0].matrix, before.handles[0].matrix);
+    }
   },
 
   async 'rest shape from now'() {
@@ -1725,6 +1913,19 @@ const steps = {
       return lookTo();
     };
     await phone.tap('[data-tool=grab]');
+    // a second finger takes a motion of the gizmo back
+    await phone.evaluate(() => window.arap.choose(0));
+    const { undo, handles } = await state(phone),
+      [{ matrix, screen: place }] = handles,
+      held = await phone.touchscreen.touchStart(...place);
+    for (let k = 1; k <= 5; ++k) await held.move(place[0] + 6 * k, place[1]);
+    assert.notDeepEqual((await state(phone)).handles[0].matrix, matrix);
+    const other = await phone.touchscreen.touchStart(40, 600);
+    await other.end();
+    await held.end();
+    await rest(100);
+    const back = await settled(phone);
+    assert.deepEqual([back.undo, back.handles[0].matrix], [undo, matrix]);
     const start = await lookTo(),
       moved = await moveTwoFingers();
     assert(largestDifference(moved[0], start[0]) > 0.01, 'two fingers move the view');
