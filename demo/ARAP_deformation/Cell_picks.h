@@ -93,7 +93,7 @@ void set_cell_values(Deformation& deformation, const Command_line& line,
   const bool is_at_vertices = line.options.cells.has_vertex_cells();
   const Cell_picks stiff(line.stiff, is_at_vertices, domain, points),
     rigid(line.rigid, is_at_vertices, domain, points);
-  const auto value = [line](int k) { return k < 0 ? 1.0 : line.stiffness[k]; };
+  const auto value = [stiffness = line.stiffness](int k) { return k < 0 ? 1.0 : stiffness[k]; };
   if(!line.stiff.empty() && is_at_vertices)
     deformation.set_stiffness([=](Vertex v) { return value(stiff.of_vertex(v)); });
   else if(!line.stiff.empty())

@@ -45,6 +45,7 @@ public:
     else
       read_nodes(words);
     read_end(words, "$EndNodes");
+    const std::size_t end_of_nodes = words.end();
     words = section("$Elements", words.end());
     if(m_has_blocks)
       read_blocks(words, [&](const Block& block) {
@@ -57,8 +58,9 @@ public:
     else
       read_elements(words);
     read_end(words, "$EndElements");
-    for(const char* keyword : {"$Nodes", "$Elements"})
-      if(find_section(keyword, words.end()))
+    for(const auto& [keyword, end] :
+        {std::pair("$Nodes", end_of_nodes), std::pair("$Elements", words.end())})
+      if(find_section(keyword, end))
         refuse(std::string("has a second section ") + keyword);
   }
 

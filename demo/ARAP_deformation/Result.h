@@ -27,7 +27,6 @@
 #include <sys/resource.h>
 #endif
 
-#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <optional>
@@ -91,18 +90,14 @@ inline void write_report(Output_file& file, const Result& result)
   json["initial_guess"] = to_string(report.initial_guess);
   json["iterations"] = report.iterations;
   json["energy"] = report.energy;
-  json["estimated_relative_gap"] = nullptr;
-  if(std::isfinite(report.estimated_relative_gap))
-    json["estimated_relative_gap"] = report.estimated_relative_gap;
+  json["estimated_relative_gap"] = report.estimated_relative_gap; // null if it is not finite
   json["end"] = to_string(report.end);
   json["saddles_left"] = report.saddles_left;
   json["plateaus_left"] = report.plateaus_left;
   json["looking_iterations"] = report.looking_iterations;
   json["edge_length_error"] = result.quality.edge_length_error;
   json["area_change"] = result.quality.area_change;
-  json["volume_change"] = nullptr;
-  if(std::isfinite(result.quality.volume_change))
-    json["volume_change"] = result.quality.volume_change;
+  json["volume_change"] = result.quality.volume_change; // null, as above
   json["largest_angle_change"] = result.quality.largest_angle_change;
   json["largest_spike"] = result.quality.largest_spike;
   if(result.self_intersections)

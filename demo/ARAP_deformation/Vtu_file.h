@@ -111,7 +111,8 @@ private:
     std::optional<std::size_t> offset; // in what is appended
   };
 
-  // The array of points may have their range: that of their distances from the origin.
+  // The array of points may have their range, as attributes and as what VTK knows of it: that of
+  // their distances from the origin.
   void replace_range(const std::vector<Kernel::Point_3>& points)
   {
     double least = (std::numeric_limits<double>::max)(), most = 0;
@@ -122,9 +123,14 @@ private:
       most = (std::max)(most, distance);
     }
     const auto& attributes = array("Points", "").attributes;
+    std::vector<std::pair<Span, double>> numbers;
     for(const auto& [name, value] : {std::pair("RangeMin", least), std::pair("RangeMax", most)})
       if(const auto place = attributes.find(name); place != attributes.end())
-        m_source.replace(place->second, m_source.number(value, sizeof(value)));
+        numbers.emplace_back(place->second, value);
+    for(const auto& [index, span] : m_ends_of_ranges)
+      numbers.emplace_back(span, index == "0" ? least : most);
+    for(const auto& [span, value] : numbers)
+      m_source.replace(span, m_source.number(value, sizeof(value)));
   }
 
   static std::string part(const std::string& text, const Span& span)
@@ -141,7 +147,7 @@ private:
   // Reads the tags up to what is appended, which may be raw and is no XML then.
   void read_tags()
   {
-    std::string parent;
+    std::string parent, key;
     for(std::size_t place = 0; (place = text().find('<', place)) != std::string::npos;)
     {
       const std::size_t start = place;
@@ -178,6 +184,12 @@ private:
         array.end = (std::min)(text().find('<', place), text().size());
         m_arrays.push_back(array);
       }
+      else if(name == "InformationKey")
+        key = array.get("name");
+      else if(name == "Value" && parent == "Points" &&
+              (key == "L2_NORM_RANGE" || key == "L2_NORM_FINITE_RANGE"))
+        m_ends_of_ranges.emplace_back(
+          array.get("index"), Span{place, (std::min)(text().find('<', place), text().size())});
       else if(name == "AppendedData")
       {
         m_is_appended_raw = array.get("encoding") == "raw";
@@ -487,6 +499,7 @@ private:
   }
 
   std::vector<Array> m_arrays;
+  std::vector<std::pair<std::string, Span>> m_ends_of_ranges; // of points: 0 or 1, and the number
   bool m_has_piece = false, m_is_compressed = false, m_is_appended_raw = false;
   std::pair<std::string, std::string> m_piece; // how many points and cells
   std::size_t m_appended = 0, m_header = 4;    // where appended arrays start; bytes of a count

@@ -166,7 +166,7 @@ public:
           if(is_position(p))
           {
             point[p.name[0] - 'x'] = {begin, end};
-            source.are_points_single = source.are_points_single || p.is("float");
+            source.are_points_single |= is_vertex(element) && p.is("float");
           }
           if(is_vertex(element) && p.name == source.wanted_property && is_fractional(p))
             source.wanted_values.push_back({begin, end});
