@@ -521,7 +521,8 @@ public:
   /// them from the rest shape to their current targets. When the targets have moved, by `rotate()`
   /// for example, call it again. Returns `ARAP::Status::invalid_rotation`, and changes nothing, if
   /// there is no such motion up to \f$10^{-4}\f$ of their size, or if they lie on a line, which
-  /// leaves the rotation open, and `ARAP::Status::not_a_control_vertex` if one of them is none.
+  /// leaves the rotation open, and `ARAP::Status::not_a_control_vertex` if one of them is none. An
+  /// empty range changes nothing.
   template <typename VertexRange>
   [[nodiscard]] ARAP::Outcome set_target_rotations(const VertexRange& vertices)
   {

@@ -1168,6 +1168,14 @@ void test_refusals()
   CHECK(report.message.find("the target of control point 1") == 0);
   CHECK(largest_distance(before, sheet.s.points) == 0);
   CHECK(d.set_target_set(p, onto_plane));
+  const CGAL::ARAP::Control_point second = d.insert_control_point(5, {0.5, 0.25, 0.25}).point;
+  CHECK(d.set_target_weight(second, 1) && d.set_target_set(second, [](const Point&) {
+    return Point(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  }));
+  CHECK(d.deform().message.find("the target of control point " +
+                                std::to_string(sheet.points.size() + 1)) == 0);
+  CHECK(d.erase_control_point(second));
+  CHECK(d.set_target_set(p, onto_plane));
   CHECK(d.deform());
 
   // the point that was the target before is not read any more, and a set is not asked when it goes

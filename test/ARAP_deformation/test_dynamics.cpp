@@ -413,6 +413,82 @@ void hang(Cell_scheme cells, Minimizer minimizer)
     }
 }
 
+// A step starts from where the vertices are and how they move, whatever the initial guess of the
+// options.
+void initial_guess()
+{
+  test_case() = "a step whatever the initial guess";
+  const Model model = make_model<3>();
+  const std::size_t n = model.points.size();
+  std::vector<std::vector<Point>> results;
+  for(const auto guess : {CGAL::ARAP::Initial_guess::previous, CGAL::ARAP::Initial_guess::automatic,
+                          CGAL::ARAP::Initial_guess::laplacian})
+  {
+    std::vector<Point> points = points_of(model.points);
+    Deformation<3> deformation(Soup<3>(points, model.simplices));
+    CGAL::ARAP::Options options = deformation.options();
+    options.initial_guess = guess;
+    options.iterations = 2;
+    CHECK(deformation.set_options(options));
+    deformation.insert_roi_vertices(numbers(n));
+    deformation.insert_control_vertex(0);
+    deformation.insert_control_vertex(n - 1, point(model.points[n - 1] + Vector3d(0, 0, 2)));
+    const Step_report report = deformation.advance(Dynamics());
+    CHECK(report && report.initial_guess == CGAL::ARAP::Initial_guess::previous);
+    if(guess == CGAL::ARAP::Initial_guess::previous) // nothing has to be held
+    {
+      std::vector<Point> falling = points_of(model.points);
+      Deformation<3> free(Soup<3>(falling, model.simplices));
+      free.insert_roi_vertices(numbers(n));
+      CHECK(free.advance(Dynamics()).message.find("control") == std::string::npos);
+    }
+    results.push_back(points);
+  }
+  CHECK(results[0] == results[1] && results[0] == results[2]);
+}
+
+// What is held moves with the velocity that takes it to its target, also far from all that is free.
+void velocities_of_controls()
+{
+  test_case() = "velocities of control vertices";
+  const Model model = make_model<2>();
+  const std::size_t n = model.points.size();
+  std::vector<Point> points = points_of(model.points);
+  Deformation<2> deformation(Soup<2>(points, model.simplices));
+  deformation.insert_roi_vertices(numbers(n));
+  const auto step_of = [](std::size_t v) { return Vector3d(0, 0.1, 0.01 * double(v)); };
+  for(std::size_t v = 1; v < n; ++v)
+    deformation.insert_control_vertex(v, point(model.points[v] + step_of(v)));
+  Dynamics dynamics;
+  dynamics.time_step = 0.5;
+  CHECK(deformation.advance(dynamics));
+  for(std::size_t v = 1; v < n; ++v)
+    CHECK_AT_MOST((eigen(deformation.velocity(v)) - 2 * step_of(v)).norm(), 1e-12);
+}
+
+// The energy does not depend on the unit of the modulus, even where the elastic energy would lose
+// digits.
+void tiny_modulus()
+{
+  test_case() = "a tiny modulus";
+  const Model model = make_model<3>();
+  std::vector<double> energies;
+  for(const double unit : {1.0, std::ldexp(1.0, -1010)})
+  {
+    std::vector<Point> points = points_of(model.points);
+    Deformation<3> deformation(Soup<3>(points, model.simplices));
+    deformation.insert_roi_vertices(numbers(model.points.size()));
+    CHECK(deformation.set_velocity(0, Vector3d(1e-6, 0, 0)));
+    Dynamics dynamics;
+    dynamics.time_step = 1;
+    dynamics.density = dynamics.modulus = unit;
+    CHECK(deformation.advance(dynamics));
+    energies.push_back(deformation.energy());
+  }
+  CHECK(energies[0] > 0);
+  CHECK_AT_MOST(std::abs(energies[1] / energies[0] - 1), 1e-12);
+}
+
 // What a state holds, what is refused, and what the other constraints do in a step.
 void undo_and_refuse()
 {
@@ -663,6 +739,9 @@ int main()
   run_all<2>();
   run_all<3>();
   test_case() = "";
+  initial_guess();
+  velocities_of_controls();
+  tiny_modulus();
   undo_and_refuse();
   near_a_handle();
   for(Minimizer minimizer : {Minimizer::local_global, Minimizer::quasi_newton})

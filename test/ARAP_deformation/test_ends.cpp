@@ -680,6 +680,7 @@ void test_visitor()
   options.iterations = last;
   const Run limited(shape, s, options);
   CHECK(limited.report.status == Status::converged && limited.report.end == End::undecided);
+  CHECK(limited.report.message.find("; it was not decided whether") != std::string::npos);
   CHECK_AT_MOST(limited.report.iterations, last);
   CHECK(same_points(limited.mesh, whole.mesh));
   // that end before, in, and after the look at a saddle point

@@ -567,9 +567,14 @@ void test_frames_of_motions(const Model& model)
     const Eigen::Quaterniond q(turn(2, {1, 2, 3}));
     CHECK(scaled.rotate(turned, Eigen::Vector3d(size, 0, 0), q));
     CHECK(scaled.set_target_rotations(turned));
+    CHECK(scaled.translate(turned[0], Kernel::Vector_3(1e-6 * size, 0, 0))); // as of float
+    CHECK(scaled.set_target_rotations(turned));
+    CHECK(scaled.translate(turned[0], Kernel::Vector_3(1e-3 * size, 0, 0)));
+    CHECK(scaled.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
     CHECK(scaled.translate(turned[0], Kernel::Vector_3(size, 0, 0)));
     CHECK(scaled.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
   }
+  CHECK(d.set_target_rotations(std::vector<std::size_t>()));
   d.translate(turned[0], Kernel::Vector_3(1, 0, 0));
   CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
 #ifdef CGAL_NDEBUG // else a precondition says so
@@ -1146,6 +1151,11 @@ void test_wrong_values(const Model& model)
         CGAL::ARAP::Status::invalid_rotation);
   CHECK(d.set_target_rotation(v, Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity())).status ==
         CGAL::ARAP::Status::invalid_rotation);
+  const auto set_almost_identity = [&](double error) {
+    return d.set_target_rotation(v, Eigen::Matrix3d((1 + error) * Eigen::Matrix3d::Identity()));
+  };
+  CHECK(set_almost_identity(1e-4).status == CGAL::ARAP::Status::invalid_rotation);
+  CHECK(set_almost_identity(1e-6));
   CHECK(d.deform());
 }
 

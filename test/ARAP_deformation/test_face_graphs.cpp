@@ -232,7 +232,9 @@ void test_null_elements()
   Mesh_ mesh = make_mesh<Mesh_>(octahedron());
   CGAL::ARAP_deformation<Mesh_> d(mesh);
   CHECK(d.set_options(options_for(CGAL::ARAP::Cell_scheme::elements())));
+#ifdef CGAL_NDEBUG // else a precondition says so
   CHECK(!d.insert_roi_vertex(Graph_traits::null_vertex()) && d.roi_vertices().empty());
+#endif
   CHECK(d.insert_control_point(Graph_traits::null_face(), {1, 0, 0}).status ==
         CGAL::ARAP::Status::not_a_simplex);
   const CGAL::ARAP::Matrix_3x3 identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};

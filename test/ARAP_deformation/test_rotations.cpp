@@ -21,9 +21,11 @@
 #include <CGAL/ARAP_deformation/conformance/check_closest_rotation.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
 #include <CGAL/ARAP_deformation/internal/rotation/Newton_rotation_kernel.h>
+#include <CGAL/ARAP_deformation/internal/rotation/rotation_vectors.h>
 
 #include <CGAL/Deformation_Eigen_closest_rotation_traits_3.h>
 #include <CGAL/Deformation_Eigen_polar_closest_rotation_traits_3.h>
+#include <CGAL/number_type_basic.h>
 
 #include <Eigen/Dense>
 
@@ -634,8 +636,37 @@ void test_all()
 
 } // namespace conformance
 
+// The axis times the angle is the logarithm of a rotation, up to half a turn and next to it too.
+void test_rotation_vectors()
+{
+  test_case() = "rotation vectors";
+  using namespace CGAL::ARAP::internal;
+  const double pi = CGAL_PI;
+  std::vector<Eigen::Vector3d> axes;
+  for(int k = 0; k < 3; ++k)
+    for(double sign : {-1., 1.})
+      axes.push_back(sign * Eigen::Vector3d::Unit(k));
+  for(int k = 0; k < 20; ++k)
+    axes.push_back(newton::random_vector().normalized());
+  for(const Eigen::Vector3d& axis : axes)
+    for(double angle : {0., 1e-12, 1e-7, 1e-5, 1e-3, 1., 3., pi - 1e-3, pi - 1e-5, pi - 9e-7,
+                        pi - 1e-7, pi - 1e-12, pi})
+    {
+      const auto rotation = newton::flat(Eigen::AngleAxisd(angle, axis).toRotationMatrix());
+      const auto vector = rotation_vector(rotation);
+      const Eigen::Vector3d v(vector[0], vector[1], vector[2]);
+      CHECK_AT_MOST(std::abs(v.norm() - angle), 1e-12);
+      if(angle < pi - 1e-13)
+        CHECK_AT_MOST((v - angle * axis).norm(), 1e-9);
+      const auto again = rotation_of_vector(vector);
+      for(std::size_t k = 0; k < 9; ++k)
+        CHECK_AT_MOST(std::abs(again[k] - rotation[k]), 1e-9);
+    }
+}
+
 int main()
 {
+  test_rotation_vectors();
   svd::test_all();
   newton::test_all();
   conformance::test_all();

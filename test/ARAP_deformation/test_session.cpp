@@ -623,6 +623,58 @@ void test_energy_after_undo()
   CHECK(d.restore(state) && std::isnan(d.energy()));
 }
 
+// The energy is that of the last run until something changes on which it depends.
+void test_energy_after_changes()
+{
+  test_case() = "the energy after changes";
+  Mesh mesh = make_mesh<Mesh>(bumpy_sheet());
+  Deformation d(mesh);
+  const Vertex pulled(40), last(static_cast<Vertex::size_type>(mesh.number_of_vertices() - 1));
+  for(Vertex v : mesh.vertices())
+    if(v != last)
+      d.insert_roi_vertex(v);
+  d.insert_control_vertex(Vertex(0));
+  d.insert_control_vertex(Vertex(20));
+  d.insert_control_vertex(pulled, Point(1, 2, 3));
+  const std::array<double, 3> middle = {0.5, 0.25, 0.25};
+  CGAL::ARAP::Control_point inside;
+  const auto set_options = [&](const auto& change) {
+    CGAL::ARAP::Options options = d.options();
+    change(options);
+    CHECK(d.set_options(options));
+  };
+  const std::vector<std::function<void()>> changes = {
+    [&] { CHECK(d.set_stiffness([](Vertex v) { return 1 + 0.1 * int(v); })); },
+    [&] { CHECK(d.clear_stiffness()); },
+    [&] { CHECK(d.set_groups([](Vertex v) { return int(v) / 3; })); },
+    [&] { CHECK(d.clear_groups()); },
+    [&] { set_options([](auto& o) { o.bending_length = 0.1; }); },
+    [&] { set_options([](auto& o) { o.smoothing_length = 0.1; }); },
+    [&] { set_options([](auto& o) { o.cells = CGAL::ARAP::Cell_scheme::k_ring(1); }); },
+    [&] { CHECK(d.set_target_weight(pulled, 3)); },
+    [&] { CHECK(d.set_target_weight(pulled, 4)); },
+    [&] { inside = d.insert_control_point(Mesh::Face_index(7), middle).point; },
+    [&] { CHECK(d.set_target_weight(inside, 2)); },
+    [&] { CHECK(d.erase_control_point(inside)); },
+    [&] { d.insert_control_vertex(Vertex(30)); },
+    [&] { d.erase_control_vertex(Vertex(30)); },
+    [&] { d.insert_roi_vertex(last); },
+    [&] { d.erase_roi_vertex(last); },
+    [&] { d.overwrite_initial_geometry(); },
+    [&] { d.reset(); }};
+  for(const auto& change : changes)
+  {
+    CHECK(d.translate(Vertex(20), Kernel::Vector_3(0, 0, 1)));
+    CHECK(d.deform(2, 0) && d.energy() > 0);
+    const double energy = d.energy();
+    CHECK(d.set_target_position(pulled, Point(0, 2, 3)));
+    set_options([](auto& o) { o.tolerance *= 0.5; });
+    CHECK(d.energy() == energy);
+    change();
+    CHECK(std::isnan(d.energy()));
+  }
+}
+
 // A transformation that changes the object is asked before targets are touched.
 void test_transformation_that_inserts()
 {
@@ -717,6 +769,7 @@ void test_handles_on_a_line()
 void test_all()
 {
   test_energy_after_undo();
+  test_energy_after_changes();
   test_transformation_that_inserts();
   test_state_before_the_first_run();
   test_handles_on_a_line();
@@ -1223,6 +1276,23 @@ void test_nothing_fixed()
   CHECK(all_fixed && all_fixed.unconstrained_components.empty());
   CHECK(all_fixed.free_vertices == two.points.size() - 2);
 
+  test_case() = "three of four components are not fixed";
+  Mesh four = make_mesh<Mesh>(two_components(two));
+  CGAL::ARAP_deformation<Mesh> g(four);
+  g.insert_roi_vertices(four.vertices());
+  g.insert_control_vertex(Vertex(7));
+  CHECK(g.deform().message.find("; left in place: 3 unconstrained components, the first that of "
+                                "vertex " + std::to_string(shape.points.size())) !=
+        std::string::npos);
+
+  test_case() = "a control point that counts for nothing";
+  CGAL::ARAP_deformation<Mesh> h(pair);
+  h.insert_roi_vertices(pair.vertices());
+  const auto inserted = h.insert_control_point(Mesh::Face_index(0), std::array{0.5, 0.25, 0.25});
+  CHECK(inserted && h.set_target_weight(inserted.point, 0));
+  check_refused(h.deform(), Status::no_fixed_vertex, "vertex 0 is free");
+  CHECK(h.deform().message.find("there is no control vertex") == std::string::npos);
+
   test_case() = "isolated vertices";
   const Vertex isolated = mesh.add_vertex(Point(5, 5, 5));
   CGAL::ARAP_deformation<Mesh> f(mesh);
@@ -1235,6 +1305,11 @@ void test_nothing_fixed()
   CHECK(f.set_target_weight(isolated, 0.5));
   CHECK(f.deform());
   CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(mesh.point(isolated), Point(6, 5, 4))), 1e-12);
+  const std::string moves_nothing = ": a control vertex without an incident simplex moves nothing";
+  CHECK(f.deform().message.find(std::to_string(isolated) + moves_nothing) != std::string::npos);
+  const Vertex another = mesh.add_vertex(Point(7, 5, 5));
+  f.insert_control_vertex(another);
+  CHECK(f.deform().message.find(" and 1 more" + moves_nothing) != std::string::npos);
 }
 
 void test_nothing_free()
@@ -1308,6 +1383,25 @@ void test_matrices()
   try_weight(-1, Status::singular_matrix, "vertex ");
   try_weight(not_a_number, Status::non_finite_weight, "vertex ");
   try_weight(infinity, Status::non_finite_weight, "vertex ");
+
+  using CGAL::ARAP::Cell_scheme;
+  for(const Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::k_ring(2),
+                                 Cell_scheme::spokes_and_rims(), Cell_scheme::elements()})
+  {
+    test_case() = "stiffness times a weight that is not finite";
+    Mesh mesh = rest;
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits({}, Bad_weight(1e200)));
+    prepare(d, s, all_vertices(mesh));
+    CGAL::ARAP::Options options = d.options();
+    options.cells = cells;
+    CHECK(d.set_options(options) && d.preprocess());
+    if(cells.has_vertex_cells())
+      CHECK(d.set_stiffness([](Mesh::Vertex_index) { return 1e200; }));
+    else
+      CHECK(d.set_stiffness([](Mesh::Face_index) { return 1e200; }));
+    check_refused(d.deform(), Status::non_finite_weight, "vertex ");
+    CHECK(same_or_bad_points(mesh, rest));
+  }
 }
 
 // not finite in stars, which the default cells do not have
@@ -1541,10 +1635,11 @@ void test_all()
           d.set_target_position(w, Point(0, 0, 0)), d.set_target_weight(w, 1),
           d.set_target_set(w, [](const Point& p) { return p; }),
           d.set_target_rotation(w, identity), d.erase_target_rotation(w),
+          d.set_target_rotations(std::vector<Mesh::Vertex_index>{v}),
           d.set_stiffness(zero), d.clear_stiffness(), d.set_groups(zero), d.clear_groups(),
           d.insert_control_point(Mesh::Face_index(0), middle),
           d.set_options(CGAL::ARAP::Options()), d.preprocess(), d.deform(),
-          d.advance(CGAL::ARAP::Dynamics())})
+          d.advance(CGAL::ARAP::Dynamics()), d.advance(CGAL::ARAP::Dynamics{-1})})
       CHECK(outcome.status == CGAL::ARAP::Status::in_a_run);
     return CGAL::ARAP::Visitor_action::proceed;
   }));

@@ -288,6 +288,30 @@ struct With_one_buffer : Domain
   }
 };
 
+// points that cannot be set
+template <typename Domain>
+struct Unchanging : Domain
+{
+  explicit Unchanging(const Domain& domain) : Domain(domain) {}
+  void set_point(std::size_t, const typename Domain::Point&) const {}
+};
+
+// Conformance is seen wherever the shape is.
+void test_conformance_far_away()
+{
+  test_case() = "conformance far from the origin";
+  const Shape shape = shapes()[0];
+  for(double far : {0., 1e6, 1e8, 1e15})
+  {
+    std::vector<Point> points = points_of(shape.points);
+    for(Point& p : points)
+      p = p + Kernel::Vector_3(far, -far, far);
+    const auto domain = CGAL::ARAP::make_polygon_soup_domain(points, shape.triangles);
+    CHECK(CGAL::ARAP::check_domain(domain).empty());
+    CHECK(!CGAL::ARAP::check_domain(Unchanging(domain)).empty());
+  }
+}
+
 // points with weights keep them
 void test_weighted_points()
 {
@@ -397,6 +421,7 @@ void test_all()
   test_output_range();
   test_wrong_numbers();
   test_buffered_corners();
+  test_conformance_far_away();
   test_weighted_points();
   test_plain_points();
   test_bridged_face();

@@ -37,11 +37,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <numeric>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -957,6 +959,85 @@ void test_failures()
   CHECK(!on_quad.preprocess() && on_quad.outcome().status == Status::not_a_simplex);
 }
 
+#ifdef CGAL_NDEBUG
+// a rotation that makes a call, and then fails
+struct Calling_rotation : CGAL::ARAP::Newton_closest_rotation
+{
+  static std::function<void()> call;
+
+  void operator()(std::size_t n, const CGAL::ARAP::Matrix_3x3* covariances,
+                  CGAL::ARAP::Matrix_3x3* rotations) const
+  {
+    if(call)
+    {
+      call();
+      throw std::runtime_error("as it is told to");
+    }
+    Newton_closest_rotation::operator()(n, covariances, rotations);
+  }
+};
+
+std::function<void()> Calling_rotation::call;
+
+// What a run calls must not change the object; where preconditions are not checked, such calls do
+// nothing.
+void test_calls_in_a_run()
+{
+  test_case() = "calls in a run";
+  using CGAL::ARAP::Status;
+  using Deformation = Our_class<Mesh, CGAL::ORIGINAL_ARAP, Default, Default, Calling_rotation>;
+  const Shape sphere = shapes()[2];
+  const Mesh::Vertex_index pulled(50), erased(7), other(20);
+  std::vector<Mesh> results;
+  for(const bool has_calls : {false, true})
+  {
+    Mesh mesh = make_mesh<Mesh>(sphere);
+    Deformation d(mesh);
+    prepare(d, scenario(sphere), all_vertices(mesh));
+    d.insert_control_vertex(pulled);
+    d.set_target_position(pulled, Point(3, 2, 1));
+    CHECK(d.deform(3, 0));
+    d.set_target_position(pulled, Point(3, 2, 2));
+    CHECK(d.erase_roi_vertex(erased)); // goes back to its rest position when the run ends
+    const Mesh before = mesh;
+    int calls = 0;
+    const std::vector<Mesh::Vertex_index> none;
+    if(has_calls)
+    {
+      Calling_rotation::call = [&] {
+        ++calls;
+        CHECK(d.set_target_position(pulled, Point(0, 0, 0)).status == Status::in_a_run);
+        CHECK(d.translate(pulled, Eigen::Vector3d(1, 0, 0)).status == Status::in_a_run);
+        CHECK(d.translate(none.begin(), none.end(), Eigen::Vector3d(1, 0, 0)));
+        CHECK(!d.erase_control_vertex(pulled) && !d.erase_roi_vertex(other));
+        CHECK(!d.preprocess() && d.deform().status == Status::in_a_run);
+        d.clear_roi_vertices();
+        d.clear_control_vertices();
+        d.reset();
+        d.overwrite_initial_geometry();
+      };
+      try
+      {
+        d.deform(3, 0);
+        CHECK(!"the rotation throws");
+      }
+      catch(const std::runtime_error&)
+      {}
+      Calling_rotation::call = nullptr;
+    }
+    CHECK((calls > 0) == has_calls && same_points(mesh, before));
+    d.erase_control_vertex(pulled);
+    CHECK(d.deform(3, 0));
+    d.insert_roi_vertex(erased);
+    CHECK(d.deform(3, 0));
+    results.push_back(mesh);
+  }
+  for(Mesh::Vertex_index v : results[0].vertices())
+    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(results[0].point(v), results[1].point(v))),
+                  1e-12);
+}
+#endif
+
 void test_all(unsigned int first_seed)
 {
   // a zero energy that is rounded to less is nothing to warn of
@@ -978,6 +1059,9 @@ void test_all(unsigned int first_seed)
   test_models();
   test_indices();
   test_failures();
+#ifdef CGAL_NDEBUG
+  test_calls_in_a_run();
+#endif
 }
 
 } // namespace side_by_side

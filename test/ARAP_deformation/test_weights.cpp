@@ -73,6 +73,7 @@ void test_all()
   region.first_corner = Array<int>();
   for(int corner : {0, 45000, 90000, 135000})
     region.first_corner.push_back(corner);
+  region.corners = Array<int>(135000);
   check_refused([&] {
     weighted_simplices(Edge_weight_model_of<CGAL::ARAP::Clamped_cotangent_weight>(
                          CGAL::ARAP::Clamped_cotangent_weight()), region);

@@ -314,7 +314,7 @@ public:
   /// at its vertices.
   void overwrite_initial_geometry()
   {
-    if(roi_vertices().empty())
+    if(roi_vertices().empty() || m_session.refuse_in_a_run())
       return;
     m_session.put_back_erased();
     const auto weights =

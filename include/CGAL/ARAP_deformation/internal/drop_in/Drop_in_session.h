@@ -47,6 +47,8 @@ public:
     : Base(std::move(domain), traits, cgal_rules())
   {}
 
+  using Base::refuse_in_a_run;
+
   bool erase_roi(vertex_descriptor v)
   {
     keep_target(m_vertices.find_control(v));
@@ -116,7 +118,7 @@ public:
   // moves what has left the region of interest back to the rest shape, and forgets its rotations
   void put_back_erased()
   {
-    if(this->m_is_region_written)
+    if(this->m_is_region_written || refuse_in_a_run())
       return;
     read_entered();
     m_prepared.forget_rotations([this](vertex_descriptor v) {
@@ -141,7 +143,7 @@ private:
   // An erased control vertex is where its target is, from now on, if that is a place.
   void keep_target(Entry* control)
   {
-    if(!control)
+    if(!control || refuse_in_a_run())
       return;
     const Point& target = m_vertices.target(*control);
     if(!is_finite(Domain::coordinates(target)))
@@ -167,6 +169,8 @@ private:
 
   void read_entered()
   {
+    if(refuse_in_a_run())
+      return;
     for(Entry& entry : m_vertices.entries())
       if(has_just_entered(entry))
       {

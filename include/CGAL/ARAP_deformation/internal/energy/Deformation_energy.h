@@ -190,18 +190,11 @@ public:
     return std::visit([](const auto& cells) { return cells.is_sum_of_squares(); }, m_cells);
   }
 
-  // a vertex with an edge whose weight is not finite, or -1
+  // in a cell: a bending length that is too long is found by its size
   int find_vertex_of_non_finite_weight() const
   {
-    int vertex = -1;
-    const auto& weights = std::visit(
-      [](const auto& cells) -> const Array<double>& { return cells.weights(); }, m_cells);
-    if(!std::all_of(weights.begin(), weights.end(), [](double w) { return is_finite(w); }))
-      for_each_edge([&](int i, int, double weight) {
-        if(vertex < 0 && !is_finite(weight))
-          vertex = i;
-      });
-    return vertex;
+    return std::visit(
+      [](const auto& cells) { return internal::find_vertex_of_non_finite_weight(cells); }, m_cells);
   }
 
   // Fits the rotations to the positions x, starting from those given, or identities where there are

@@ -67,16 +67,6 @@ struct Stars
     return true;
   }
 
-  // a vertex with an edge whose weight is not finite, or -1
-  int find_vertex_of_non_finite_weight() const
-  {
-    for(int i = 0; i < size(); ++i)
-      for(int e = neighbors.begin[i]; e < neighbors.begin[i + 1]; ++e)
-        if(!is_finite(weights[e]))
-          return i;
-    return -1;
-  }
-
   // calls f(i, j, w) for each edge (i, j) of the star of i with its weight w
   template <typename Function>
   void for_each_edge(const Function& f) const
@@ -86,6 +76,18 @@ struct Stars
         f(i, neighbors.items[e], weights[e]);
   }
 };
+
+// a vertex with an edge whose weight is not finite, or -1; for what calls a function for each edge
+template <typename Edges>
+int find_vertex_of_non_finite_weight(const Edges& edges)
+{
+  int vertex = -1;
+  edges.for_each_edge([&vertex](int i, int, double weight) {
+    if(vertex < 0 && !is_finite(weight))
+      vertex = i;
+  });
+  return vertex;
+}
 
 // The edge sets that are simplices: the corners of each, and the weights of the edges between all
 // pairs of them, in the order (0, 1), (0, 2), ..., (1, 2), ...

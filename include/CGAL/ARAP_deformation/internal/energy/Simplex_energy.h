@@ -167,6 +167,7 @@ public:
   }
 
   int number_of_cells() const { return m_cells.size(); }
+
   // calls f(i, j, w) for each edge of each simplex, with w the sum over the cells of the simplex
   template <typename Function>
   void for_each_edge(const Function& f) const
@@ -212,7 +213,6 @@ public:
     return vertices;
   }
 
-  const Array<double>& weights() const { return m_simplices.weights; }
   bool is_sum_of_squares() const { return m_simplices.is_sum_of_squares; }
 
   // whether a vertex of cell c moves; is_free(v) tells for all vertices

@@ -179,7 +179,6 @@ public:
   // for each vertex whether it is the center of a cell that counts
   Array<char> vertices_of(const Array<char>& is_chosen) const { return is_chosen; }
 
-  const Array<double>& weights() const { return m_stars.weights; }
   bool is_sum_of_squares() const { return m_stars.are_sums_of_squares(); }
 
   // the cells that count

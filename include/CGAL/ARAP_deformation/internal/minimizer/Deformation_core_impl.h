@@ -267,7 +267,7 @@ Diagnosis Deformation_core::guess_by_laplacian(const Array<char>& is_placed, con
   {
     Stars stars = star_edge_sets(*m_models.weight,
                                  weighted_simplices(*m_models.weight, m_region), m_region);
-    if(const int v = stars.find_vertex_of_non_finite_weight(); v >= 0)
+    if(const int v = find_vertex_of_non_finite_weight(stars); v >= 0)
       return {Status::non_finite_weight, v};
     m_state->stars = std::move(stars);
   }

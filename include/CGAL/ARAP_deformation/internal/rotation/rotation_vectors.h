@@ -34,11 +34,12 @@ inline Coordinates rotation_vector(const Matrix_3x3& m)
     return scaled(axis, 0.5 * angle / sine);
   if(cosine > 0)
     return scaled(axis, 0.5);
-  // about a half turn m = 2 a a^T - I: the longest column of m + I is along the axis
+  // next to a half turn m + m^T = 4 a a^T - 2 I: the longest column of a a^T is along the axis a,
+  // or opposite
   const std::size_t k = m[0] >= m[4] && m[0] >= m[8] ? 0 : m[4] >= m[8] ? 1 : 2;
-  Coordinates column = {m[k], m[3 + k], m[6 + k]};
-  column[k] += 1;
-  return scaled(column, angle / std::sqrt(dot(column, column)));
+  Coordinates column = {m[k] + m[3 * k], m[3 + k] + m[3 * k + 1], m[6 + k] + m[3 * k + 2]};
+  column[k] += 2;
+  return scaled(column, std::copysign(angle, dot(column, axis)) / std::sqrt(dot(column, column)));
 }
 
 inline Matrix_3x3 rotation_of_vector(const Coordinates& v)

@@ -96,7 +96,8 @@ public:
   {
     Step_report report;
     Time_step step = {dynamics};
-    static_cast<Outcome&>(report) = step.check();
+    static_cast<Outcome&>(report) =
+      refuse_in_a_run() ? outcome(Status::in_a_run) : step.check();
     if(!report)
       return report;
     Options options = m_options;
@@ -107,8 +108,7 @@ public:
       if(report)
       {
         Scoped_seconds seconds(report.seconds.transfer);
-        step.measure(m_prepared.rows().contents, m_prepared.positions(), report);
-        m_energy = report.elastic_energy / dynamics.modulus;
+        m_energy = step.measure(m_prepared.rows().contents, m_prepared.positions(), report);
       }
     }
     return report;

@@ -138,6 +138,10 @@ public:
   // the same for each of some control vertices: the rotation of their rigid motion
   Outcome set_rotations_of_motion(const std::vector<vertex_descriptor>& vertices)
   {
+    if(refuse_in_a_run())
+      return outcome(Status::in_a_run);
+    if(vertices.empty())
+      return Outcome(Status::success, std::string());
     Array<Coordinates> rest, targets;
     for(vertex_descriptor v : vertices)
     {

@@ -46,8 +46,8 @@ public:
     : m_list(domain), m_rest(coordinates_of(domain, rest_points)),
       m_points(coordinates_of(domain, points))
   {
-    // no measure has a unit: so that no square of a length overflows or underflows, both shapes
-    // are scaled by a power of two
+    // no measure has a unit: so that no square of a length of the rest shape overflows or
+    // underflows, both shapes are scaled by a power of two
     Bounding_box box;
     for(const Simplex& s : m_list.simplices())
       for(std::size_t v : s)

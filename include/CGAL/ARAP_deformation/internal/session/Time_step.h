@@ -47,8 +47,9 @@ struct Time_step
   // what a force adds to y_v, over the force, for a share in the area or volume
   double mobility(double content) const;
 
-  // Fills in the motion after the step, with these energies.
-  void measure(const Array<double>& contents, const Array<Coordinates>& x,
+  // Fills in the motion after the step, with these energies. Returns E, which times mu is the
+  // elastic energy.
+  double measure(const Array<double>& contents, const Array<Coordinates>& x,
                Step_report& report) const;
 };
 

@@ -58,8 +58,8 @@ double Time_step::mobility(double content) const
 }
 
 CGAL_ARAP_INLINE_FUNCTION
-void Time_step::measure(const Array<double>& contents, const Array<Coordinates>& x,
-                        Step_report& report) const
+double Time_step::measure(const Array<double>& contents, const Array<Coordinates>& x,
+                          Step_report& report) const
 {
   const auto for_each = [&](const auto& f) { // f(v, m_v, v_v)
     for(std::size_t v = 0; v < contents.size(); ++v)
@@ -76,13 +76,15 @@ void Time_step::measure(const Array<double>& contents, const Array<Coordinates>&
     const Coordinates residual = difference(x[v], goals[v]);
     inertia_energy += inertia() * contents[v] * dot(residual, residual);
   });
-  report.elastic_energy = dynamics.modulus * (report.final_energy() - inertia_energy);
+  const double energy = report.final_energy() - inertia_energy;
+  report.elastic_energy = dynamics.modulus * energy;
   if(!(report.mass > 0))
-    return;
+    return energy;
   report.center_of_mass = scaled(report.center_of_mass, 1 / report.mass);
   for_each([&](std::size_t v, double mass, const Coordinates& velocity) {
     add(report.angular_momentum, mass, cross(difference(x[v], report.center_of_mass), velocity));
   });
+  return energy;
 }
 
 } // namespace internal
