@@ -54,20 +54,23 @@
 fs::path models; // the folder of those that the help names
 
 #if defined(__unix__) || defined(__APPLE__)
-// The scene of which a run with these arguments makes a picture: it is drawn by a program that
-// copies it.
-std::string scene(const std::string& arguments)
+// The scene of which a run with these arguments makes a picture, or the first picture of a film: it
+// is drawn by a program that copies it.
+std::string scene(const std::string& arguments, const std::string& output = "--image scene.png")
 {
   fs::create_directory(folder / "renderer");
   write("renderer/povray", "#!/bin/sh\ntest \"$1\" = --version || cp \"${1#+I}\" \"${2#+O}\"\n");
   fs::permissions(folder / "renderer/povray", fs::perms::owner_all);
+  write("renderer/ffmpeg", "#!/bin/sh\ntest \"$1\" = -version || cp 0000.ppm film.webm\n");
+  fs::permissions(folder / "renderer/ffmpeg", fs::perms::owner_all);
   const std::string shell_command = command;
   command = "/usr/bin/env\" \"PATH=" + (folder / "renderer").string() + ":/usr/bin:/bin\" \"" +
             command;
-  CHECK(run(arguments + " --image scene.png").exit_code == 0);
+  CHECK(run(arguments + ' ' + output).exit_code == 0);
   command = shell_command;
-  return content(folder / "scene.png");
+  return content(folder / output.substr(output.find(' ') + 1));
 }
+
 #endif
 
 // A run with these arguments makes a picture, which takes seconds to draw.
@@ -291,6 +294,8 @@ void test_success()
   for(const std::string length : {"1e-200", "1e200"})
     CHECK(from_x == scene(call + "-o new.off --view " + length + ",0,0"));
   CHECK(from_x != scene(call + "-o new.off"));
+  for(const std::string axis : {"1,0,0", "0,1,0", "0,0,-1"}) // also where it points upwards
+    CHECK(scene(call + "-o new.off --view " + axis).find("nan") == std::string::npos);
   CHECK(from_x.find("\"after\"") != std::string::npos);
   const std::string colored = scene(call + "-o new.off --view 0,0 --color edge_error");
   CHECK(colored.find("\"edge_error up to ") != std::string::npos);
@@ -298,6 +303,15 @@ void test_success()
     return text.substr(0, text.find("Caption"));
   };
   CHECK(faces_of(colored) == faces_of(from_x)); // before the run all is as without colors
+  const auto spheres_of = [&](const std::string& color) { // where no face shows a handle
+    const std::string text =
+      scene("in.off --fix z:..1 --handle list:100 --move 0,0,0.1 -o new.off" + color);
+    int number = 0;
+    for(std::size_t place = 0; (place = text.find("sphere {", place)) != std::string::npos; ++place)
+      ++number;
+    return number;
+  };
+  CHECK(spheres_of("") == 2 && spheres_of(" --color edge_error") == 1);
   for(const std::string height : {"1", "4"}) // of a bend of 45 degrees, and of one of 76
   {
     write("bend.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 " + height +
@@ -459,6 +473,11 @@ void test_refusals()
   select("bad.sel", "has 105 statuses, but the mesh has 104 vertices");
   write("bad.sel", good.substr(0, good.size() - 16));
   select("bad.sel", "has 103 statuses, but the mesh has 104 vertices");
+  std::string largest = "105\n"; // each vertex may be a handle of its own
+  for(std::size_t v = 1; v < shape.points.size(); ++v)
+    largest += "0\n";
+  write("largest.sel", largest);
+  CHECK(run("in.off --selection largest.sel --move 0,0,0 -o largest.off").exit_code == 0);
   for(const std::string status : {"-1", "106", "2147483647", "99999999999999999999"})
   {
     write("bad.sel", "1\n1\n" + status + "\n" + good);
@@ -492,6 +511,8 @@ void test_refusals()
 
   transform("0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 1\n", "the transform is singular");
   transform("1 2 3 0\n2 4 6 0\n0 0 1 0\n0 0 0 1\n", "the transform is singular");
+  write("sheared.def", "1 1 0 0\n0 1e-10 0 0\n0 0 1 0\n0 0 0 1\n"); // can be undone
+  CHECK(run("in.off --selection in.sel --transform sheared.def -o sheared.off").exit_code == 0);
 
   const std::string good_call = "in.off --selection in.sel --transform in.def ";
   check_refused(good_call + "-o no/such/folder/out.off", 1, "no/such/folder/out.off: cannot be");
@@ -711,6 +732,26 @@ void test_frames()
       if(status(shape.points[v]) == 0)
         CHECK(points[v] == shape.points[v]);
   }
+  // two handles that move as one, and then do not, turn about their own centers
+  std::string two_handles, one_handle;
+  for(const auto& p : shape.points)
+  {
+    two_handles += p.z() > 4 ? p.x() > 0 ? "2\n" : "3\n" : p.z() < 1 ? "0\n" : "1\n";
+    one_handle += p.z() > 4 ? p.x() > 0 ? "2\n" : "1\n" : p.z() < 1 ? "0\n" : "1\n";
+  }
+  write("two.sel", two_handles);
+  write("one.sel", one_handle);
+  write("stay.def", text_of(Eigen::Matrix4d::Identity()));
+  write("two.def", text_of(first.matrix()) + text_of(Eigen::Matrix4d::Identity()));
+  const std::string keys = "in.off --transform stay.def --frames 4 -o apart.off --transform ";
+  CHECK(run(keys + "two.def --selection two.sel").exit_code == 0);
+  const auto two_points = read_points("apart-0003.off");
+  CHECK(run(keys + "first.def --selection one.sel").exit_code == 0);
+  const auto one_points = read_points("apart-0003.off");
+  for(std::size_t v = 0; v < shape.points.size(); ++v)
+    if(shape.points[v].z() > 4 && shape.points[v].x() > 0)
+      CHECK_AT_MOST((two_points[v] - one_points[v]).norm(), 1e-12);
+
   const auto json = nlohmann::json::parse(content(folder / "r.json"));
   CHECK(json["frames"].size() == 6);
   for(int frame = 0; frame < 6; ++frame)
@@ -788,6 +829,16 @@ void test_frames()
   check_refused("missing.off --selection in.sel --transform in.def -o other.off --animation a.mp4",
                 1, "--animation a.mp4: needs the program ffmpeg");
   command = shell_command;
+#if defined(__unix__) || defined(__APPLE__)
+  Eigen::Matrix4d far = Eigen::Matrix4d::Identity();
+  far(2, 3) = 100;
+  write("far.def", text_of(far));
+  const auto first_picture = [](const std::string& second) { // is of all frames
+    return scene("in.off --selection in.sel -o new.off --transform stay.def --transform " + second,
+                 "--animation scene.webm");
+  };
+  CHECK(first_picture("far.def") != first_picture("stay.def"));
+#endif
 }
 
 // What is picked, against the same conditions here.
@@ -816,6 +867,7 @@ void test_picks()
   check_picked("sphere:50%,50%,50%,30%", [&](auto, const P& p) {
     return (p - P(0, 0, 2.5)).norm() <= 0.3 * size.norm();
   });
+  check_picked("plane:0,0,5,0,0,1", [&](auto, const P& p) { return p.z() == 5; });
   check_picked("plane:0,0,2.4,1,0,-1", [&](auto, const P& p) { return p.x() - p.z() + 2.4 >= 0; });
   check_picked("near:0,1.2,100%", [&](auto v, const P&) {
     const auto nearest = std::min_element(
@@ -941,6 +993,7 @@ void test_picks()
   refuse("--handle cube:1", 2, "--handle cube:1: expected box:, sphere:");
   refuse("--handle box:1,2,3", 2, "expected the numbers x0,y0,z0,x1,y1,z1");
   refuse("--handle box:1,2,3,4,5,x", 2, "'x' is not a finite number");
+  refuse("--handle sphere:0,0,0,-9 --move 0,0,1", 1, "sphere:0,0,0,-9");
   refuse("--fix plane:0,0,0,0,0,0 --handle z:4.5..", 2, "the normal 0,0,0 has no direction");
   refuse("--handle near:nan,0,0", 2, "'nan' is not a finite number");
   refuse("--handle z:0.. --rotate w 90", 2,
@@ -1184,6 +1237,10 @@ void test_gltf()
                       array("type=\"Int32\" Name=\"offsets\"", "4\n") +
                       array("type=\"UInt8\" Name=\"types\"", "10\n") +
                       "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  write("quad.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                    "POINTS 4 float\n" + corners + "CELLS 2 10\n4 0 1 2 3\n4 0 1 3 2\n"
+                    "CELL_TYPES 2\n10\n9\n"); // a quadrilateral beside it
+  CHECK(run("quad.vtk --fix list:0,1 --handle list:3 --move 1,0,0 -o quad.vtk").exit_code == 0);
   for(const std::string file : {"single.ply", "single.vtk", "single.vtu"})
   {
     const std::string hold = file + " --fix list:0,1 --handle list:3 --move ";
@@ -1201,6 +1258,11 @@ void test_gltf()
   auto other = json;
   other.erase("scenes");
   other["buffers"][0]["uri"] = "%70art%2Ebin";
+  write("other.gltf", other.dump());
+  CHECK(run("other.gltf" + stay + "other.off").exit_code == 0);
+  CHECK(content(folder / "other.off") == content(folder / "out.off"));
+  other["scenes"] = {{{"nodes", {1}}}, {{"nodes", {0}}}}; // the second one, of which it is
+  other["scene"] = 1;
   write("other.gltf", other.dump());
   CHECK(run("other.gltf" + stay + "other.off").exit_code == 0);
   CHECK(content(folder / "other.off") == content(folder / "out.off"));
@@ -1498,6 +1560,12 @@ void test_control_points()
                 "in.off: --fix point:1,0,0: its position is determined by other hard targets, "
                 "or all its corners are fixed; leave one of them out");
   check_refused(handle + " --region point:0,0,0", 2, "for --fix and --handle only");
+  std::string many; // the twelfth is named
+  for(std::size_t t = 0; t < 11; ++t)
+    many += " --fix point:" + near_face(60 + 8 * t);
+  check_refused("in.off --fix z:..0.1" + many + " --fix point:1,0,0 --handle near:0,0,9 "
+                "--move 0,0,1 -o new.off", 1,
+                "in.off: --fix point:1,0,0: its position is determined by other");
   check_refused(handle + " --save-selection new.sel", 2, "a selection has vertices only, not "
                                                          "--handle point:0,0,0");
   check_refused("in.off --handle point:0,0 --move 1,0,0 -o new.off", 2,
@@ -2301,6 +2369,8 @@ void test_refusals()
     refuse(replaced(good, from, to), phrase);
   };
 
+  write("other.mesh", replaced(good, "End", "Hexahedra\n0\nEnd")); // elements that are not there
+  CHECK(run("other.mesh --selection four.sel --transform in.def -o other.mesh").exit_code == 0);
   refuse("", ": is empty");
   refuse("OFF\n4 4 0\n", ", line 1: a .mesh file starts with 'MeshVersionFormatted', but this with "
                          "'OFF'");

@@ -252,6 +252,13 @@ void test_ply()
              "the property source is not uint");
   refuse_ply("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n", "has no end of its");
 
+  // the coordinates are not in single precision because something else is
+  const std::string camera = "element camera 1\nproperty float x\n";
+  write("camera.ply",
+        ply("ascii", "double", "4", "uchar int", camera) + square + "0.5\n" + faces);
+  CHECK(run("camera.ply --handle list:0 --move 1e39,0,0 -o new.ply").exit_code == 0);
+  CHECK(content(folder / "new.ply").find("\n0.5\n") != std::string::npos);
+  fs::remove(folder / "new.ply");
   // CGAL writes the number of corners as one byte
   std::string disc, face = "f";
   for(int k = 0; k < 300; ++k)
@@ -473,6 +480,11 @@ void test_notes()
                       "0 0 0 1 2 3\n1 0 0 1 2 3\n1 1 0 1 2 3\n0 1 0 1 2 3\n7\n" + faces(""));
   check_note("more.ply", "new.ply", "");
   check_note("more.ply", "new.off", "colors, normals, the element 'edge', the property 'quality'");
+  write("alpha.ply", ply("ascii", "float", "4", "uchar int",
+                         "property uchar red\nproperty uchar alpha\nelement edge 0\n"
+                         "property int a\n") +
+                       "0 0 0 1 2\n1 0 0 1 2\n1 1 0 1 2\n0 1 0 1 2\n" + faces(""));
+  check_note("alpha.ply", "new.off", "colors"); // no edges, as there are none
 }
 
 // In the format of the input only coordinates change, and normals turn. Here two triangles share an
@@ -601,11 +613,12 @@ void test_kept()
 void test_color()
 {
   test_case() = "a property of a binary file";
-  const auto binary = [](const std::string& property, float step) {
+  const auto binary = [](const std::string& property, float step, std::string error = "") {
     std::string text = ply("binary_little_endian", "float", "4", "uchar int", property);
+    if(error.empty() && !property.empty())
+      error = std::string(4, '\0');
     for(const auto& [x, y] : {std::pair(0.f, 0.f), {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}})
-      text += bytes(x + step, false) + bytes(y, false) +
-              std::string(property.empty() ? 4 : 8, '\0'); // z, and no error
+      text += bytes(x + step, false) + bytes(y, false) + bytes(0.f, false) + error;
     for(const auto& corners : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}})
     {
       text += '\3';
@@ -617,6 +630,10 @@ void test_color()
   write("binary.ply", binary("", 0));
   CHECK(run("binary.ply --handle x:0.. --move 1,0,0 --color edge_error -o new.ply").exit_code == 0);
   CHECK(content(folder / "new.ply") == binary("property float edge_error\n", 1));
+  const std::string in_double = "property double edge_error\n"; // is written over
+  write("binary.ply", binary(in_double, 0, bytes(7.0, false)));
+  CHECK(run("binary.ply --handle x:0.. --move 1,0,0 --color edge_error -o new.ply").exit_code == 0);
+  CHECK(content(folder / "new.ply") == binary(in_double, 1, bytes(0.0, false)));
 
   test_case() = "a property of a text with ends of lines of two characters";
   std::string text = ply("ascii", "float", "4", "uchar int", "property int area \n") +
@@ -686,11 +703,13 @@ std::string msh4(const Points& p, bool is_big)
   using Long = std::int64_t;
   std::string text = "$MeshFormat\n4.1 1 8\n" + bytes(1, is_big) + "\n$EndMeshFormat\n$Entities\n" +
                      all<Long>({0, 0, 0, 0}, is_big) + "\n$EndEntities\n$Nodes\n" +
-                     all<Long>({2, 6, 1, 60}, is_big) +
+                     all<Long>({3, 6, 1, 60}, is_big) +
                      all<int>({1, -4, 1}, is_big) + all<Long>({1, 10}, is_big) + // on a curve
                      all<double>({p[0][0], p[0][1], p[0][2], 0.5}, is_big) +
-                     all<int>({3, 1, 0}, is_big) + all<Long>({5, 20, 30, 40, 50, 60}, is_big);
-  for(int v = 1; v < 6; ++v)
+                     all<int>({2, 7, 1}, is_big) + all<Long>({1, 20}, is_big) + // on a surface
+                     all<double>({p[1][0], p[1][1], p[1][2], 0.5, 0.25}, is_big) +
+                     all<int>({3, 1, 0}, is_big) + all<Long>({4, 30, 40, 50, 60}, is_big);
+  for(int v = 2; v < 6; ++v)
     text += all<double>({p[v].begin(), p[v].end()}, is_big);
   text += "\n$EndNodes\n$Elements\n" + all<Long>({4, 4, 1, 4}, is_big);
   for(Long k = 0; k < 4; ++k)
@@ -752,7 +771,7 @@ struct Style
   {
     if(!is_compressed)
       return encoded(head(text.size()) + text);
-    const std::size_t block = 32;
+    const std::size_t block = is_big ? 24 : 32; // of 24 the last one of the points is full
     std::string heads = head((text.size() + block - 1) / block) + head(block) +
                         head(text.size() % block), data;
     for(std::size_t i = 0; i < text.size(); i += block)
@@ -810,7 +829,9 @@ std::string vtu(const Points& p, const Style& style)
                           : array("Points", "Float32",
                                   std::vector<float>(coordinates.begin(), coordinates.end()));
   text += "</Points>\n<Cells>\n" + array("connectivity", "Int64", corners);
-  text += array("offsets", "Int32", std::vector<int>(ends.begin(), ends.end()));
+  text += style.is_long
+            ? array("offsets", "UInt16", std::vector<std::uint16_t>(ends.begin(), ends.end()))
+            : array("offsets", "Int32", std::vector<int>(ends.begin(), ends.end()));
   text += array("types", "UInt8", types) + "</Cells>\n<CellData>\n";
   text += array("labels", "String", std::vector<unsigned char>{'a', 0, 'b', 0, 'c', 0, 'd', 0},
                 "Array") + "</CellData>\n</Piece>\n</UnstructuredGrid>\n";
@@ -871,6 +892,10 @@ void test_msh()
     check_kept("binary msh 2.2", "msh", msh2(points, is_big), msh2(moved, is_big));
     check_kept("binary msh 4.1", "msh", msh4(points, is_big), msh4(moved, is_big));
   }
+  const std::string name = // is no section
+    "$PhysicalNames\n1\n2 1 \"the $Nodes 6\"\n$EndPhysicalNames\n$Nodes";
+  check_kept("msh with a keyword in a name", "msh", replaced(msh2(points, false), "$Nodes", name),
+             replaced(msh2(moved, false), "$Nodes", name));
   const std::string good2 = msh2(points, false), good4 = msh4(points, false);
   for(const std::string& good : {good2, good4})
     for(std::size_t size = 19; size < good.find("$EndElements"); size += 37)
@@ -886,9 +911,11 @@ void test_msh()
   damaged[2][1] = nan;
   refuse("msh", msh2(damaged, false), ": byte 117: expected a finite number, a coordinate in "
                                       "node 3, but found nan");
-  refuse("msh", msh4(damaged, true), ": byte 287: expected a finite number, a coordinate in ");
+  refuse("msh", msh4(damaged, true), ": byte 323: expected a finite number, a coordinate in ");
   refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n7"), ": byte ");
   refuse("msh", good4 + good4.substr(good4.find("$Nodes")), "has a second section $Nodes");
+  refuse("msh", replaced(good2, "$Elements", good2.substr(good2.find("$Nodes"))),
+         "has a second section $Nodes");
   refuse("msh", replaced(good2, "$Nodes\n6", "$Nodes\n5"),
          ": byte 189: expected $EndNodes after as many as the file announces, but found");
   refuse("msh", replaced(good2, "$Elements\n4", "$Elements\n3"),
@@ -922,8 +949,18 @@ void test_vtu()
   {
     test_case() = "the range of distances from the origin, " + format;
     const auto with_range = [&](const Points& p, const std::string& largest) {
-      return replaced(vtu(p, {format}), "type=\"Float32\"",
-                      "type=\"Float32\" RangeMin=\"0\" RangeMax=\"" + largest + '"');
+      const std::string text =
+        replaced(vtu(p, {format}), "type=\"Float32\"",
+                 "type=\"Float32\" RangeMin=\"0\" RangeMax=\"" + largest + '"');
+      const auto key = [](const std::string& name, const std::string& end) {
+        return "<InformationKey name=\"" + name + "\" location=\"vtkDataArray\" length=\"2\">\n"
+               "<Value index=\"0\">0</Value><Value index=\"1\">" + end +
+               "</Value>\n</InformationKey>\n";
+      };
+      const std::string keys = key("L2_NORM_RANGE", largest) + key("COMPONENT_RANGE", "1") +
+                               key("L2_NORM_FINITE_RANGE", largest) + "</DataArray>\n</Points>";
+      return format == "ascii" ? replaced(text, "</DataArray>\n</Points>", keys)
+                               : replaced(text, "/>\n</Points>", '>' + keys);
     };
     write("in.vtu", with_range(points, "2.4494897427831779"));
     CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
@@ -1227,6 +1264,10 @@ void test_descriptors()
   check_failed(call + "--report /dev/stdout >> in.sel", 2, "is given for two things");
   check_failed("arap in.off --selection in.sel -o new.off --report \"$PWD/new.off\"", 2,
                "is given for two things");
+  check_failed("arap in.off --selection in.sel -o new.off --save-transform new.off", 2,
+               "new.off is given for two things");
+  check_failed("arap in.off --selection in.sel -o new.off --save-transform in.def", 2,
+               "in.def is given for two things");
 }
 
 void test_names()
@@ -1273,6 +1314,15 @@ void test_signals()
   check_failed("timeout 30 sleep 30 < fifo & " + call +
                "--iterations 20000 --tolerance 0 --report fifo; kill $!", 124, "interrupted",
                "-s TERM -k 20 2");
+  // what ignores a signal, as nohup makes it, goes on
+  const std::string shell_command = command;
+  command = "/usr/bin/nohup\" \"" + shell_command;
+  run_arap("{ sleep 1.5; timeout 100 cat fifo; } > got & arap in.off --selection in.sel -o new.off "
+           "--report fifo; wait", "-s HUP -k 20 0.5");
+  command = shell_command;
+  CHECK(content(folder / "new.off").substr(0, 3) == "OFF" && is_report(content(folder / "got")));
+  fs::remove(folder / "new.off");
+  fs::remove(folder / "got");
   // the keyboard interrupts the program that draws, and not the one that waits for it: POV-Ray ends
   // with 2, or the shell does by the signal
   for(const std::string end : {"exit 2", "trap - INT; kill -INT $$"})
