@@ -575,6 +575,20 @@ void test_frames_of_motions(const Model& model)
     CHECK(scaled.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
   }
   CHECK(d.set_target_rotations(std::vector<std::size_t>()));
+  std::vector<Point> line; // up to rounding, and a vertex beside it
+  for(int k = 0; k < 5; ++k)
+    line.emplace_back(0.1 * k, 0.2 * k, 0.3 * k);
+  line.emplace_back(1, 0, 0);
+  Simplices fan;
+  for(std::size_t k = 0; k < 4; ++k)
+    fan.push_back({k, k + 1, 5});
+  CGAL::ARAP_deformation<Soup<2>> on_line(Soup<2>(line, fan));
+  std::vector<std::size_t> straight = {0, 1, 2, 3, 4};
+  on_line.insert_control_vertices(straight);
+  CHECK(on_line.set_target_rotations(straight).status == CGAL::ARAP::Status::invalid_rotation);
+  straight.push_back(5);
+  on_line.insert_control_vertex(5);
+  CHECK(on_line.set_target_rotations(straight));
   d.translate(turned[0], Kernel::Vector_3(1, 0, 0));
   CHECK(d.set_target_rotations(turned).status == CGAL::ARAP::Status::invalid_rotation);
 #ifdef CGAL_NDEBUG // else a precondition says so

@@ -264,6 +264,22 @@ void check_turned(const std::vector<Eigen::Vector3d>& points, const std::vector<
     }
 }
 
+// The size makes no difference, also beside a triangle without an area.
+void test_size_of_polygon()
+{
+  test_case() = "polygons of any size";
+  std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+  const std::vector<double> weights = weights_of(points);
+  for(const int exponent : {-330, 660})
+  {
+    for(Eigen::Vector3d& p : points)
+      p *= std::ldexp(1., exponent);
+    const std::vector<double> same = weights_of(points);
+    for(std::size_t k = 0; k < weights.size(); ++k)
+      CHECK_AT_MOST(std::abs(same[k] - weights[k]), 1e-12);
+  }
+}
+
 void test_one_polygon()
 {
   std::mt19937 random(4);
@@ -277,7 +293,6 @@ void test_one_polygon()
       points.emplace_back(std::cos(6.28 * k / n), std::sin(6.28 * k / n), unit(random));
     const std::vector<double> weights = weights_of(points);
     check_turned(points, weights, 1 + n / 7, 1e-11);
-
     // flat and convex: sum w ||D e||^2 = area ||D||_F^2, as for each of its triangulations
     for(auto& p : points)
       p = {2 * p.x(), p.y() + 0.3 * p.x(), 0};
@@ -426,6 +441,7 @@ void test_generic_weight()
 
 void test_all()
 {
+  test_size_of_polygon();
   test_one_polygon();
   test_inheritance();
   test_generic_weight();
