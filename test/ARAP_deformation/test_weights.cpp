@@ -317,6 +317,14 @@ void test_one_polygon()
     CHECK(!polygon.are_sums_of_squares());
   }
 
+  // the energy of a triangle is not negative as long as the sum of products of its weights is not
+  auto triangle = weighted_polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  triangle.weights[0] = triangle.weights[1] = 1;
+  triangle.weights[2] = -0.5;
+  CHECK(triangle.are_sums_of_squares());
+  triangle.weights[2] -= 1e-6;
+  CHECK(!triangle.are_sums_of_squares());
+
   // a rectangle has no weight on its diagonals
   const std::vector<double> rectangle = weights_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}});
   CHECK_AT_MOST(std::abs(rectangle[pair_number(4, 0, 2)]), 1e-15);
