@@ -50,7 +50,7 @@ struct Time_step
   // Fills in the motion after the step, with these energies. Returns E, which times mu is the
   // elastic energy.
   double measure(const Array<double>& contents, const Array<Coordinates>& x,
-               Step_report& report) const;
+                 Step_report& report) const;
 };
 
 } // namespace internal
