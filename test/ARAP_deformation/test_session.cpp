@@ -675,6 +675,46 @@ void test_energy_after_changes()
   }
 }
 
+// What a run leaves behind in the energy is of no effect when other vertices are free.
+void test_freed_vertices()
+{
+  using CGAL::ARAP::Cell_scheme;
+  const Shape shape = bumpy_sheet();
+  for(const Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::k_ring(1),
+                                 Cell_scheme::k_ring(2), Cell_scheme::spokes_and_rims(),
+                                 Cell_scheme::elements()})
+  {
+    test_case() = "vertices that were fixed in the run before";
+    std::vector<Mesh> results;
+    for(const bool is_first_run : {false, true})
+    {
+      Mesh mesh = make_mesh<Mesh>(shape);
+      Deformation d(mesh);
+      CHECK(d.set_options(options_for(cells, CGAL::ARAP::Minimizer::quasi_newton)));
+      d.insert_roi_vertices(mesh.vertices());
+      const Vertex first(0), last(static_cast<Vertex::size_type>(mesh.number_of_vertices() - 1));
+      d.insert_control_vertex(first);
+      d.insert_control_vertex(last);
+      if(is_first_run)
+      {
+        for(Vertex v : mesh.vertices()) // so few that the region is not cut
+          if(std::size_t(v) < mesh.number_of_vertices() / 3)
+            d.insert_control_vertex(v);
+        CHECK(d.translate(last, Kernel::Vector_3(0, 0, 1)) && d.deform(5, 0));
+        for(Vertex v : mesh.vertices())
+          if(v != first && v != last)
+            d.erase_control_vertex(v);
+        d.reset();
+      }
+      CHECK(d.translate(last, Kernel::Vector_3(0, 0.5, 0.5)) && d.deform(10, 0));
+      results.push_back(mesh);
+    }
+    for(Vertex v : results[0].vertices())
+      CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(results[0].point(v), results[1].point(v))),
+                    1e-9);
+  }
+}
+
 // A transformation that changes the object is asked before targets are touched.
 void test_transformation_that_inserts()
 {
@@ -770,6 +810,7 @@ void test_all()
 {
   test_energy_after_undo();
   test_energy_after_changes();
+  test_freed_vertices();
   test_transformation_that_inserts();
   test_state_before_the_first_run();
   test_handles_on_a_line();
