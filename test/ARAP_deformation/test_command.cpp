@@ -833,8 +833,8 @@ void test_frames()
   Eigen::Matrix4d far = Eigen::Matrix4d::Identity();
   far(2, 3) = 100;
   write("far.def", text_of(far));
-  const auto first_picture = [](const std::string& end) { // is of all frames
-    return scene("in.off --selection in.sel -o new.off --transform stay.def --transform " + end,
+  const auto first_picture = [](const std::string& key) { // is of all frames
+    return scene("in.off --selection in.sel -o new.off --transform stay.def --transform " + key,
                  "--animation scene.webm");
   };
   CHECK(first_picture("far.def") != first_picture("stay.def"));
