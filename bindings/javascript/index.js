@@ -231,10 +231,11 @@ export async function load({ wasmBinary } = {}) {
       { corners, volume = false, weights = 'safe_cotangent', ...options } = {},
     ) {
       booleanOf(volume, 'volume');
-      corners ??= volume ? 4 : 3;
+      const least = volume ? 4 : 3;
+      corners ??= least;
       const p = numbersOf(points, 'points', Float64Array);
       const n = rowsOf(p, 3, 'points');
-      const { rows, m, k } = simplexRows(simplices, corners, 'simplices', volume ? 4 : 3);
+      const { rows, m, k } = simplexRows(simplices, corners, 'simplices', least);
       this.#pointer =
         withCopies([p, rows], (pp, sp) =>
           withText([weights], (wp) => module._arap_create(pp, n, sp, m, k, volume, wp)),

@@ -123,14 +123,14 @@ private:
       most = (std::max)(most, distance);
     }
     const auto& attributes = array("Points", "").attributes;
-    std::vector<std::pair<Span, double>> numbers;
+    const auto replace_number = [&](const Span& span, double value) {
+      m_source.replace(span, m_source.number(value, sizeof(value)));
+    };
     for(const auto& [name, value] : {std::pair("RangeMin", least), std::pair("RangeMax", most)})
       if(const auto place = attributes.find(name); place != attributes.end())
-        numbers.emplace_back(place->second, value);
+        replace_number(place->second, value);
     for(const auto& [index, span] : m_ends_of_ranges)
-      numbers.emplace_back(span, index == "0" ? least : most);
-    for(const auto& [span, value] : numbers)
-      m_source.replace(span, m_source.number(value, sizeof(value)));
+      replace_number(span, index == "0" ? least : most);
   }
 
   static std::string part(const std::string& text, const Span& span)
@@ -170,7 +170,8 @@ private:
         continue;
       }
       const auto [name, attributes] = read_tag(place);
-      Array array = {text(), attributes, start, place, place, parent};
+      const std::size_t end = (std::min)(text().find('<', place), text().size());
+      const Array array = {text(), attributes, start, place, end, parent};
       if(name == "VTKFile")
         read_head(array);
       else if(name == "Piece" && std::exchange(m_has_piece, true))
@@ -180,16 +181,12 @@ private:
       else if(name == "Points" || name == "Cells")
         parent = name;
       else if(name == "DataArray" || name == "Array")
-      {
-        array.end = (std::min)(text().find('<', place), text().size());
         m_arrays.push_back(array);
-      }
       else if(name == "InformationKey")
         key = array.get("name");
       else if(name == "Value" && parent == "Points" &&
               (key == "L2_NORM_RANGE" || key == "L2_NORM_FINITE_RANGE"))
-        m_ends_of_ranges.emplace_back(
-          array.get("index"), Span{place, (std::min)(text().find('<', place), text().size())});
+        m_ends_of_ranges.emplace_back(array.get("index"), Span{place, end});
       else if(name == "AppendedData")
       {
         m_is_appended_raw = array.get("encoding") == "raw";

@@ -685,7 +685,7 @@ void test_freed_vertices()
                                  Cell_scheme::elements()})
   {
     test_case() = "vertices that were fixed in the run before";
-    std::vector<Mesh> results;
+    std::vector<std::vector<Point>> results;
     for(const bool is_first_run : {false, true})
     {
       Mesh mesh = make_mesh<Mesh>(shape);
@@ -707,11 +707,9 @@ void test_freed_vertices()
         d.reset();
       }
       CHECK(d.translate(last, Kernel::Vector_3(0, 0.5, 0.5)) && d.deform(10, 0));
-      results.push_back(mesh);
+      results.push_back(points_of(mesh));
     }
-    for(Vertex v : results[0].vertices())
-      CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(results[0].point(v), results[1].point(v))),
-                    1e-9);
+    CHECK_AT_MOST(largest_distance(results[0], results[1]), 1e-9);
   }
 }
 

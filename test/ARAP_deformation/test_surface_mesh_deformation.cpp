@@ -988,7 +988,7 @@ void test_calls_in_a_run()
   using Deformation = Our_class<Mesh, CGAL::ORIGINAL_ARAP, Default, Default, Calling_rotation>;
   const Shape sphere = shapes()[2];
   const Mesh::Vertex_index pulled(50), erased(7), other(20);
-  std::vector<Mesh> results;
+  std::vector<std::vector<Point>> results;
   for(const bool has_calls : {false, true})
   {
     Mesh mesh = make_mesh<Mesh>(sphere);
@@ -1030,11 +1030,9 @@ void test_calls_in_a_run()
     CHECK(d.deform(3, 0));
     d.insert_roi_vertex(erased);
     CHECK(d.deform(3, 0));
-    results.push_back(mesh);
+    results.push_back(points_of(mesh));
   }
-  for(Mesh::Vertex_index v : results[0].vertices())
-    CHECK_AT_MOST(std::sqrt(CGAL::squared_distance(results[0].point(v), results[1].point(v))),
-                  1e-12);
+  CHECK_AT_MOST(largest_distance(results[0], results[1]), 1e-12);
 }
 #endif
 

@@ -293,6 +293,7 @@ void test_one_polygon()
       points.emplace_back(std::cos(6.28 * k / n), std::sin(6.28 * k / n), unit(random));
     const std::vector<double> weights = weights_of(points);
     check_turned(points, weights, 1 + n / 7, 1e-11);
+
     // flat and convex: sum w ||D e||^2 = area ||D||_F^2, as for each of its triangulations
     for(auto& p : points)
       p = {2 * p.x(), p.y() + 0.3 * p.x(), 0};
