@@ -55,8 +55,8 @@ Array<Coordinates> random_vectors(std::size_t n, Random& random)
 }
 
 // Weights are positive and add up to one. Nodes that move together as one body move all vertices
-// so, and P^T is the transpose of P.
-void test_transfer(const Region& region)
+// so, also far from the origin, and P^T is the transpose of P.
+void test_transfer(const Region& region, double distance)
 {
   test_case() = "transfer";
   Problem problem(region, Energy_model(), 0.01);
@@ -85,15 +85,18 @@ void test_transfer(const Region& region)
   enum Fixed { none, some, far_away }; // some: a node among them
   for(const Fixed fixed : {none, some, far_away})
   {
+    Array<Coordinates> x = problem.x;
+    for(Coordinates& p : x)
+      p[1] += distance;
     Array<char> is_fixed(n, false);
     for(int v = 0; fixed == some && v < n; v += 1 + v % 7)
       is_fixed[v] = true;
     if(fixed == far_away)
     {
       is_fixed[0] = true;
-      problem.x[0] = {1e39, -2e39, 3e39};
+      x[0] = {1e39, -2e39, 3e39};
     }
-    transfer.place(is_fixed, problem.x);
+    transfer.place(is_fixed, x);
     for(int node = 0; node < m; ++node)
       if(transfer.is_fixed(node))
         u[2 * static_cast<std::size_t>(node)] = u[2 * static_cast<std::size_t>(node) + 1] = {};
@@ -490,7 +493,8 @@ int main()
     return Eigen::Vector3d(2 * u, v, 0.4 * u * v + 0.2 * u * u);
   });
   const Block bar = block(short_or_long(8, 13), 6, 6);
-  coarse::test_transfer(problem::region_of(sheet.points, sheet.triangles));
+  for(double distance : {0., 1e6})
+    coarse::test_transfer(problem::region_of(sheet.points, sheet.triangles), distance);
   coarse::test_far_isolated_vertex(sheet);
   coarse::test_matrix("sheet", sheet.points, sheet.triangles);
   coarse::test_matrix("bar", bar.points, bar.tetrahedra);

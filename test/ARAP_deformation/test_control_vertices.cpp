@@ -1220,6 +1220,14 @@ void test_all()
   }
   CHECK(was_border && was_order);
 
+  // a row is the position of a vertex if nothing else is in it
+  Constraints of_one;
+  of_one.rows.append(4, 1);
+  of_one.rows.append({4}, {0.3}, 1);
+  of_one.rows.append({4, 5}, {1, 1}, 1);
+  CHECK(of_one.rows.position(0) == 4);
+  CHECK(of_one.rows.position(1) == -1 && of_one.rows.position(2) == -1);
+
   // a row whose coefficients add up to zero ties its vertices, and fixes none
   Constraints loose;
   loose.is_fixed.assign(n, false);

@@ -357,6 +357,36 @@ void test_far_positions()
   CHECK_AT_MOST(far.energy_scale, 10 * near.energy_scale);
 }
 
+// What is fixed, and no neighbor of what is free, counts neither for the scales nor for the result.
+void test_far_fixed_vertices()
+{
+  test_case() = "fixed vertices far away";
+  const Shape shape = shapes()[5];
+  const Scenario s = scenario(shape);
+  std::vector<Report> reports;
+  for(const bool has_triangle_far_away : {false, true})
+  {
+    Mesh mesh = make_mesh<Mesh>(shape);
+    const auto vertices_of_shape = all_vertices(mesh);
+    std::vector<Mesh::Vertex_index> corners;
+    if(has_triangle_far_away)
+    {
+      const double far = 1e6 * shape.diameter();
+      for(const Point& p : {Point(far, 0, 0), Point(far, far, 0), Point(far, 0, far)})
+        corners.push_back(mesh.add_vertex(p));
+      mesh.add_face(corners[0], corners[1], corners[2]);
+    }
+    Deformation d(mesh);
+    prepare(d, s, vertices_of_shape);
+    d.insert_control_vertices(corners);
+    reports.push_back(d.deform(20, 0));
+    CHECK(reports.back());
+  }
+  CHECK_AT_MOST(std::abs(reports[1].energy_scale / reports[0].energy_scale - 1), 1e-12);
+  CHECK_AT_MOST(std::abs(reports[1].rounding_level / reports[0].rounding_level - 1), 1e-12);
+  CHECK_AT_MOST(std::abs(reports[1].final_energy() / reports[0].final_energy() - 1), 1e-9);
+}
+
 void test_failing_solver()
 {
   test_case() = "a solver that fails silently";
@@ -512,6 +542,7 @@ void test_all()
   test_tetrahedra();
   test_inexact_solver();
   test_far_positions();
+  test_far_fixed_vertices();
   test_failing_solver();
   test_visitor();
   test_cut_off();

@@ -122,11 +122,16 @@ void test_all()
     CHECK_AT_MOST((fit(with_values(1, 1, 1)) - u * v.transpose()).norm(), 1e-14);
 
     test_case() = "rank 1";
-    const Eigen::Vector3d from = v.col(0), to = u.col(0);
-    const Eigen::Matrix3d r = fit(3 * to * from.transpose());
-    CHECK_AT_MOST(1 - to.dot(r * from), 1e-14);
-    // the smallest rotation that does it: its angle is that between the two
-    CHECK_AT_MOST(std::abs((r.trace() - 1) / 2 - from.dot(to)), 1e-13);
+    const Eigen::Vector3d to = u.col(0);
+    const double distance = std::pow(10.0, -(k % 8)); // from the opposite direction
+    const Eigen::Vector3d nearly_opposite = (distance * u.col(1) - to).normalized();
+    for(const Eigen::Vector3d& from : {Eigen::Vector3d(v.col(0)), nearly_opposite})
+    {
+      const Eigen::Matrix3d r = fit(3 * to * from.transpose());
+      CHECK_AT_MOST((r * from - to).norm(), 1e-14 / (from + to).norm());
+      // the smallest rotation that does it: its angle is that between the two
+      CHECK_AT_MOST(std::abs((r.trace() - 1) / 2 - from.dot(to)), 1e-13);
+    }
   }
   test_case() = "degenerate";
   CHECK(fit(Eigen::Matrix3d::Zero()) == Eigen::Matrix3d::Identity());

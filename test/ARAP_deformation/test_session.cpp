@@ -1397,7 +1397,18 @@ void test_nothing_free()
 struct Bad_weight : CGAL::ARAP::Uniform_weight
 {
   double value;
+  Eigen::Vector3d bad_triangle = Eigen::Vector3d::Constant(infinity); // the one with this centroid
   explicit Bad_weight(double v = -1) : value(v) {}
+
+  using CGAL::ARAP::Uniform_weight::simplex_weights;
+  std::array<double, 3> simplex_weights(const std::array<CGAL::ARAP::Coordinates, 3>& p) const
+  {
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for(const CGAL::ARAP::Coordinates& corner : p)
+      centroid += Eigen::Vector3d(corner.data()) / 3;
+    return {centroid.isApprox(bad_triangle) ? not_a_number : 1, 1, 1};
+  }
+
   double edge_weight(CGAL::ARAP::Edge_set, std::size_t i, std::size_t j, double) const
   {
     return std::isnan(value) && (i + j) % 3 != 0 ? 1 : value; // they are sorted with numbers
@@ -1410,18 +1421,28 @@ void test_matrices()
   const Shape shape = sheet();
   const Scenario s = scenario(shape);
   const Mesh rest = make_mesh<Mesh>(shape);
-  const auto try_weight = [&](double value, Status status, const std::string& culprit) {
+  const auto try_weight = [&](const Bad_weight& weight, Status status, const std::string& culprit) {
     Mesh mesh = rest;
-    CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits({}, Bad_weight(value)));
+    CGAL::ARAP_deformation<Mesh, Traits> d(mesh, Traits({}, weight));
     prepare(d, s, all_vertices(mesh));
     check_refused(d.deform(), status, culprit);
     check_refused(d.preprocess(), status, culprit);
     CHECK(same_or_bad_points(mesh, rest));
   };
   test_case() = "singular and non-finite matrices";
-  try_weight(-1, Status::singular_matrix, "vertex ");
-  try_weight(not_a_number, Status::non_finite_weight, "vertex ");
-  try_weight(infinity, Status::non_finite_weight, "vertex ");
+  try_weight(Bad_weight(-1), Status::singular_matrix, "vertex ");
+  try_weight(Bad_weight(1e308), Status::singular_matrix, "vertex "); // their sum overflows
+  try_weight(Bad_weight(not_a_number), Status::non_finite_weight, "vertex ");
+  try_weight(Bad_weight(infinity), Status::non_finite_weight, "vertex ");
+  for(std::size_t k : {std::size_t(0), std::size_t(1), shape.triangles.size() - 1})
+  {
+    const auto& [a, b, c] = shape.triangles[k];
+    Bad_weight weight(1);
+    weight.bad_triangle = (shape.points[a] + shape.points[b] + shape.points[c]) / 3;
+    try_weight(weight, Status::non_finite_weight,
+               "the face with the vertices " + std::to_string(a) + ", " + std::to_string(b) + ", " +
+                 std::to_string(c) + " ");
+  }
 
   using CGAL::ARAP::Cell_scheme;
   for(const Cell_scheme cells : {Cell_scheme::spokes(), Cell_scheme::k_ring(2),

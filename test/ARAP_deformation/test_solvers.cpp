@@ -390,6 +390,16 @@ void test_all()
   }
   CHECK(refuses(Eigen_conjugate_gradient_solver(), not_a_number));
   CHECK(refuses(Sparse_linear_algebra_adaptor<LU>(), not_a_number));
+
+  // a solution that is not finite is a failure
+  const auto overflows = [](auto solver) {
+    Sparse_matrix a(1, 1);
+    a.insert(0, 0) = 1e-200;
+    Coordinates x[1] = {{0, 1e200, 0}};
+    return solver.analyze(a) && solver.factorize(a) && !solver.solve(1, x);
+  };
+  CHECK(overflows(Eigen_LDLT_solver()));
+  CHECK(overflows(Sparse_linear_algebra_adaptor<LU>()));
 }
 
 } // namespace conformance
