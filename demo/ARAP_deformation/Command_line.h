@@ -395,8 +395,10 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
     line.view = numbers("--view", text, is_direction ? "x,y,z" : "azimuth,elevation");
     if(is_direction && line.view == std::vector<double>(3, 0))
       throw Usage_error("--view 0,0,0 is no direction");
-    if(line.image.empty() && line.animation.empty())
-      throw Usage_error("--view is for pictures: give --image or --animation, too");
+    if(line.image.empty() &&
+       (line.animation.empty() || is_gltf_format(lower_case_extension(line.animation))))
+      throw Usage_error("--view is for pictures: give --image or --animation, too, and not as "
+                        "glTF");
   }
 }
 

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,7 +47,8 @@ public:
   using Json = nlohmann::ordered_json;
 
   // the component types and targets of the format
-  enum { BYTE_INDEX = 5121, SHORT_INDEX = 5123, INDEX = 5125, FLOAT = 5126 };
+  enum { BYTE = 5120, BYTE_INDEX = 5121, SHORT = 5122, SHORT_INDEX = 5123, INDEX = 5125,
+         FLOAT = 5126 };
   enum { VERTICES = 34962, CORNERS = 34963 };
 
   // the place of an accessor in a buffer
@@ -95,11 +97,16 @@ public:
     return component == BYTE_INDEX || component == SHORT_INDEX || component == INDEX;
   }
 
-  // An index or a size. Throws a Json::exception if it is a fraction, negative, or too large.
+  // An index or a size, which may be written as 4.0 or 4e0. Throws a Json::exception if it is a
+  // fraction, negative, or too large.
   static std::size_t whole(const Json& number)
   {
-    return number.is_number_integer() && number >= 0
-             ? number.get<std::size_t>() : number.get_ref<const Json::number_unsigned_t&>();
+    constexpr double largest = 9007199254740992; // up to which a double is exact
+    const bool is_whole = number.is_number_float()
+                            ? number <= largest && std::trunc(number.get<double>()) == number
+                            : number.is_number_integer();
+    return is_whole && number >= 0 ? number.get<std::size_t>()
+                                   : number.get_ref<const Json::number_unsigned_t&>();
   }
   static std::size_t whole(const Json& object, const char* key, std::size_t otherwise)
   {
@@ -139,6 +146,18 @@ public:
     }
   }
 
+  static std::size_t bytes_of(int component)
+  {
+    return component == BYTE || component == BYTE_INDEX     ? 1
+           : component == SHORT || component == SHORT_INDEX ? 2
+                                                            : 4;
+  }
+
+  static std::size_t number_of_components(const std::string& type)
+  {
+    return type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1;
+  }
+
   // Throws if the accessor is not in a buffer, or needs what is not supported.
   Array array(std::size_t index, const std::string& type) const
   {
@@ -152,10 +171,7 @@ public:
       refuse_extension(view, extension, "arrays that are compressed");
     Array result;
     result.component = static_cast<int>(whole(accessor.at("componentType")));
-    const std::size_t bytes = (result.component == BYTE_INDEX    ? 1
-                               : result.component == SHORT_INDEX ? 2
-                                                                 : 4) *
-                              (type == "VEC3" ? 3 : type == "VEC4" ? 4 : 1);
+    const std::size_t bytes = bytes_of(result.component) * number_of_components(type);
     result.buffer = whole(view.at("buffer"));
     if(result.buffer >= buffers.size())
       throw std::runtime_error("has an accessor in a buffer that does not exist");
@@ -189,28 +205,42 @@ public:
   {
     std::uint32_t value = 0;
     std::memcpy(&value, buffers[array.buffer].data() + array.begin + i * array.stride,
-                array.component == BYTE_INDEX ? 1 : array.component == SHORT_INDEX ? 2 : 4);
+                bytes_of(array.component));
     return value;
   }
 
   // Writes the bounds of an accessor of vectors.
   void update_bounds(std::size_t index)
   {
-    const Array a = array(index, "VEC3");
+    Json& accessor = json["accessors"][index];
+    const std::string type = accessor["type"];
+    const Array a = array(index, type);
+    const auto component = [&](std::size_t i, std::size_t k) {
+      float value = 0;
+      std::memcpy(&value, buffers[a.buffer].data() + a.begin + i * a.stride + k * sizeof(value),
+                  sizeof(value));
+      return double(value);
+    };
     Json low = Json::array(), high = Json::array();
-    for(std::size_t k = 0; k < 3 && a.size > 0; ++k)
+    for(std::size_t k = 0; k < number_of_components(type) && a.size > 0; ++k)
     {
-      double least = vector(a, 0)[k], most = least;
+      double least = component(0, k), most = least;
       for(std::size_t i = 0; i < a.size; ++i)
       {
-        least = (std::min)(least, vector(a, i)[k]);
-        most = (std::max)(most, vector(a, i)[k]);
+        least = (std::min)(least, component(i, k));
+        most = (std::max)(most, component(i, k));
       }
       low.push_back(least);
       high.push_back(most);
     }
-    json["accessors"][index]["min"] = low;
-    json["accessors"][index]["max"] = high;
+    accessor["min"] = low;
+    accessor["max"] = high;
+  }
+
+  bool has_bounds(std::size_t index) const
+  {
+    const Json& accessor = json.at("accessors").at(index);
+    return accessor.contains("min") || accessor.contains("max");
   }
 
   // Appends numbers to the first buffer as an accessor, and returns its index.
@@ -295,11 +325,9 @@ private:
         bytes = text.substr(begin, size_at(20 + size));
       text = text.substr(20, size);
     }
-    json = Json::parse(text, [&file](int depth, Json::parse_event_t, const Json&) {
-      if(depth > 1000) // what copies and writes it calls itself for each
-        throw std::runtime_error(file + ": nests lists and objects more than 1000 deep");
-      return true;
-    });
+    if(depth_of(text) > 1000) // what copies and writes it calls itself for each
+      throw std::runtime_error(file + ": nests lists and objects more than 1000 deep");
+    json = Json::parse(text);
     for(const Json& buffer : json.value("buffers", Json::array()))
     {
       const std::size_t size = whole(buffer.at("byteLength"));
@@ -322,6 +350,22 @@ private:
                                  " bytes, or its file is missing");
       buffers.back().resize(size);
     }
+  }
+
+  // How deep the lists and objects of a JSON text are nested. (A callback of the parser is told it,
+  // but makes the parser take quadratic time.)
+  static std::size_t depth_of(const std::string& text)
+  {
+    std::size_t depth = 0, greatest = 0;
+    for(std::size_t i = 0; i < text.size(); ++i)
+      if(text[i] == '[' || text[i] == '{')
+        greatest = (std::max)(greatest, ++depth);
+      else if(depth > 0 && (text[i] == ']' || text[i] == '}'))
+        --depth;
+      else if(text[i] == '"') // to the end of the string
+        for(++i; i < text.size() && text[i] != '"'; ++i)
+          i += text[i] == '\\';
+    return greatest;
   }
 
   // A URI with its escapes decoded: %20 is a blank.

@@ -60,11 +60,7 @@ public:
       m_gltf.check_required_extensions();
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
-      for(std::size_t node = 0; node < m_gltf.json["nodes"].size(); ++node)
-        if(const auto& other = m_gltf.json["nodes"][node];
-           m_nodes.count(node) == 0 && other.contains("mesh") &&
-           m_meshes.count(Gltf::whole(other["mesh"])) > 0)
-          m_shared_mesh = Gltf::whole(other["mesh"]);
+      find_shared();
     }
     catch(const Gltf::Json::exception& error)
     {
@@ -74,7 +70,7 @@ public:
     {
       throw std::runtime_error(file + ": " + error.what());
     }
-    internal::build_mesh(file, m_rest_points, m_faces, m_mesh);
+    internal::build_mesh(file, m_rest_points, m_faces, m_mesh, m_numbers);
     check_mesh(file, m_mesh);
   }
 
@@ -94,9 +90,8 @@ public:
     check_format(file, format, m_mesh);
     if(!is_gltf_format(format))
       return;
-    if(m_shared_mesh)
-      throw std::runtime_error(file + ": the mesh " + std::to_string(*m_shared_mesh) +
-                               " is used by a node that is not in the scene, too");
+    if(!m_shared.empty())
+      throw std::runtime_error(file + ": " + m_shared + ", too, which is not in the scene");
     if(m_shared_directions)
       throw std::runtime_error(file + ": the accessor " + std::to_string(*m_shared_directions) +
                                " has the normals or tangents of two sets of positions, which "
@@ -174,15 +169,17 @@ private:
     std::vector<std::size_t> result;
     if(json.contains("scenes"))
     {
-      for(const auto& node : json["scenes"].at(Gltf::whole(json, "scene", 0)).at("nodes"))
+      for(const auto& node : json["scenes"].at(Gltf::whole(json, "scene", 0))
+                                .value("nodes", Gltf::Json::array()))
         result.push_back(Gltf::whole(node));
       return result;
     }
+    const auto& nodes = json.value("nodes", Gltf::Json::array());
     std::set<std::size_t> children;
-    for(const auto& node : json.at("nodes"))
+    for(const auto& node : nodes)
       for(const auto& child : node.value("children", Gltf::Json::array()))
         children.insert(Gltf::whole(child));
-    for(std::size_t node = 0; node < json["nodes"].size(); ++node)
+    for(std::size_t node = 0; node < nodes.size(); ++node)
       if(children.count(node) == 0)
         result.push_back(node);
     return result;
@@ -224,6 +221,8 @@ private:
     if(primitive.contains("targets"))
       throw std::runtime_error("has morph targets, which a deformation would make wrong");
     const Gltf::Json& attributes = primitive.at("attributes");
+    if(!attributes.contains("POSITION"))
+      throw std::runtime_error("has a primitive without positions");
     std::pair<std::size_t, std::optional<std::size_t>> accessors(
       Gltf::whole(attributes.at("POSITION")), {});
     if(attributes.contains("NORMAL"))
@@ -267,7 +266,7 @@ private:
     const std::size_t size = corners ? corners->size : positions.size;
     if(size % 3 != 0)
       throw std::runtime_error("has a list of triangles whose last one is incomplete");
-    for(std::size_t i = 0; i < size; i += 3)
+    for(std::size_t i = 0; i < size; i += 3, ++m_number_of_triangles)
     {
       std::array<std::size_t, 3> t;
       for(std::size_t k = 0; k < 3; ++k)
@@ -285,7 +284,29 @@ private:
       for(std::size_t k : t)
         piece.faces[k].push_back(m_faces.size());
       m_faces.push_back(face);
+      m_numbers.push_back(m_number_of_triangles);
     }
+  }
+
+  // Meshes that nodes outside of the scene have, too, and accessors of other meshes.
+  void find_shared()
+  {
+    const auto& nodes = m_gltf.json.value("nodes", Gltf::Json::array());
+    for(std::size_t node = 0; node < nodes.size(); ++node)
+      if(m_nodes.count(node) == 0 && nodes[node].contains("mesh") &&
+         m_meshes.count(Gltf::whole(nodes[node]["mesh"])) > 0)
+        m_shared = "the mesh " + std::to_string(Gltf::whole(nodes[node]["mesh"])) +
+                   " is used by the node " + std::to_string(node);
+    std::set<std::size_t> moved; // accessors
+    for(const auto& [use, aliases] : m_aliases)
+      moved.insert(aliases.begin(), aliases.end());
+    const auto& meshes = m_gltf.json.value("meshes", Gltf::Json::array());
+    for(std::size_t mesh = 0; mesh < meshes.size(); ++mesh)
+      for(const auto& primitive : meshes[mesh].value("primitives", Gltf::Json::array()))
+        for(const auto& accessor : primitive.value("attributes", Gltf::Json::object()))
+          if(m_meshes.count(mesh) == 0 && moved.count(Gltf::whole(accessor)) > 0)
+            m_shared = "the accessor " + std::to_string(Gltf::whole(accessor)) +
+                       " is used by the mesh " + std::to_string(mesh);
   }
 
   // the first accessor of this use that has the same elements, which are moved once
@@ -316,8 +337,8 @@ private:
         turn(gltf, gltf.array(tangents, "VEC4"), m, piece);
     }
     for(const auto& [moved, aliases] : m_aliases)
-      if(std::get<0>(moved) == "POSITION")
-        for(std::size_t accessor : aliases)
+      for(std::size_t accessor : aliases)
+        if(std::get<0>(moved) == "POSITION" || gltf.has_bounds(accessor)) // others need not
           gltf.update_bounds(accessor);
   }
 
@@ -357,7 +378,7 @@ private:
   std::vector<std::string> m_images; // in files of their own
   bool m_are_images_left = false;
   std::set<std::size_t> m_nodes, m_meshes; // that were read
-  std::optional<std::size_t> m_shared_mesh; // with a node that was not
+  std::string m_shared; // what would move with the scene, but is not in it
   std::map<Moved, std::vector<std::size_t>> m_aliases; // their accessors
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
@@ -365,6 +386,8 @@ private:
   // for the accessors of its positions and normals
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces;
   internal::Polygons m_faces;
+  std::vector<std::size_t> m_numbers; // of the faces, in the file
+  std::size_t m_number_of_triangles = 0; // in the file
   std::vector<Kernel::Point_3> m_rest_points;
   Mesh m_mesh; // deformed
 };

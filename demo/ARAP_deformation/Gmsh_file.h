@@ -51,7 +51,7 @@ public:
       read_blocks(words, [&](const Block& block) {
         for(long long i = 0; i < block.size; ++i)
         {
-          read_size(words);
+          read_tag(words);
           read_element(words, block.type);
         }
       });
@@ -127,8 +127,14 @@ private:
     return read_of<int>(words, smallest);
   }
 
-  // Reads a count or a number of a node, which has eight bytes in the version 4.1.
+  // Reads a count, which has eight bytes in the version 4.1.
   long long read_size(Words& words) { return read_of<long long>(words, 0); }
+
+  // Reads the number of a node or an element, which may need the eight bytes.
+  long long read_tag(Words& words)
+  {
+    return read_of<long long>(words, 0, (std::numeric_limits<long long>::max)());
+  }
 
   // Reads an integer that is written as text in a binary file, too, at the end of a line.
   long long read_as_text(Words& words)
@@ -139,9 +145,9 @@ private:
     return value;
   }
 
-  long long read_text(Words& words, long long smallest) const
+  long long read_text(Words& words, long long smallest, long long most = largest) const
   {
-    return read_integer(words, smallest, largest, [&] { return description(smallest); });
+    return read_integer(words, smallest, most, [&] { return description(smallest); });
   }
 
   static std::string description(long long smallest)
@@ -150,12 +156,12 @@ private:
   }
 
   template <typename Integer>
-  long long read_of(Words& words, long long smallest)
+  long long read_of(Words& words, long long smallest, long long most = largest)
   {
     if(!is_binary())
-      return read_text(words, smallest);
+      return read_text(words, smallest, most);
     const long long value = read_bytes<Integer>(words);
-    if(value < smallest || value > largest)
+    if(value < smallest || value > most)
       refuse(words, "expected " + description(smallest) + ", but found");
     return value;
   }
@@ -167,7 +173,7 @@ private:
       skip_end_of_line(words);
     const long long blocks = read_size(words);
     for(int k = 0; k < 3; ++k)
-      read_size(words); // the total, and the range of the tags
+      read_tag(words); // the total, and the range of the tags
     for(long long i = 0; i < blocks; ++i)
     {
       Block block;
@@ -197,7 +203,7 @@ private:
   void read_nodes(Words& words, const Block& block)
   {
     for(long long i = 0; i < block.size; ++i)
-      insert_tag(words, read_size(words), m_mesh.points.size() + i);
+      insert_tag(words, read_tag(words), m_mesh.points.size() + i);
     // nodes on a curve or a surface have parameters, too
     const long long parameters = block.type == 0 ? 0 : block.dimension;
     if(parameters > 3)
@@ -258,7 +264,7 @@ private:
     std::array<int, 4> vertices = {};
     for(int k = 0; k < found->second; ++k)
     {
-      const auto node = m_nodes.find(m_has_blocks ? read_size(words) : read(words));
+      const auto node = m_nodes.find(m_has_blocks ? read_tag(words) : read(words));
       if(node == m_nodes.end())
         refuse(words, "there is no node");
       vertices[k] = node->second;

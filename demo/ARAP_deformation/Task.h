@@ -135,12 +135,10 @@ inline Eigen::Vector3d centroid(const std::vector<Kernel::Point_3>& points)
   return sum / static_cast<double>((std::max)(points.size(), std::size_t(1)));
 }
 
-inline std::vector<int> make_selection(const Command_line& line,
-                                       const std::vector<Kernel::Point_3>& points)
+// Changes the selection of the file to that of all options.
+inline void select(const Command_line& line, const std::vector<Kernel::Point_3>& points,
+                   std::vector<int>& selection)
 {
-  std::vector<int> selection = line.selection.empty() ? std::vector<int>(points.size(), FREE)
-                                                      : read_selection(line.selection,
-                                                                       points.size());
   for(const auto& [status, pick] : line.picks)
     if(!pick.is_point())
       for(std::size_t v : pick.vertices(points))
@@ -156,7 +154,6 @@ inline std::vector<int> make_selection(const Command_line& line,
   for(std::size_t v = 0; v < points.size(); ++v)
     if(selection[v] == FREE && !is_in_region[v])
       selection[v] = FIXED;
-  return selection;
 }
 
 // Reads the matrices of the key frames: one for each handle, or one for all.
@@ -182,8 +179,10 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
                       const std::vector<std::pair<int, Kernel::Point_3>>& held = {})
 {
   Task task;
-  task.selection = internal::make_selection(line, points);
+  task.selection = line.selection.empty() ? std::vector<int>(points.size(), FREE)
+                                          : read_selection(line.selection, points.size());
   const int largest = *std::max_element(task.selection.begin(), task.selection.end());
+  internal::select(line, points, task.selection); // which may leave handles without vertices
   task.handles.resize((std::max)(line.handles.size(),
                                  std::size_t(largest < HANDLE ? 0 : largest - HANDLE + 1)));
   std::vector<Kernel::Point_3> all; // that handles hold

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,7 @@ public:
   // Writes the file with these points. Unchanged coordinates keep their text.
   virtual void write(std::ostream& out, const std::vector<Kernel::Point_3>& points)
   {
+    replace_ranges(points);
     for(std::size_t v = 0; v < points.size(); ++v)
       m_source.replace(m_source.points[v], m_mesh.points[v] - CGAL::ORIGIN,
                        points[v] - CGAL::ORIGIN);
@@ -63,6 +65,35 @@ protected:
   explicit Tetrahedra_text(const std::string& file) : m_name(file)
   {
     m_source.text = content_of(file);
+  }
+
+  // An end of the range of the points, that of their distances from the origin, which VTK writes
+  // into files and believes.
+  struct End_of_range
+  {
+    Source_text::Span place;
+    bool is_largest;
+  };
+
+  static bool is_range(std::string_view key)
+  {
+    return key == "L2_NORM_RANGE" || key == "L2_NORM_FINITE_RANGE";
+  }
+
+  void replace_ranges(const std::vector<Kernel::Point_3>& points)
+  {
+    if(points == m_mesh.points)
+      return;
+    double smallest = (std::numeric_limits<double>::max)(), largest = 0;
+    for(const Kernel::Point_3& p : points)
+    {
+      const double distance = std::hypot(p.x(), p.y(), p.z());
+      smallest = (std::min)(smallest, distance);
+      largest = (std::max)(largest, distance);
+    }
+    for(const End_of_range& end : m_ends_of_ranges)
+      m_source.replace(end.place,
+                       m_source.number(end.is_largest ? largest : smallest, sizeof(double)));
   }
 
   const std::string& text() const { return m_source.text; }
@@ -168,6 +199,7 @@ protected:
   std::string m_name;
   Source_text m_source;
   Tetrahedral_mesh m_mesh;
+  std::vector<End_of_range> m_ends_of_ranges;
   std::string m_found; // in a binary file: the last number, for messages
 };
 

@@ -56,10 +56,29 @@ public:
       m_source.are_points_single = is_keyword(type, "float");
     for(long long i = 0; i < points; ++i)
       read_point(words, [i] { return "point " + std::to_string(i); });
+    find_ranges(words);
     read_cells(words.end());
   }
 
 private:
+  // METADATA of the points, which end at an empty line, may have their range.
+  void find_ranges(Words words)
+  {
+    if(!is_keyword(words.next(), "METADATA"))
+      return;
+    const std::size_t end = (std::min)(text().find("\n\n", words.end()),
+                                       text().find("\n\r\n", words.end()));
+    Words metadata(std::string_view(text()).substr(0, end), words.end());
+    std::string name;
+    for(auto word = metadata.next(); !word.empty(); word = metadata.next())
+      if(is_keyword(word, "NAME"))
+        name = metadata.next();
+      else if(is_keyword(word, "DATA") && is_range(name) && metadata.next() == "2")
+        for(const bool is_largest : {false, true})
+          if(!metadata.next().empty())
+            m_ends_of_ranges.push_back({{metadata.begin(), metadata.end()}, is_largest});
+  }
+
   static bool is_keyword(std::string_view word, const std::string& keyword)
   {
     return word.size() == keyword.size() && boost::algorithm::iequals(word, keyword);

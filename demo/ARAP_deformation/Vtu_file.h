@@ -53,7 +53,7 @@ public:
       refuse_at(points.place, "the Points are " + in_quotes(type) + ", not Float32 or Float64");
     else
       m_source.are_points_single = type == "Float32";
-    if(points.get("format") == "ascii")
+    if(points.format() == "ascii")
       read_text_of(points);
     else
       read_bytes_of(points);
@@ -62,10 +62,9 @@ public:
 
   void write(std::ostream& out, const std::vector<Kernel::Point_3>& points) override
   {
-    if(points != m_mesh.points)
-      replace_range(points);
     if(!m_encoded_points)
       return Tetrahedra_text::write(out, points);
+    replace_ranges(points);
     Encoded& encoded = *m_encoded_points;
     std::string bytes = encoded.bytes;
     const std::size_t size = encoded.bytes.size() / (3 * points.size());
@@ -98,6 +97,14 @@ private:
       return found == attributes.end() ? std::string() : part(text, found->second);
     }
 
+    // as VTK takes it where it is not said
+    std::string format() const
+    {
+      return attributes.count("format") > 0   ? get("format")
+             : attributes.count("offset") > 0 ? "appended"
+                                              : "ascii";
+    }
+
     std::string name() const { return "the array " + (parent == "Points" ? parent : get("Name")); }
   };
 
@@ -110,28 +117,6 @@ private:
     std::size_t block_size = 0; // before compression
     std::optional<std::size_t> offset; // in what is appended
   };
-
-  // The array of points may have their range, as attributes and as what VTK knows of it: that of
-  // their distances from the origin.
-  void replace_range(const std::vector<Kernel::Point_3>& points)
-  {
-    double least = (std::numeric_limits<double>::max)(), most = 0;
-    for(const Kernel::Point_3& p : points)
-    {
-      const double distance = std::hypot(p.x(), p.y(), p.z());
-      least = (std::min)(least, distance);
-      most = (std::max)(most, distance);
-    }
-    const auto& attributes = array("Points", "").attributes;
-    const auto replace_number = [&](const Span& span, double value) {
-      m_source.replace(span, m_source.number(value, sizeof(value)));
-    };
-    for(const auto& [name, value] : {std::pair("RangeMin", least), std::pair("RangeMax", most)})
-      if(const auto place = attributes.find(name); place != attributes.end())
-        replace_number(place->second, value);
-    for(const auto& [index, span] : m_ends_of_ranges)
-      replace_number(span, index == "0" ? least : most);
-  }
 
   static std::string part(const std::string& text, const Span& span)
   {
@@ -181,12 +166,18 @@ private:
       else if(name == "Points" || name == "Cells")
         parent = name;
       else if(name == "DataArray" || name == "Array")
+      {
         m_arrays.push_back(array);
+        for(const auto& [end_of_range, is_largest] :
+            {std::pair("RangeMin", false), std::pair("RangeMax", true)})
+          if(const auto found = attributes.find(end_of_range);
+             found != attributes.end() && parent == "Points")
+            m_ends_of_ranges.push_back({found->second, is_largest});
+      }
       else if(name == "InformationKey")
         key = array.get("name");
-      else if(name == "Value" && parent == "Points" &&
-              (key == "L2_NORM_RANGE" || key == "L2_NORM_FINITE_RANGE"))
-        m_ends_of_ranges.emplace_back(array.get("index"), Span{place, end});
+      else if(name == "Value" && parent == "Points" && is_range(key))
+        m_ends_of_ranges.push_back({Span{place, end}, array.get("index") != "0"});
       else if(name == "AppendedData")
       {
         m_is_appended_raw = array.get("encoding") == "raw";
@@ -296,7 +287,7 @@ private:
     Encoded result;
     std::size_t begin = (std::min)(text().find_first_not_of(" \t\r\n", array.begin), array.end);
     std::size_t end = array.end;
-    if(array.get("format") == "appended")
+    if(array.format() == "appended")
     {
       std::size_t offset = 0;
       if(m_appended == 0 || array.get("offset")[0] == '-' ||
@@ -308,8 +299,8 @@ private:
       begin = m_appended + offset;
       end = text().size();
     }
-    else if(array.get("format") != "binary")
-      refuse_at(array.place, array.name() + " has the format " + in_quotes(array.get("format")) +
+    else if(array.format() != "binary")
+      refuse_at(array.place, array.name() + " has the format " + in_quotes(array.format()) +
                                ", which is neither ascii, binary nor appended");
     std::size_t place = begin;
     const auto take = [&](std::size_t n) { // decodes n bytes, and ends after them
@@ -435,7 +426,7 @@ private:
   std::vector<long long> integers(const std::string& name) const
   {
     const Array& found = array("Cells", name);
-    if(found.get("format") == "ascii")
+    if(found.format() == "ascii")
     {
       std::vector<long long> result;
       for(Words words = words_of(found), look = words; !look.next().empty(); look = words)
@@ -496,7 +487,6 @@ private:
   }
 
   std::vector<Array> m_arrays;
-  std::vector<std::pair<std::string, Span>> m_ends_of_ranges; // of points: 0 or 1, and the number
   bool m_has_piece = false, m_is_compressed = false, m_is_appended_raw = false;
   std::pair<std::string, std::string> m_piece; // how many points and cells
   std::size_t m_appended = 0, m_header = 4;    // where appended arrays start; bytes of a count

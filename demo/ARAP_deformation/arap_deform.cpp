@@ -342,12 +342,17 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
                 " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
                 Shape::simplices + ',');
 
+  const bool is_drawn =
+    !line.image.empty() || !line.animation.empty() || is_gltf_format(format);
+  const Skin boundary = is_drawn ? skin(shape.mesh()) : Skin(); // at rest
+  if(is_drawn && boundary.triangles.empty())
+    throw std::runtime_error(line.mesh + ": has nothing to draw, as each face is in several "
+                             "tetrahedra");
   shape.check_output(line.output, format, other_files(line));
   const Delayed_interruption until_files_are_closed;
   Outputs outputs(line);
   write_task(outputs, task);
 
-  const Skin boundary = skin(shape.mesh()); // at rest
   const auto panel_of = [&](const std::vector<Kernel::Point_3>& points,
                             const std::string& caption) {
     return panel(boundary, points, task.selection, caption);

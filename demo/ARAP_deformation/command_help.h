@@ -83,8 +83,8 @@ inline boost::program_options::options_description described_options()
     ("image", value<std::string>()->default_value("", "")->value_name("PICTURE.png"),
      "draw the shape before and after, fixed red, handles yellow; needs povray")
     ("view", value<std::string>()->value_name("A,E"),
-     "of --image and of a film: azimuth and elevation of the eye in degrees, or its direction "
-     "X,Y,Z");
+     "of --image and of a film that is drawn: azimuth and elevation of the eye in degrees, or its "
+     "direction X,Y,Z");
   run.add_options()
     ("cells", value<std::string>()->default_value("spokes_and_rims")->value_name("NAME"),
      "which edges share a rotation: spokes, spokes_and_rims, elements, or k_ring:K, the spokes of "

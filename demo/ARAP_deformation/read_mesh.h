@@ -41,6 +41,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace CGAL::ARAP::demo {
@@ -57,9 +58,10 @@ inline bool has_corner_twice(std::vector<std::size_t> polygon)
   return std::adjacent_find(polygon.begin(), polygon.end()) != polygon.end();
 }
 
-// Why a face with these corners cannot be added to the mesh.
-inline std::string reason_against(const std::vector<std::size_t>& polygon, const Corners& corners,
-                                  const Mesh& mesh)
+// Why a face with these corners cannot be added to the mesh; number(f) is that of face f.
+template <typename Number>
+std::string reason_against(const std::vector<std::size_t>& polygon, const Corners& corners,
+                           const Mesh& mesh, const Number& number)
 {
   if(polygon.size() < 3)
     return "has fewer than three vertices";
@@ -70,15 +72,20 @@ inline std::string reason_against(const std::vector<std::size_t>& polygon, const
        h != Mesh::null_halfedge() && !mesh.is_border(h))
       return "has an edge, from vertex " + std::to_string(std::size_t(mesh.source(h))) + " to " +
              std::to_string(std::size_t(mesh.target(h))) + ", which face " +
-             std::to_string(std::size_t(mesh.face(h))) + " has in the same direction: the surface "
+             number(std::size_t(mesh.face(h))) + " has in the same direction: the surface "
              "is not an oriented manifold";
   return "does not form a manifold with the previous faces at one of its vertices";
 }
 
-// Builds a mesh of polygons, as CGAL's readers do; but these assume that all corners exist.
+// Builds a mesh of polygons, as CGAL's readers do; but these assume that all corners exist. The
+// numbers of the polygons in the file are given where it has others, too.
 inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_3>& points,
-                       const Polygons& polygons, Mesh& mesh)
+                       const Polygons& polygons, Mesh& mesh,
+                       const std::vector<std::size_t>& numbers = {})
 {
+  const auto number = [&](std::size_t f) {
+    return std::to_string(numbers.empty() ? f : numbers[f]);
+  };
   for(const auto& p : points)
     mesh.add_vertex(p);
   for(std::size_t f = 0; f < polygons.size(); ++f)
@@ -87,13 +94,13 @@ inline void build_mesh(const std::string& file, const std::vector<Kernel::Point_
     for(std::size_t v : polygons[f])
     {
       if(v >= points.size())
-        throw std::runtime_error(file + ": face " + std::to_string(f) +
+        throw std::runtime_error(file + ": face " + number(f) +
                                  " has a vertex that does not exist");
       corners.emplace_back(static_cast<Mesh::size_type>(v));
     }
     if(CGAL::Euler::add_face(corners, mesh) == Mesh::null_face())
-      throw std::runtime_error(file + ": face " + std::to_string(f) + ' ' +
-                               reason_against(polygons[f], corners, mesh));
+      throw std::runtime_error(file + ": face " + number(f) + ' ' +
+                               reason_against(polygons[f], corners, mesh, number));
   }
 }
 
@@ -163,15 +170,22 @@ inline bool read_unchecked_mesh(const std::string& file, Mesh& mesh, std::set<st
   }
   if(is_read && extension == ".ply")
     check_end(in, file, "the elements that the header announces", is_binary);
+  std::vector<std::size_t> numbers; // of those that stay
   if(extension == ".stl") // programs round corners, also to the same
-    if(const auto end = std::remove_if(polygons.begin(), polygons.end(), has_corner_twice);
-       end != polygons.end())
-    {
-      polygons.erase(end, polygons.end());
-      dropped.insert("triangles with two equal corners");
-    }
+  {
+    Polygons all;
+    all.swap(polygons);
+    for(std::size_t f = 0; f < all.size(); ++f)
+      if(has_corner_twice(all[f]))
+        dropped.insert("triangles with two equal corners");
+      else
+      {
+        polygons.push_back(std::move(all[f]));
+        numbers.push_back(f);
+      }
+  }
   if(is_read)
-    build_mesh(file, points, polygons, mesh);
+    build_mesh(file, points, polygons, mesh, numbers);
   return is_read && mesh.is_valid(false);
 }
 

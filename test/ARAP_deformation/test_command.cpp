@@ -48,6 +48,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -670,6 +671,16 @@ void test_handles()
   write("three.def", first + first + second);
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def: has 3 matrices, but the number of handles is 2");
+  for(int k : {2, 3}) // also if one of them is left without vertices
+  {
+    std::string all_of_one;
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+      if(handle(shape.points[v]) == k)
+        all_of_one += (all_of_one.empty() ? " --fix list:" : ",") + std::to_string(v);
+    CHECK(run("in.off --selection two.sel --transform two.def -o new.off" + all_of_one)
+            .exit_code == 0);
+  }
+  fs::remove(folder / "new.off");
   write("three.def", first + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def, matrix 2: the transform is singular");
@@ -1022,7 +1033,9 @@ void test_picks()
                 "a percentage makes no sense in a normal");
   refuse("--handle z:0.. --view 1", 2, "--view: expected the numbers azimuth,elevation");
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
-  refuse("--handle z:0.. --view 0,0,1", 2, "--view is for pictures: give --image or --animation");
+  for(const std::string option : {"", " --animation film.glb", " --animation film.GLTF"})
+    refuse("--handle z:0.. --view 0,0,1" + option, 2,
+           "--view is for pictures: give --image or --animation");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. --rotate z -o precious.off", 2, "expected AXIS ANGLE");
@@ -1131,6 +1144,34 @@ void test_gltf()
   }
   rest["buffers"] = json["buffers"];
   CHECK(rest == json); // all else is kept
+
+  test_case() = "bounds of normals and tangents of glTF";
+  auto bounded = json;
+  for(const auto& [accessor, vector] :
+      {std::pair(1, nlohmann::json{0, 0, 1}), std::pair(3, nlohmann::json{0.8f, 0.6f, 0, -1})})
+    bounded["accessors"][accessor].update({{"min", vector}, {"max", vector}});
+  write("bounded.gltf", bounded.dump());
+  CHECK(run("bounded.gltf --handle x:0.. --rotate 1,2,3 50 0,1,0 -o bounded.glb --quiet")
+          .exit_code == 0);
+  const Glb bounds = read_glb("bounded.glb");
+  CHECK(bounds.numbers == glb.numbers);
+  for(const auto& [accessor, begin, size] : {std::tuple(1, 18, 3), std::tuple(3, 48, 4)})
+    for(const char* bound : {"min", "max"})
+    {
+      const auto& vector = bounds.json["accessors"][accessor][bound];
+      CHECK(vector.size() == std::size_t(size));
+      for(int k = 0; k < size; ++k)
+      {
+        float expected_bound = glb.numbers[begin + k];
+        for(int i = 1; i < 6; ++i)
+        {
+          const float value = glb.numbers[begin + size * i + k];
+          expected_bound = bound[1] == 'i' ? (std::min)(expected_bound, value)
+                                           : (std::max)(expected_bound, value);
+        }
+        CHECK(vector[k].get<float>() == expected_bound);
+      }
+    }
 
   test_case() = "two glTF accessors of the same positions";
   auto alias = json; // a primitive for each triangle
@@ -1266,6 +1307,14 @@ void test_gltf()
   write("other.gltf", other.dump());
   CHECK(run("other.gltf" + stay + "other.off").exit_code == 0);
   CHECK(content(folder / "other.off") == content(folder / "out.off"));
+  other["scene"] = 1.0; // integers may be written so
+  other["scenes"][1]["nodes"][0] = 0.0;
+  other["nodes"][1]["mesh"] = 0.0;
+  other["accessors"][0]["count"] = 6.0;
+  other["accessors"][0]["componentType"] = 5126.0;
+  write("other.gltf", replaced(other.dump(), "5126.0", "5.126e3"));
+  CHECK(run("other.gltf" + stay + "other.off").exit_code == 0);
+  CHECK(content(folder / "other.off") == content(folder / "out.off"));
   const auto points = read_points("out.off");
   CHECK(points.size() == 4); // the seam is closed
   CHECK_AT_MOST((points[1] - to_scene * local[1]).norm(), 1e-12);
@@ -1319,9 +1368,25 @@ void test_gltf()
   scenes["scenes"].push_back({{"nodes", {2}}});
   write("bad.gltf", scenes.dump());
   check_refused("bad.gltf" + stay + "new.glb", 1,
-                "new.glb: the mesh 0 is used by a node that is not in the scene, too");
+                "new.glb: the mesh 0 is used by the node 2, too, which is not in the scene");
   CHECK(run("bad.gltf" + stay + "scenes.off").exit_code == 0);
   CHECK(content(folder / "scenes.off") == content(folder / "out.off"));
+  scenes["nodes"][2]["mesh"] = 1;
+  for(const auto& [use, accessor] : {std::pair("POSITION", 0), std::pair("NORMAL", 1)})
+  {
+    scenes["meshes"][1] = {{"primitives", {{{"attributes", {{use, accessor}}}}}}};
+    write("bad.gltf", scenes.dump());
+    check_refused("bad.gltf" + stay + "new.glb", 1,
+                  "new.glb: the accessor " + std::to_string(accessor) +
+                    " is used by the mesh 1, too, which is not in the scene");
+  }
+  scenes["scenes"][0].erase("nodes");
+  write("bad.gltf", scenes.dump());
+  check_refused("bad.gltf" + stay + "new.off", 1, "bad.gltf: has no faces");
+  scenes.erase("scenes");
+  scenes.erase("nodes");
+  write("bad.gltf", scenes.dump());
+  check_refused("bad.gltf" + stay + "new.off", 1, "bad.gltf: has no faces");
   refuse("/nodes/1/scale/1", 0, "the node 1 is flattened");
   refuse("/nodes/0/children/0", 7, "is no glTF that can be read");
   for(double number : {0.5, 1e308}) // where an index must be
@@ -1346,6 +1411,7 @@ void test_gltf()
     }
   }
   refuse("/meshes/0/primitives/0/mode", 1, "has a primitive that is no list of triangles");
+  refuse("/meshes/0/primitives/0/attributes", {{"NORMAL", 1}}, "has a primitive without positions");
   refuse("/meshes/0/primitives/0/indices", 2, "has an accessor that is sparse, compressed, or not");
   refuse("/meshes/0/primitives/0/targets", nlohmann::json::array(), "has morph targets");
   refuse("/meshes/0/primitives/0/extensions", {{"KHR_draco_mesh_compression", {{"bufferView", 0}}}},
@@ -1386,8 +1452,14 @@ void test_gltf()
     check_refused("bad.gltf" + stay + "precious.off", 1, "bad.gltf: " + phrase);
   }
   for(const char* accessor : {"0", "1", "3"})
-    refuse("/accessors/" + std::string(accessor) + "/componentType", 5123,
-           "has positions, normals or tangents that are quantized");
+    for(const int component : {5120, 5121, 5122, 5123})
+      refuse("/accessors/" + std::string(accessor) + "/componentType", component,
+             "has positions, normals or tangents that are quantized");
+  auto short_normals = json; // at the end of a buffer
+  short_normals["accessors"][1].update({{"byteOffset", 252}, {"componentType", 5122}});
+  short_normals["bufferViews"][0]["byteLength"] = 288;
+  write("bad.gltf", short_normals.dump());
+  check_refused("bad.gltf" + stay + "precious.off", 1, "tangents that are quantized");
   refuse("/bufferViews/0/buffer", 1, "has an accessor in a buffer that does not exist");
   refuse("/buffers/0/uri", "missing.bin", "a buffer has less than its 288 bytes");
   refuse("/buffers/0/uri", (folder / "part.bin").string(), "has a buffer whose place is not rel");
@@ -2082,6 +2154,19 @@ void test_frames()
   CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == 2);
 }
 
+void test_no_boundary()
+{
+  test_case() = "tetrahedra without a boundary";
+  write("closed.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n"
+                       "0 1 0 0\n0 0 1 0\nTetrahedra 2\n1 2 3 4 0\n1 2 3 4 0\nEnd\n");
+  const std::string line = "closed.mesh --fix list:0,1 --handle list:2 --move 0,0,1 -o new.mesh";
+  CHECK(run(line).exit_code == 0);
+  fs::remove(folder / "new.mesh");
+  write("precious.off", "precious");
+  check_refused(line + " --animation film.glb", 1,
+                "closed.mesh: has nothing to draw, as each face is in several tetrahedra");
+}
+
 void test_text()
 {
   test_case() = "nothing moves";
@@ -2443,6 +2528,7 @@ void test_all()
   test_choices();
   test_terms();
   test_frames();
+  test_no_boundary();
   test_text();
   test_other_formats();
   test_control_points();

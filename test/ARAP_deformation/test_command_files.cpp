@@ -283,6 +283,14 @@ std::string bytes(Number value, bool is_reversed)
   return result;
 }
 
+void test_format_of_ply()
+{
+  test_case() = "a line before the format of a .ply file";
+  for(const std::string line : {"comment by hand", "obj_info by a scanner"})
+    refuse("ply", "ply\n" + line + "\nformat ascii 1.0\n",
+           "can be read only if the second line is the one that starts with 'format'");
+}
+
 void test_stl()
 {
   refuse("stl", std::string(80, 'x') + std::string(4, '\377') + std::string(50, '\0'),
@@ -340,6 +348,14 @@ void test_stl()
                                  std::string::npos);
   CHECK(content(folder / "new.off").find("\n4 2 0\n") != std::string::npos);
   fs::remove(folder / "new.off");
+  const auto triangle = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+           "\nendloop\nendfacet\n";
+  };
+  refuse("stl", "solid a\n" + triangle("0 0 0", "0 0 0", "1 0 0") +
+                  triangle("0 0 0", "1 0 0", "0 1 0") + triangle("1 0 0", "1 0 0", "0 1 0") +
+                  triangle("0 0 0", "1 0 0", "0 0 1") + "endsolid a\n",
+         "face 3 has an edge, from vertex 0 to 1, which face 1 has in the same direction");
 }
 
 void test_text_files()
@@ -701,22 +717,27 @@ std::string msh2(const Points& p, bool is_big)
 std::string msh4(const Points& p, bool is_big)
 {
   using Long = std::int64_t;
+  const Long first = 6000000000; // numbers that need eight bytes
   std::string text = "$MeshFormat\n4.1 1 8\n" + bytes(1, is_big) + "\n$EndMeshFormat\n$Entities\n" +
                      all<Long>({0, 0, 0, 0}, is_big) + "\n$EndEntities\n$Nodes\n" +
-                     all<Long>({3, 6, 1, 60}, is_big) +
-                     all<int>({1, -4, 1}, is_big) + all<Long>({1, 10}, is_big) + // on a curve
+                     all<Long>({3, 6, 1, first + 60}, is_big) +
+                     all<int>({1, -4, 1}, is_big) + // on a curve
+                     all<Long>({1, first + 10}, is_big) +
                      all<double>({p[0][0], p[0][1], p[0][2], 0.5}, is_big) +
-                     all<int>({2, 7, 1}, is_big) + all<Long>({1, 20}, is_big) + // on a surface
+                     all<int>({2, 7, 1}, is_big) + // on a surface
+                     all<Long>({1, first + 20}, is_big) +
                      all<double>({p[1][0], p[1][1], p[1][2], 0.5, 0.25}, is_big) +
-                     all<int>({3, 1, 0}, is_big) + all<Long>({4, 30, 40, 50, 60}, is_big);
+                     all<int>({3, 1, 0}, is_big) +
+                     all<Long>({4, first + 30, first + 40, first + 50, first + 60}, is_big);
   for(int v = 2; v < 6; ++v)
     text += all<double>({p[v].begin(), p[v].end()}, is_big);
   text += "\n$EndNodes\n$Elements\n" + all<Long>({4, 4, 1, 4}, is_big);
   for(Long k = 0; k < 4; ++k)
   {
-    text += all<int>({3, 1, cells[k].size() == 4 ? 4 : 2}, is_big) + all<Long>({1, k + 1}, is_big);
+    text += all<int>({3, 1, cells[k].size() == 4 ? 4 : 2}, is_big) +
+            all<Long>({1, first + k}, is_big);
     for(int v : cells[k])
-      text += bytes<Long>(10 * (v + 1), is_big);
+      text += bytes<Long>(first + 10 * (v + 1), is_big);
   }
   return text + "\n$EndElements\n";
 }
@@ -937,6 +958,37 @@ std::string appended_labels(const std::string& text)
   return text.substr(begin + offset, text.find("\n</AppendedData>") - begin - offset);
 }
 
+void test_vtk()
+{
+  test_case() = "the range of distances from the origin, vtk";
+  const auto vtk = [](const Points& p, const std::string& largest) {
+    std::ostringstream text;
+    text << "# vtk DataFile Version 5.1\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n";
+    for(const auto& q : p)
+      text << q[0] << ' ' << q[1] << ' ' << q[2] << '\n';
+    text << "METADATA\nINFORMATION 3\n";
+    for(const std::string name : {"L2_NORM_RANGE", "COMPONENT_RANGE", "L2_NORM_FINITE_RANGE"})
+      text << "NAME " << name << " LOCATION vtkDataArray\nDATA 2 0 "
+           << (name[0] == 'L' ? largest : "1") << '\n';
+    text << "\nCELLS 4 18\n";
+    for(const auto& cell : cells)
+    {
+      text << cell.size();
+      for(int v : cell)
+        text << ' ' << v;
+      text << '\n';
+    }
+    text << "CELL_TYPES 4\n";
+    for(const auto& cell : cells)
+      text << (cell.size() == 4 ? "10\n" : "5\n");
+    text << "NAME L2_NORM_RANGE DATA 2 0 1\n"; // of something else
+    return text.str();
+  };
+  write("in.vtk", vtk(points, "2.4494897427831779"));
+  CHECK(run("in.vtk" + rest + "vtk").exit_code == 0);
+  CHECK(content(folder / "new.vtk") == vtk(moved, "2.5124689052802225"));
+}
+
 void test_vtu()
 {
   for(const std::string format : {"ascii", "binary", "raw", "base64"})
@@ -966,6 +1018,20 @@ void test_vtu()
     CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
     CHECK(content(folder / "new.vtu") == with_range(moved, "2.5124689052802225"));
   }
+  test_case() = "arrays without a format";
+  for(const std::string format : {"ascii", "raw"})
+  {
+    const auto without = [&](std::string text) {
+      const std::string attribute = " format=\"" + (format == "raw" ? "appended" : format) + '"';
+      for(std::size_t place; (place = text.find(attribute)) != std::string::npos;)
+        text.erase(place, attribute.size());
+      return text;
+    };
+    write("in.vtu", without(vtu(points, {format})));
+    CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
+    CHECK(content(folder / "new.vtu") == without(vtu(moved, {format})));
+  }
+
   bool has_zlib = true;
   for(const std::string format : {"binary", "raw", "base64"})
   {
@@ -1051,6 +1117,7 @@ void test_vtu()
 void test_all()
 {
   test_msh();
+  test_vtk();
   test_vtu();
 }
 
@@ -1066,6 +1133,7 @@ void test_all()
   test_off();
   test_obj();
   test_ply();
+  test_format_of_ply();
   test_stl();
   test_text_files();
   test_byte_order_marks();
