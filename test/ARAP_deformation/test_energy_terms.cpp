@@ -1472,10 +1472,17 @@ void test_two_handles(const Model& model)
   }
 }
 
-// counts its solutions
+// counts its solutions and factorizations
 struct Counting_solver : CGAL::ARAP::Multifrontal_cholesky_solver
 {
   static int& count() { static int n = 0; return n; }
+  static int& factorizations() { static int n = 0; return n; }
+
+  bool factorize(const CGAL::ARAP::Sparse_matrix& a)
+  {
+    ++factorizations();
+    return CGAL::ARAP::Multifrontal_cholesky_solver::factorize(a);
+  }
 
   bool solve(std::size_t n, CGAL::ARAP::Coordinates* x)
   {
@@ -1520,6 +1527,65 @@ void test_settled_part()
     CHECK(report);
     CHECK_AT_MOST(report.energy[0], 1e-20);
   }
+}
+
+// Vertices and points that are held alone have no rotations. But where they have moved almost as a
+// rigid motion does, in each of two components, the guess has it.
+void test_single_handles()
+{
+  const Shape shape = two_components(grid("sheet", 8, 5, [](double u, double v) {
+    return Eigen::Vector3d(8 * u + 0.3 * v * v, 5 * v, 0.2 * std::sin(7 * u * v));
+  }));
+  const std::size_t number_of_triangles = shape.triangles.size() / 2;
+  const std::array<Affine_map, 2> motions = {rigid_motion(2, {1, 2, 3}, {0, 0, 0}),
+                                             rigid_motion(-1.3, {1, 0, -1}, {0, 0, 5})};
+  enum Kind { vertices_alone, soft_vertices, points };
+  for(const Kind kind : {vertices_alone, soft_vertices, points})
+    for(const Initial_guess guess : {Initial_guess::rotations, Initial_guess::automatic})
+    {
+      test_case() = "handles without rotations, " + std::to_string(kind);
+      Mesh mesh = make_mesh<Mesh>(shape);
+      CGAL::ARAP_deformation<Mesh> d(mesh);
+      CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
+                                      guess)));
+      d.insert_roi_vertices(vertices(mesh));
+      for(std::size_t component = 0; component < 2; ++component)
+        for(std::size_t k = 0; k < 4; ++k)
+        {
+          const std::size_t face =
+            component * number_of_triangles + k * (number_of_triangles - 1) / 3;
+          const auto& [a, b, c] = shape.triangles[face];
+          const Eigen::Vector3d place =
+            kind == points ? Eigen::Vector3d((shape.points[a] + shape.points[b]) / 2)
+                           : shape.points[a];
+          const Point target = point(motions[component] * place +
+                                     Eigen::Vector3d(0, 0, k % 2 == 0 ? 0.01 : -0.01));
+          if(kind == points)
+          {
+            const auto inserted =
+              d.insert_control_point(Mesh::Face_index(face), {0.5, 0.5, 0});
+            CHECK(inserted && d.set_target_position(inserted.point, target));
+            continue;
+          }
+          d.insert_control_vertex(Mesh::Vertex_index(a), target);
+          if(kind == soft_vertices)
+            CHECK(d.set_target_weight(Mesh::Vertex_index(a), 1000));
+        }
+      const Report report = d.deform(0, 0);
+      CHECK(report);
+      // a control point moves what is around it, smoothly, and is never torn away
+      if(guess == Initial_guess::automatic && kind == points)
+        continue;
+      CHECK(report.initial_guess == Initial_guess::rotations);
+      double largest = 0;
+      for(std::size_t v = 0; v < shape.points.size(); ++v)
+      {
+        const Eigen::Vector3d expected =
+          motions[v >= shape.points.size() / 2] * shape.points[v];
+        largest = larger(largest, (vector(mesh.point(Mesh::Vertex_index(v))) - expected).norm());
+      }
+      CHECK_AT_MOST(largest, 0.1);
+    }
 }
 
 // Two square tubes, the second of which is twisted by three quarters of a turn, in steps. When the
@@ -1752,6 +1818,26 @@ void test_cost_of_guess()
   CHECK(Counting_solver::count() == before + 2);
 }
 
+// The system of smooth rotations is factorized once, also if a run in between does not need it.
+void test_factor_of_rotations()
+{
+  test_case() = "the factor of smooth rotations";
+  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
+    return Eigen::Vector3d(2 * u, v, 0);
+  });
+  Mesh mesh = make_mesh<Mesh>(shape);
+  Counted d(mesh);
+  Options options = d.options();
+  options.smoothing_length = 0.1;
+  CHECK(d.set_options(options));
+  prepare(d, scenario(shape, 1.2), all_vertices(mesh));
+  const int before = Counting_solver::factorizations();
+  CHECK(d.deform(2, 1e-3));
+  CHECK(Counting_solver::factorizations() == before + 2);
+  CHECK(d.deform(3, 0) && d.deform(2, 1e-3));
+  CHECK(Counting_solver::factorizations() == before + 2);
+}
+
 // A Laplacian guess that is not found is given up when that is known: 300 iterations, two solutions
 // each.
 void test_cost_of_lost_guess()
@@ -1779,6 +1865,7 @@ void test_all()
   test_cut_region(Initial_guess::rotations);
   test_cut_region(Initial_guess::automatic);
   test_settled_part();
+  test_single_handles();
   test_other_part();
   test_first_corners();
   test_rounded_targets();
@@ -1786,6 +1873,7 @@ void test_all()
   test_far_soft_target();
   test_turned_handle();
   test_cost_of_guess();
+  test_factor_of_rotations();
   test_cost_of_lost_guess();
   test_two_handles<2>(iterates::surfaces().back());
   test_two_handles<3>(iterates::solid());

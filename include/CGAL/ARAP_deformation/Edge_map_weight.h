@@ -40,9 +40,10 @@ namespace ARAP {
 /// \brief user-defined weights, one for each edge, independent of the geometry.
 ///
 /// An edge has the same weight in every edge set that it belongs to: in the stars of both its
-/// vertices, or in each incident simplex. Edges without a weight, and the diagonals of polygons,
-/// have weight 0. If no weight is negative, no cell has a negative energy. Copies share the
-/// weights: those that are set later count from the next `deform()` on.
+/// vertices, or in each incident simplex. Edges without a weight have weight 0, and so have
+/// diagonals of polygons, unless one is set for their ends. If no weight is negative, no cell has a
+/// negative energy. Copies share the weights: those that are set later count from the next
+/// `deform()` on.
 ///
 /// \cgalModels{ARAPEdgeWeight}
 ///

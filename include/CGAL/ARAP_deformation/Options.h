@@ -37,7 +37,8 @@ enum class Initial_guess
              ///< the rest shape are interpolated harmonically, and one global step with them gives
              ///< the positions. Costs two solves with the factor. A handle of several connected
              ///< vertices has the rotation of its motion. A single vertex has none, unless it is a
-             ///< frame, and a control point has none: they cost two more solves.
+             ///< frame, and a control point has none: they cost two more solves. If no handle of a
+             ///< connected part has one, the part has the rotation of their motion as a whole.
   laplacian ///< naive Laplacian editing: minimizes \f$\|L p' - L p\|^2\f$ with the fixed vertices
             ///< where they are, and the control vertices, soft ones of positive weight included, at
             ///< their targets. \f$L\f$ is the Laplacian with star weights, whatever the cells, and

@@ -50,7 +50,7 @@ enum class Status
   dependent_target,     ///< other hard targets determine where a hard control point is
   too_many_control_points, ///< there are more than 3000 hard control points
   not_a_simplex,        ///< a face in or next to the region is not a polygon, or a cell there not
-                        ///< a tetrahedron
+                        ///< a tetrahedron, or the simplex of a new control point does not exist
   too_many_corners,     ///< a face in or next to the region has more than 2048 corners
   no_tetrahedron,       ///< there is no tetrahedron with a volume to embed points in
   no_simplex,           ///< no vertex of the region of interest has an incident simplex

@@ -275,10 +275,13 @@ public:
     m_number_of_rotation_steps = steps_of_a_fit;
   }
 
+  // Until they are prepared again no steps are taken.
+  void pause_rotation_steps() { m_number_of_rotation_steps = -1; }
+
   void clear_rotation_steps()
   {
     m_rotation_steps.reset();
-    m_number_of_rotation_steps = 0;
+    pause_rotation_steps();
   }
 
   // about by how much a step of all rotations together would lower the energy at the positions x;
@@ -286,7 +289,7 @@ public:
   double gain_of_rotation_step(const Array<Coordinates>& x,
                                const Array<Matrix_3x3>& rotations)
   {
-    if(!m_rotation_steps)
+    if(m_number_of_rotation_steps < 0)
       return 0;
     compute_covariances(x);
     return m_rotation_steps->gain(m_smooth, m_covariances, rotations);
@@ -474,11 +477,11 @@ private:
   double m_scale = 0;          // in the rest shape
   double m_squared_length = 0; // of the diagonal of the box of the vertices in these cells
   double m_sum_of_weights = 0;
-  std::optional<Rotation_steps> m_rotation_steps; // if they are prepared
+  std::optional<Rotation_steps> m_rotation_steps; // with the factor of a run before
   Array<Matrix_3x3> m_covariances;                // for these, and for groups
   Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
   Array<Matrix_3x3> m_changes;                    // of the rotations
-  int m_number_of_rotation_steps = 0;             // of each fit
+  int m_number_of_rotation_steps = -1;            // of each fit; negative if not prepared
 };
 
 } // namespace internal

@@ -244,7 +244,7 @@ void Deformation_core::complete(Array<Matrix_3x3>& rotations, const Array<Coordi
   if(x != m_region.rest)
     run_with_threads(threads(number_of_threads), [&] {
       m_state->energy.set_given_rotations({}); // a run leaves those of its own targets
-      m_state->energy.clear_rotation_steps();
+      m_state->energy.pause_rotation_steps();
       for(int k = 0; k <= 10; ++k) // then smooth them
         m_state->energy.fit_and_evaluate(m_models.closest_rotations, x, rotations, nullptr, k > 0);
     });
@@ -465,8 +465,9 @@ bool Deformation_core::start_with_rotations(const Options& options, const Target
   {
     Array<Coordinates> vectors = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return Harmonic_rotations(m_region, m_constraints, m_state->free_neighborhood.is_near,
-                                targets, x)(m_state->energy, m_state->system);
+      return Harmonic_rotations(m_region, m_constraints, parts(),
+                                m_state->free_neighborhood.is_near, targets,
+                                x)(m_state->energy, m_state->system);
     }();
     if(!vectors.empty())
       start = start_with(std::move(vectors), rotation_of_vector, is_tried);
@@ -510,7 +511,7 @@ Diagnosis Deformation_core::run_in_arena(const Options& options, const Observer&
     m_state->energy.prepare_rotation_steps(*m_models.solver, is_quasi_newton(options) ? 2 : 0);
   }
   else
-    m_state->energy.clear_rotation_steps();
+    m_state->energy.pause_rotation_steps();
   Minimization minimization(m_state->energy, m_models.closest_rotations, m_state->system,
                             m_constraints, options, observe, m_region, targets, x, rotations,
                             m_state->coarse_metric, report);

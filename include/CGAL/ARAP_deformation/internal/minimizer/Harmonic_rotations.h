@@ -19,6 +19,7 @@
 #include <CGAL/ARAP_deformation/internal/Index_lists.h>
 #include <CGAL/ARAP_deformation/internal/constraints/Constraints.h>
 #include <CGAL/ARAP_deformation/internal/energy/Deformation_energy.h>
+#include <CGAL/ARAP_deformation/internal/minimizer/Parts.h>
 #include <CGAL/ARAP_deformation/internal/minimizer/Rigid_fit.h>
 #include <CGAL/ARAP_deformation/internal/region/Disjoint_sets.h>
 #include <CGAL/ARAP_deformation/internal/region/Region.h>
@@ -44,15 +45,15 @@ namespace internal {
 // factor keeps the vectors there at what they are. So two harmonic fields are computed that are 0
 // there: one that has the known vectors, and one that is 1 where these are. The ratio of their
 // pulls at such a vertex is the vector with which nothing would pull at it; for a single one that
-// is exact.
+// is exact. In a part where nothing has a rotation all turn as their motion does, taken as one.
 class Harmonic_rotations
 {
 public:
   Harmonic_rotations(const Region& region, const Constraints& constraints,
-                     const Array<char>& is_near, const Targets& targets,
+                     const Parts& parts, const Array<char>& is_near, const Targets& targets,
                      const Array<Coordinates>& x)
     : m_known(region.number_of_vertices(), Coordinates{0, 0, 0}),
-      m_is_known(region.number_of_vertices(), 0), m_constraints(constraints)
+      m_is_known(region.number_of_vertices(), 0), m_constraints(constraints), m_parts(parts)
   {
     const int n = region.number_of_movable_vertices;
     Array<int> row_of(region.number_of_vertices(), -1);
@@ -110,23 +111,58 @@ public:
       for(int r = 0; r < rows->size(); ++r)
         if(rows == &constraints.hard_rows || rows->position(r) < 0)
           m_unknown.append(rows->row(r), rows->weight(r));
+    for(int part = 0; part < parts.size(); ++part)
+      find_motion(part, region, targets, x);
   }
 
-  // The rotation vector of each vertex, or nothing if no handle has one, or if the solver fails.
-  // To be called once.
+  // The rotation vector of each vertex, or nothing if the solver fails. To be called once.
   Array<Coordinates> operator()(const Deformation_energy& energy, Constrained_system& system)
   {
-    if(std::find(m_is_known.begin(), m_is_known.end(), 1) == m_is_known.end())
-      return {};
     const bool are_all_known = m_unknown.size() == 0;
+    const bool is_any_known =
+      std::find(m_is_known.begin(), m_is_known.end(), 1) != m_is_known.end();
     Array<Coordinates> vectors = are_all_known ? std::move(m_known) : m_known;
-    if(!extend(energy, system, vectors) ||
-       (!are_all_known && !hold_unknown(energy, system, vectors)))
+    if(is_any_known && (!extend(energy, system, vectors) ||
+                        (!are_all_known && !hold_unknown(energy, system, vectors))))
       return {};
+    for(const auto& [part, vector] : m_motions)
+    {
+      for(int v : m_parts.free_vertices(part))
+        vectors[v] = vector;
+      for(int v : m_parts.fixed_vertices(part))
+        vectors[v] = vector;
+    }
     return vectors;
   }
 
 private:
+  // Adds the rotation of all that constrains a part, if none of it has one.
+  void find_motion(int part, const Region& region, const Targets& targets,
+                   const Array<Coordinates>& x)
+  {
+    Array<Coordinates> rest, places;
+    bool is_none_known = m_parts.can_be_rigid(part);
+    for(int v : m_parts.fixed_vertices(part))
+    {
+      is_none_known &= !m_is_known[v];
+      rest.push_back(region.rest[v]);
+      places.push_back(x[v]);
+    }
+    const Weighted_rows &soft = m_constraints.rows, &hard = m_constraints.hard_rows;
+    for(int r : m_parts.rows(part))
+    {
+      const bool is_soft = r < soft.size();
+      const int number = is_soft ? r : r - soft.size();
+      const Weighted_rows& rows = is_soft ? soft : hard;
+      if(const int v = rows.position(number); v >= 0)
+        is_none_known &= !m_is_known[v];
+      rest.push_back(rows.value(number, region.rest.data()));
+      places.push_back((is_soft ? targets.soft : targets.hard)[number]);
+    }
+    if(is_none_known && !rest.empty())
+      m_motions.emplace_back(part, rotation_vector(Rigid_fit(rest, places).rotation()));
+  }
+
   void set(int v, const Matrix_3x3& rotation)
   {
     m_known[v] = rotation_vector(rotation);
@@ -200,6 +236,8 @@ private:
   Array<char> m_is_known;
   Weighted_rows m_unknown; // single vertices and control points
   const Constraints& m_constraints;
+  const Parts& m_parts;
+  std::vector<std::pair<int, Coordinates>> m_motions; // parts, and their rotation vectors
 };
 
 } // namespace internal
