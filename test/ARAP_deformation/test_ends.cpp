@@ -689,7 +689,7 @@ void test_visitor()
   options = options_for(Cell_scheme::spokes());
   const Run buckled(flat, pushed, options);
   int number_of_saddles = 0;
-  for(unsigned int limit = 5; limit < buckled.report.iterations + 3; limit += 3)
+  for(unsigned int limit = 5; limit < buckled.report.iterations + 3; ++limit)
   {
     options.iterations = limit;
     const Report cut = Run(flat, pushed, options).report;
@@ -700,8 +700,9 @@ void test_visitor()
       number_of_saddles += cut.iterations < limit && cut.saddles_left == 0;
       CHECK(cut.iterations == limit || cut.estimated_relative_gap > 1);
     }
-    else
-      CHECK(cut.status == Status::converged);
+    else // where the estimate was wrong once, it is looked at until it is known
+      CHECK(cut.status == Status::converged &&
+            (cut.saddles_left == 0 || cut.end == End::minimum));
   }
   CHECK(number_of_saddles > 0);
   options.iterations = buckled.report.iterations + 1;

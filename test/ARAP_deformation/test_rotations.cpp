@@ -630,6 +630,9 @@ void test_all()
   CHECK_CAUGHT(check_broken([](size_t, size_t, const M& c, const M&, M& r) {
     if(std::abs(determinant(c)) < 1e-12) turn(r, 0.5);
   }), "rank two");
+  CHECK_CAUGHT(check_broken([](size_t, size_t, const M& c, const M&, M& r) {
+    if(std::abs(determinant(c)) > 1e6) turn(r, 1e-4);
+  }), "R(1000 C) is not R(C)");
   int calls = 0;
   CHECK_CAUGHT(check_broken([&calls](size_t, size_t, const M&, const M&, M& r) {
     turn(r, 1e-14 * (++calls % 5));

@@ -295,6 +295,22 @@ struct Sets_any_border : Multifrontal_cholesky_solver
   }
 };
 
+struct Suffers_from_refused_border : Multifrontal_cholesky_solver
+{
+  bool set_border(const Sparse_matrix& b, const Eigen::MatrixXd& d)
+  {
+    return m_is_border_set = Multifrontal_cholesky_solver::set_border(b, d);
+  }
+  bool solve(std::size_t n, Coordinates* x)
+  {
+    const bool is_solved = Multifrontal_cholesky_solver::solve(n, x);
+    for(std::size_t k = 0; k < n && !m_is_border_set; ++k)
+      x[k][0] *= 2;
+    return is_solved;
+  }
+  bool m_is_border_set = true;
+};
+
 struct Throws : Whole_solver
 {
   bool factorize(const Sparse_matrix&) { throw std::runtime_error("no license"); }
@@ -368,6 +384,7 @@ void test_all()
   CHECK_CAUGHT(check_sparse_solver(Border_of_wrong_sign()), "for a matrix with a border");
   CHECK_CAUGHT(check_sparse_solver(Keeps_border()), "without the border");
   CHECK_CAUGHT(check_sparse_solver(Sets_any_border()), "not positive definite");
+  CHECK_CAUGHT(check_sparse_solver(Suffers_from_refused_border()), "after a border was refused");
 
   // what is not positive definite, or no number, is noticed by factorize() or solve() at the latest
   const auto refuses = [](auto solver, double off_diagonal) {

@@ -490,6 +490,35 @@ struct Forgets_a_simplex : Soup // at one of its corners
   }
 };
 
+struct Gives_a_simplex_twice : Soup // at one of its corners
+{
+  using Soup::Soup;
+  template <typename Function>
+  void for_each_incident_simplex(std::size_t v, const Function& f) const
+  {
+    Soup::for_each_incident_simplex(v, [&](std::size_t s, const auto& corners) {
+      f(s, corners);
+      if(s == 5 && v == *corners.begin())
+        f(s, corners);
+    });
+  }
+};
+
+template <int A, int B, int C>
+struct Gives_corners : Soup // the same ones for all
+{
+  using Soup::Soup;
+  template <typename Function>
+  void for_each_incident_simplex(std::size_t v, const Function& f) const
+  {
+    std::vector<std::size_t> corners = {A, B};
+    if(C >= 0)
+      corners.push_back(C);
+    if(v == A)
+      f(std::size_t(0), corners);
+  }
+};
+
 struct Other_corners : Soup
 {
   using Soup::Soup;
@@ -655,6 +684,9 @@ void test_all()
   check_model<Not_in_place>("point() is not what set_point() and is_in_place() make it");
   check_model<Own_points>("a copy of the domain does not stand for the same mesh");
   check_model<Forgets_a_simplex>("a simplex is not given exactly once at each of its corners");
+  check_model<Gives_a_simplex_twice>("a simplex is not given exactly once at each of its corners");
+  check_model<Gives_corners<0, 1, 1>>("gives a simplex with a corner twice, for vertex 0");
+  check_model<Gives_corners<0, 1, -1>>("the number of corners of a simplex is not that of the dim");
   check_model<Other_corners>("simplex_vertices() and for_each_incident_simplex() give different");
   check_model<Fewer_vertices>("a corner of a simplex is not in vertices()");
   check_model<Denies_a_vertex>("is_vertex() denies a vertex of vertices()");
