@@ -21,6 +21,7 @@
 #include <CGAL/ARAP_deformation/Face_graph_domain.h>
 #include <CGAL/ARAP_deformation/Simplex_soup_domain.h>
 #include <CGAL/ARAP_deformation/conformance/checks.h>
+#include <CGAL/ARAP_deformation/internal/domain/triangles_of_polygon.h>
 #include <CGAL/ARAP_deformation/locate.h>
 #include <CGAL/ARAP_deformation/quality.h>
 #include <CGAL/ARAP_deformation/self_intersections.h>
@@ -1409,6 +1410,29 @@ void test_meshes()
         CGAL::ARAP::number_of_self_intersections(domain));
 }
 
+// A square with a hole, to which a bridge leads: all triangles have the orientation of the polygon,
+// wherever it starts.
+void test_triangles_of_ring()
+{
+  test_case() = "triangles of a polygon that meets itself";
+  CGAL::ARAP::internal::Array<CGAL::ARAP::Coordinates> ring = {
+    {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
+    {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
+  for(std::size_t k = 0; k < ring.size(); ++k)
+  {
+    double sum = 0;
+    for(const auto& [a, b, c] : CGAL::ARAP::internal::triangles_of_polygon(ring))
+    {
+      const double area = 0.5 * ((ring[b][0] - ring[a][0]) * (ring[c][1] - ring[a][1]) -
+                                 (ring[b][1] - ring[a][1]) * (ring[c][0] - ring[a][0]));
+      CHECK(area >= 0);
+      sum += area;
+    }
+    CHECK(sum == 12);
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+  }
+}
+
 void test_self_intersections()
 {
   test_case() = "self-intersections";
@@ -1478,6 +1502,7 @@ void test_all()
   test_polygons();
   test_flat();
   test_meshes();
+  test_triangles_of_ring();
   test_self_intersections();
 }
 

@@ -69,6 +69,8 @@ void test_some_cells()
     t, [&](Triangulation::Cell_handle cell) { return selected.count(cell) > 0; });
   CHECK(block_of(domain).tetrahedra.size() == selected.size());
   CHECK(selected.size() < t.number_of_finite_cells());
+  for(auto cell : t.finite_cell_handles())
+    CHECK(domain.is_simplex(cell) == (selected.count(cell) > 0));
   compare_with_reference(domain);
 }
 
