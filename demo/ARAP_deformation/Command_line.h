@@ -397,8 +397,7 @@ inline void read_frames(const boost::program_options::variables_map& values, Com
       throw Usage_error("--view 0,0,0 is no direction");
     if(line.image.empty() &&
        (line.animation.empty() || is_gltf_format(lower_case_extension(line.animation))))
-      throw Usage_error("--view is for pictures: give --image or --animation, too, and not as "
-                        "glTF");
+      throw Usage_error("--view is for pictures: give --image, or an --animation that is not glTF");
   }
 }
 

@@ -146,18 +146,6 @@ public:
     }
   }
 
-  static std::size_t bytes_of(int component)
-  {
-    return component == BYTE || component == BYTE_INDEX     ? 1
-           : component == SHORT || component == SHORT_INDEX ? 2
-                                                            : 4;
-  }
-
-  static std::size_t number_of_components(const std::string& type)
-  {
-    return type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1;
-  }
-
   // Throws if the accessor is not in a buffer, or needs what is not supported.
   Array array(std::size_t index, const std::string& type) const
   {
@@ -255,7 +243,7 @@ public:
     json["bufferViews"].push_back(view);
     json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
                                  {"componentType", std::is_same_v<Value, float> ? FLOAT : INDEX},
-                                 {"count", values.size() / (type == "VEC3" ? 3 : 1)},
+                                 {"count", values.size() / number_of_components(type)},
                                  {"type", type}});
     const std::size_t index = json["accessors"].size() - 1;
     if(type == "VEC3")
@@ -298,6 +286,18 @@ public:
 
 private:
   inline static const std::string data_uri = "data:application/octet-stream;base64,";
+
+  static std::size_t bytes_of(int component)
+  {
+    return component == BYTE || component == BYTE_INDEX     ? 1
+           : component == SHORT || component == SHORT_INDEX ? 2
+                                                            : 4;
+  }
+
+  static std::size_t number_of_components(const std::string& type)
+  {
+    return type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1;
+  }
 
   static std::string number(std::size_t value)
   {

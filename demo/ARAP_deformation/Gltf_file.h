@@ -28,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -60,7 +61,6 @@ public:
       m_gltf.check_required_extensions();
       for(std::size_t node : roots())
         read_node(node, Eigen::Affine3d::Identity(), 0);
-      find_shared();
     }
     catch(const Gltf::Json::exception& error)
     {
@@ -78,6 +78,7 @@ public:
   std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
   std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
   Domain domain() { return Domain(m_mesh); }
+  bool writes_skin(const std::string&) const { return false; }
 
   void check_output(const std::string& file, const std::string& format,
                     const std::vector<std::string>& other_outputs)
@@ -90,8 +91,8 @@ public:
     check_format(file, format, m_mesh);
     if(!is_gltf_format(format))
       return;
-    if(!m_shared.empty())
-      throw std::runtime_error(file + ": " + m_shared + ", too, which is not in the scene");
+    if(const std::string what = shared(); !what.empty())
+      throw std::runtime_error(file + ": " + what + ", too, which is not in the scene");
     if(m_shared_directions)
       throw std::runtime_error(file + ": the accessor " + std::to_string(*m_shared_directions) +
                                " has the normals or tangents of two sets of positions, which "
@@ -138,8 +139,9 @@ private:
     std::set<std::size_t> tangents; // their accessors
   };
 
-  // the use and the place of positions, normals or tangents
-  using Moved = std::tuple<std::string, std::size_t, std::size_t, std::size_t, std::size_t>;
+  // the place of positions, normals or tangents
+  using Place = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
+  static Place place(const Gltf::Array& a) { return {a.buffer, a.begin, a.stride, a.size}; }
 
   static Eigen::Vector3d vector(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
   static std::array<double, 3> coordinates(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
@@ -288,25 +290,46 @@ private:
     }
   }
 
-  // Meshes that nodes outside of the scene have, too, and accessors of other meshes.
-  void find_shared()
+  // What would move with the scene, but is not in it; empty if there is nothing.
+  std::string shared() const
   {
-    const auto& nodes = m_gltf.json.value("nodes", Gltf::Json::array());
-    for(std::size_t node = 0; node < nodes.size(); ++node)
-      if(m_nodes.count(node) == 0 && nodes[node].contains("mesh") &&
-         m_meshes.count(Gltf::whole(nodes[node]["mesh"])) > 0)
-        m_shared = "the mesh " + std::to_string(Gltf::whole(nodes[node]["mesh"])) +
-                   " is used by the node " + std::to_string(node);
-    std::set<std::size_t> moved; // accessors
-    for(const auto& [use, aliases] : m_aliases)
-      moved.insert(aliases.begin(), aliases.end());
-    const auto& meshes = m_gltf.json.value("meshes", Gltf::Json::array());
-    for(std::size_t mesh = 0; mesh < meshes.size(); ++mesh)
-      for(const auto& primitive : meshes[mesh].value("primitives", Gltf::Json::array()))
-        for(const auto& accessor : primitive.value("attributes", Gltf::Json::object()))
-          if(m_meshes.count(mesh) == 0 && moved.count(Gltf::whole(accessor)) > 0)
-            m_shared = "the accessor " + std::to_string(Gltf::whole(accessor)) +
-                       " is used by the mesh " + std::to_string(mesh);
+    const Gltf::Json &nodes = m_gltf.json.at("nodes"), &meshes = m_gltf.json.at("meshes"),
+                     &accessors = m_gltf.json.at("accessors");
+    std::set<Place> moved;
+    for(const auto& [use_and_place, aliases] : m_aliases)
+      moved.insert(use_and_place.second);
+    const auto shared_by_node = [&](std::size_t node) -> std::string {
+      if(m_nodes.count(node) > 0 || !nodes[node].contains("mesh"))
+        return {};
+      const std::size_t mesh = Gltf::whole(nodes[node]["mesh"]);
+      return m_meshes.count(mesh) == 0 ? "" : "the mesh " + std::to_string(mesh) +
+                                                " is used by the node " + std::to_string(node);
+    };
+    const auto shared_by_mesh = [&](std::size_t mesh) -> std::string {
+      if(m_meshes.count(mesh) == 0)
+        for(const auto& primitive : meshes[mesh].at("primitives"))
+          for(const auto& accessor : primitive.at("attributes"))
+            if(const std::size_t k = Gltf::whole(accessor);
+               moved.count(place(m_gltf.array(k, accessors.at(k).at("type")))) > 0)
+              return "the accessor " + std::to_string(k) + " is used by the mesh " +
+                     std::to_string(mesh);
+      return {};
+    };
+    std::string result;
+    const auto look = [&](const auto& shared_by, std::size_t size) {
+      for(std::size_t k = 0; k < size && result.empty(); ++k)
+        try
+        {
+          result = shared_by(k);
+        }
+        catch(const std::exception&)
+        {
+          // what is not read may have what cannot be
+        }
+    };
+    look(shared_by_node, nodes.size());
+    look(shared_by_mesh, meshes.size());
+    return result;
   }
 
   // the first accessor of this use that has the same elements, which are moved once
@@ -315,7 +338,7 @@ private:
     const Gltf::Array a = m_gltf.array(accessor, use == "TANGENT" ? "VEC4" : "VEC3");
     if(a.component != Gltf::FLOAT)
       throw std::runtime_error("has positions, normals or tangents that are quantized");
-    std::vector<std::size_t>& aliases = m_aliases[{use, a.buffer, a.begin, a.stride, a.size}];
+    std::vector<std::size_t>& aliases = m_aliases[{use, place(a)}];
     if(std::find(aliases.begin(), aliases.end(), accessor) == aliases.end())
       aliases.push_back(accessor);
     return aliases[0];
@@ -338,7 +361,7 @@ private:
     }
     for(const auto& [moved, aliases] : m_aliases)
       for(std::size_t accessor : aliases)
-        if(std::get<0>(moved) == "POSITION" || gltf.has_bounds(accessor)) // others need not
+        if(moved.first == "POSITION" || gltf.has_bounds(accessor)) // others need not
           gltf.update_bounds(accessor);
   }
 
@@ -378,16 +401,16 @@ private:
   std::vector<std::string> m_images; // in files of their own
   bool m_are_images_left = false;
   std::set<std::size_t> m_nodes, m_meshes; // that were read
-  std::string m_shared; // what would move with the scene, but is not in it
-  std::map<Moved, std::vector<std::size_t>> m_aliases; // their accessors
+  // the accessors of each use and place
+  std::map<std::pair<std::string, Place>, std::vector<std::size_t>> m_aliases;
   std::map<std::array<double, 3>, std::size_t> m_vertices;
   std::map<std::size_t, std::size_t> m_positions_of; // for an accessor of normals or tangents
   std::optional<std::size_t> m_shared_directions;    // one of several positions
   // for the accessors of its positions and normals
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, Piece> m_pieces;
   internal::Polygons m_faces;
-  std::vector<std::size_t> m_numbers; // of the faces, in the file
-  std::size_t m_number_of_triangles = 0; // in the file
+  std::vector<std::size_t> m_numbers; // of the faces, among all triangles that are read
+  std::size_t m_number_of_triangles = 0;
   std::vector<Kernel::Point_3> m_rest_points;
   Mesh m_mesh; // deformed
 };

@@ -62,6 +62,7 @@ public:
   std::size_t number_of_vertices() const { return m_mesh.number_of_vertices(); }
   std::size_t number_of_simplices() const { return m_mesh.number_of_faces(); }
   Domain domain() { return Domain(m_mesh); }
+  bool writes_skin(const std::string& format) const { return is_gltf_format(format); }
 
   // Throws if a file of this format cannot hold the surface.
   void check_output(const std::string& file, const std::string& format,
@@ -219,6 +220,7 @@ public:
   std::size_t number_of_vertices() const { return m_mesh.points.size(); }
   std::size_t number_of_simplices() const { return m_mesh.tetrahedra.size(); }
   Domain domain() { return Domain(m_mesh.points, m_mesh.tetrahedra); }
+  bool writes_skin(const std::string&) const { return false; }
 
   void check_output(const std::string&, const std::string&, const std::vector<std::string>&) const
   {}

@@ -205,10 +205,13 @@ inline Task make_task(const Command_line& line, const std::vector<Kernel::Point_
                         line.all_handles.plane;
   if(line.handles.empty() && all.empty() && is_moved)
     throw std::runtime_error("nothing moves: no vertex belongs to a handle of " + line.selection);
+  const auto key_frames = internal::read_key_frames(line, task.handles.size());
+  // the last ones of a file that hold nothing any more are not in the selection that is saved
+  while(line.handles.empty() && !task.handles.empty() && places[task.handles.size() - 1].empty())
+    task.handles.pop_back();
   if(task.handles.empty() && !line.save_transform.empty())
     throw std::runtime_error("--save-transform: there is no handle");
 
-  const auto key_frames = internal::read_key_frames(line, task.handles.size());
   const bool are_together = // all handles move as one
     (line.handles.empty() || !key_frames.empty()) &&
     std::all_of(key_frames.begin(), key_frames.end(),

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -126,8 +127,10 @@ protected:
   {
     char* end = nullptr;
     const bool is_end = words.next().empty();
-    const long long value = std::strtoll(text().c_str() + words.begin(), &end, 10); // saturates
-    if(is_end || end != text().c_str() + words.end() || value < smallest || value > largest)
+    errno = 0;
+    const long long value = std::strtoll(text().c_str() + words.begin(), &end, 10);
+    if(is_end || errno == ERANGE || end != text().c_str() + words.end() || value < smallest ||
+       value > largest)
       refuse(words, "expected " + description() + ", but found");
     return value;
   }

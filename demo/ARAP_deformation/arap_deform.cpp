@@ -342,10 +342,10 @@ void run(const Command_line& line, const Chosen_solver& solver, const std::strin
                 " vertices and " + std::to_string(shape.number_of_simplices()) + ' ' +
                 Shape::simplices + ',');
 
-  const bool is_drawn =
-    !line.image.empty() || !line.animation.empty() || is_gltf_format(format);
-  const Skin boundary = is_drawn ? skin(shape.mesh()) : Skin(); // at rest
-  if(is_drawn && boundary.triangles.empty())
+  const bool needs_skin =
+    !line.image.empty() || !line.animation.empty() || shape.writes_skin(format);
+  const Skin boundary = needs_skin ? skin(shape.mesh()) : Skin(); // at rest
+  if(needs_skin && boundary.triangles.empty())
     throw std::runtime_error(line.mesh + ": has nothing to draw, as each face is in several "
                              "tetrahedra");
   shape.check_output(line.output, format, other_files(line));

@@ -48,12 +48,14 @@ public:
   {
     std::string line, word;
     if(!std::getline(m_in, line) || !(std::istringstream(line) >> word) || word != "ply" ||
-       !std::getline(m_in, line) || !(std::istringstream(line) >> word >> m_format))
+       !std::getline(m_in, line))
       return false;
+    std::istringstream format(line);
+    format >> word;
     if(word == "comment" || word == "obj_info")
       refuse("can be read only if the second line is the one that starts with 'format'");
-    if(m_format != "ascii" && m_format != "binary_little_endian" &&
-       m_format != "binary_big_endian")
+    if(!(format >> m_format) || (m_format != "ascii" && m_format != "binary_little_endian" &&
+                                 m_format != "binary_big_endian"))
       return false;
     while(std::getline(m_in, line))
     {

@@ -677,10 +677,13 @@ void test_handles()
     for(std::size_t v = 0; v < shape.points.size(); ++v)
       if(handle(shape.points[v]) == k)
         all_of_one += (all_of_one.empty() ? " --fix list:" : ",") + std::to_string(v);
-    CHECK(run("in.off --selection two.sel --transform two.def -o new.off" + all_of_one)
-            .exit_code == 0);
+    CHECK(run("in.off --selection two.sel --transform two.def -o new.off" + all_of_one +
+              " --save-selection new.sel --save-transform new.def").exit_code == 0);
+    CHECK(run("in.off --selection new.sel --transform new.def -o again.off").exit_code == 0);
+    CHECK(content(folder / "again.off") == content(folder / "new.off"));
   }
-  fs::remove(folder / "new.off");
+  for(const char* file : {"new.off", "again.off", "new.sel", "new.def"})
+    fs::remove(folder / file);
   write("three.def", first + "1 0 0 0\n0 1 0 0\n0 0 0 0\n0 0 0 1\n");
   check_refused("in.off --selection two.sel --transform three.def -o new.off", 1,
                 "three.def, matrix 2: the transform is singular");
@@ -1035,7 +1038,7 @@ void test_picks()
   refuse("--handle z:0.. --view 0,0,0", 2, "--view 0,0,0 is no direction");
   for(const std::string option : {"", " --animation film.glb", " --animation film.GLTF"})
     refuse("--handle z:0.. --view 0,0,1" + option, 2,
-           "--view is for pictures: give --image or --animation");
+           "--view is for pictures: give --image, or an --animation that is not glTF");
   check_refused("in.off --handle z:0.. -o precious.off", 2, "nothing moves: give --move");
   check_refused("in.off --handle z:0.. -o precious.off --rotate z", 2, "expected AXIS ANGLE");
   check_refused("in.off --handle z:0.. --rotate z -o precious.off", 2, "expected AXIS ANGLE");
@@ -1372,13 +1375,23 @@ void test_gltf()
   CHECK(run("bad.gltf" + stay + "scenes.off").exit_code == 0);
   CHECK(content(folder / "scenes.off") == content(folder / "out.off"));
   scenes["nodes"][2]["mesh"] = 1;
-  for(const auto& [use, accessor] : {std::pair("POSITION", 0), std::pair("NORMAL", 1)})
+  scenes["accessors"].push_back(json["accessors"][0]); // the same positions by another name
+  for(const auto& [use, accessor] :
+      {std::pair("POSITION", 0), std::pair("NORMAL", 1), std::pair("POSITION", 4)})
   {
     scenes["meshes"][1] = {{"primitives", {{{"attributes", {{use, accessor}}}}}}};
     write("bad.gltf", scenes.dump());
     check_refused("bad.gltf" + stay + "new.glb", 1,
                   "new.glb: the accessor " + std::to_string(accessor) +
                     " is used by the mesh 1, too, which is not in the scene");
+  }
+  for(const nlohmann::json& odd : {nlohmann::json{{"primitives", {{{"attributes", {{"A", -1}}}}}}},
+                                   nlohmann::json(7)}) // nobody reads it
+  {
+    scenes["meshes"][1] = odd;
+    write("odd.gltf", scenes.dump());
+    for(const std::string file : {"scenes.off", "scenes.glb"})
+      CHECK(run("odd.gltf" + stay + file).exit_code == 0);
   }
   scenes["scenes"][0].erase("nodes");
   write("bad.gltf", scenes.dump());

@@ -286,7 +286,7 @@ std::string bytes(Number value, bool is_reversed)
 void test_format_of_ply()
 {
   test_case() = "a line before the format of a .ply file";
-  for(const std::string line : {"comment by hand", "obj_info by a scanner"})
+  for(const std::string line : {"comment by hand", "obj_info by a scanner", "comment", "obj_info"})
     refuse("ply", "ply\n" + line + "\nformat ascii 1.0\n",
            "can be read only if the second line is the one that starts with 'format'");
 }
@@ -927,6 +927,17 @@ void test_msh()
   // a file whose numbers have not the byte order that it shows
   refuse("msh", replaced(good4, bytes(1, false), bytes(1, true)),
          ": byte 103: expected an integer");
+  const auto text4 = [](const std::string& tag) { // of the last node
+    return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 6 1 6\n3 1 0 6\n1\n2\n3\n4\n5\n" + tag +
+           "\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n2 1 1\n$EndNodes\n$Elements\n1 3 1 3\n3 1 4 3\n"
+           "1 1 2 3 4\n2 2 3 4 5\n3 2 4 5 " + tag + "\n$EndElements\n";
+  };
+  write("in.msh", text4("6000000000"));
+  CHECK(run("in.msh" + rest + "msh").exit_code == 0);
+  CHECK(content(folder / "new.msh") ==
+        replaced(text4("6000000000"), "\n2 1 1\n", "\n2.25 1 0.5\n"));
+  for(const std::string tag : {"9223372036854775808", "99999999999999999999"})
+    refuse("msh", text4(tag), ", line 12: expected an integer from 0, but found '" + tag);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Points damaged = points;
   damaged[2][1] = nan;
@@ -958,18 +969,46 @@ std::string appended_labels(const std::string& text)
   return text.substr(begin + offset, text.find("\n</AppendedData>") - begin - offset);
 }
 
+// the same points nearer to the last one, which moves
+Points shifted(Points p)
+{
+  for(auto& q : p)
+    q = {q[0] - 3, q[1] - 1, q[2] - 1};
+  return p;
+}
+
+// The smallest and the largest distance from the origin, as text.
+std::array<std::string, 2> range_of(const Points& p)
+{
+  double smallest = HUGE_VAL, largest = 0;
+  for(const auto& q : p)
+  {
+    smallest = (std::min)(smallest, std::hypot(q[0], q[1], q[2]));
+    largest = (std::max)(largest, std::hypot(q[0], q[1], q[2]));
+  }
+  std::array<std::string, 2> result;
+  for(std::size_t k = 0; k < 2; ++k)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    text << (k == 0 ? smallest : largest);
+    result[k] = text.str();
+  }
+  return result;
+}
+
 void test_vtk()
 {
   test_case() = "the range of distances from the origin, vtk";
-  const auto vtk = [](const Points& p, const std::string& largest) {
+  const auto vtk = [](const Points& p) {
     std::ostringstream text;
     text << "# vtk DataFile Version 5.1\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n";
     for(const auto& q : p)
       text << q[0] << ' ' << q[1] << ' ' << q[2] << '\n';
     text << "METADATA\nINFORMATION 3\n";
     for(const std::string name : {"L2_NORM_RANGE", "COMPONENT_RANGE", "L2_NORM_FINITE_RANGE"})
-      text << "NAME " << name << " LOCATION vtkDataArray\nDATA 2 0 "
-           << (name[0] == 'L' ? largest : "1") << '\n';
+      text << "NAME " << name << " LOCATION vtkDataArray\nDATA 2 "
+           << (name[0] == 'L' ? range_of(p)[0] + ' ' + range_of(p)[1] : "0 1") << '\n';
     text << "\nCELLS 4 18\n";
     for(const auto& cell : cells)
     {
@@ -984,9 +1023,12 @@ void test_vtk()
     text << "NAME L2_NORM_RANGE DATA 2 0 1\n"; // of something else
     return text.str();
   };
-  write("in.vtk", vtk(points, "2.4494897427831779"));
-  CHECK(run("in.vtk" + rest + "vtk").exit_code == 0);
-  CHECK(content(folder / "new.vtk") == vtk(moved, "2.5124689052802225"));
+  for(const bool is_shifted : {false, true})
+  {
+    write("in.vtk", vtk(is_shifted ? shifted(points) : points));
+    CHECK(run("in.vtk" + rest + "vtk").exit_code == 0);
+    CHECK(content(folder / "new.vtk") == vtk(is_shifted ? shifted(moved) : moved));
+  }
 }
 
 void test_vtu()
@@ -1000,23 +1042,30 @@ void test_vtu()
   for(const std::string format : {"ascii", "raw"})
   {
     test_case() = "the range of distances from the origin, " + format;
-    const auto with_range = [&](const Points& p, const std::string& largest) {
-      const std::string text =
-        replaced(vtu(p, {format}), "type=\"Float32\"",
-                 "type=\"Float32\" RangeMin=\"0\" RangeMax=\"" + largest + '"');
-      const auto key = [](const std::string& name, const std::string& end) {
+    const auto with_range = [&](const Points& p) {
+      const auto [smallest, largest] = range_of(p);
+      const auto key = [](const std::string& name, const std::string& begin,
+                          const std::string& end) {
         return "<InformationKey name=\"" + name + "\" location=\"vtkDataArray\" length=\"2\">\n"
-               "<Value index=\"0\">0</Value><Value index=\"1\">" + end +
+               "<Value index=\"0\">" + begin + "</Value><Value index=\"1\">" + end +
                "</Value>\n</InformationKey>\n";
       };
-      const std::string keys = key("L2_NORM_RANGE", largest) + key("COMPONENT_RANGE", "1") +
-                               key("L2_NORM_FINITE_RANGE", largest) + "</DataArray>\n</Points>";
+      const std::string text =
+        replaced(vtu(p, {format}), "type=\"Float32\"",
+                 "type=\"Float32\" RangeMin=\"" + smallest + "\" RangeMax=\"" + largest + '"');
+      const std::string keys = key("L2_NORM_RANGE", smallest, largest) +
+                               key("COMPONENT_RANGE", "0", "1") +
+                               key("L2_NORM_FINITE_RANGE", smallest, largest) +
+                               "</DataArray>\n</Points>";
       return format == "ascii" ? replaced(text, "</DataArray>\n</Points>", keys)
                                : replaced(text, "/>\n</Points>", '>' + keys);
     };
-    write("in.vtu", with_range(points, "2.4494897427831779"));
-    CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
-    CHECK(content(folder / "new.vtu") == with_range(moved, "2.5124689052802225"));
+    for(const bool is_shifted : {false, true})
+    {
+      write("in.vtu", with_range(is_shifted ? shifted(points) : points));
+      CHECK(run("in.vtu" + rest + "vtu").exit_code == 0);
+      CHECK(content(folder / "new.vtu") == with_range(is_shifted ? shifted(moved) : moved));
+    }
   }
   test_case() = "arrays without a format";
   for(const std::string format : {"ascii", "raw"})

@@ -601,7 +601,7 @@ void test_overwritten()
     pair.both([&](auto& side) { side->insert_control_vertex(side.vertex(erased)); });
     pair.deform(2, 0);
     CHECK_AT_MOST((pair.ours().point(erased) - p).norm(), 0.0);
-    // while the region is empty there is none
+    // an empty region has no rest shape to overwrite
     pair.both([&](auto& side) {
       side->clear_roi_vertices();
       side->overwrite_initial_geometry();

@@ -70,8 +70,8 @@ inline const char* to_string(End end)
 }
 
 /// \ingroup PkgARAPDeformationRun
-/// \brief tells which stages were done since the last run, by it and by calls of `preprocess()`
-/// before it; all others served as they were.
+/// \brief tells which stages a run did, and calls of `preprocess()` since the run before; all
+/// others served as they were.
 ///
 /// Time: `region`, `weights` and `order` are linear in the region, up to the ordering; `factor` is
 /// that of a sparse Cholesky factorization; `border` follows the part of the factor that the

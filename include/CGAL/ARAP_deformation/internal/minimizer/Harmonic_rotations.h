@@ -115,12 +115,15 @@ public:
       find_motion(part, region, targets, x);
   }
 
-  // The rotation vector of each vertex, or nothing if the solver fails. To be called once.
+  // The rotation vector of each vertex, or nothing if nothing tells one, or if the solver fails. To
+  // be called once.
   Array<Coordinates> operator()(const Deformation_energy& energy, Constrained_system& system)
   {
     const bool are_all_known = m_unknown.size() == 0;
     const bool is_any_known =
       std::find(m_is_known.begin(), m_is_known.end(), 1) != m_is_known.end();
+    if(!is_any_known && m_motions.empty())
+      return {};
     Array<Coordinates> vectors = are_all_known ? std::move(m_known) : m_known;
     if(is_any_known && (!extend(energy, system, vectors) ||
                         (!are_all_known && !hold_unknown(energy, system, vectors))))
@@ -140,25 +143,16 @@ private:
   void find_motion(int part, const Region& region, const Targets& targets,
                    const Array<Coordinates>& x)
   {
+    if(!m_parts.can_be_rigid(part))
+      return;
     Array<Coordinates> rest, places;
-    bool is_none_known = m_parts.can_be_rigid(part);
-    for(int v : m_parts.fixed_vertices(part))
-    {
-      is_none_known &= !m_is_known[v];
-      rest.push_back(region.rest[v]);
-      places.push_back(x[v]);
-    }
-    const Weighted_rows &soft = m_constraints.rows, &hard = m_constraints.hard_rows;
-    for(int r : m_parts.rows(part))
-    {
-      const bool is_soft = r < soft.size();
-      const int number = is_soft ? r : r - soft.size();
-      const Weighted_rows& rows = is_soft ? soft : hard;
-      if(const int v = rows.position(number); v >= 0)
-        is_none_known &= !m_is_known[v];
-      rest.push_back(rows.value(number, region.rest.data()));
-      places.push_back((is_soft ? targets.soft : targets.hard)[number]);
-    }
+    const bool is_none_known = m_parts.for_each_constraint(
+      part, region, m_constraints, targets, x,
+      [&](int v, int, const Coordinates& p, const Coordinates& q) {
+        rest.push_back(p);
+        places.push_back(q);
+        return v < 0 || !m_is_known[v];
+      });
     if(is_none_known && !rest.empty())
       m_motions.emplace_back(part, rotation_vector(Rigid_fit(rest, places).rotation()));
   }

@@ -66,6 +66,29 @@ public:
   Index_range fixed_vertices(int part) const { return m_fixed.list(part); } // that share its cells
   Index_range rows(int part) const { return m_rows.list(part); } // soft ones, then hard ones
 
+  // Calls f(v, r, rest, place) for all that constrains a part until it returns false: fixed
+  // vertices, which are at x, and rows, which have targets. v is the vertex, or the one whose
+  // position a soft row r is; both may be -1. Returns whether f never did.
+  template <typename Function>
+  bool for_each_constraint(int part, const Region& region, const Constraints& constraints,
+                           const Targets& targets, const Array<Coordinates>& x,
+                           const Function& f) const
+  {
+    for(int v : fixed_vertices(part))
+      if(!f(v, -1, region.rest[v], x[v]))
+        return false;
+    const Weighted_rows &soft = constraints.rows, &hard = constraints.hard_rows;
+    const Coordinates* const rest = region.rest.data();
+    for(int r : rows(part))
+    {
+      const int h = r - soft.size();
+      if(!(h < 0 ? f(soft.position(r), r, soft.value(r, rest), targets.soft[r])
+                 : f(-1, -1, hard.value(h, rest), targets.hard[h])))
+        return false;
+    }
+    return true;
+  }
+
   // whether its rows are invariant under translations, as its energy is
   bool can_be_rigid(int part) const { return m_can_be_rigid[part]; }
 

@@ -122,28 +122,16 @@ private:
         add(place.back(), 1, product(*m_frame_of[v], side));
       }
     };
-    for(int v : m_parts.fixed_vertices(part))
-    {
-      rest.push_back(m_region.rest[v]);
-      place.push_back(x[v]);
+    const auto add_constraint = [&](int v, int r, const Coordinates& p, const Coordinates& q) {
+      if(r >= 0 && !m_is_set.empty() && m_is_set[r])
+        return false;
+      rest.push_back(p);
+      place.push_back(q);
       add_frame(v);
-    }
-    const Weighted_rows &soft = m_constraints.rows, &hard = m_constraints.hard_rows;
-    for(int r : m_parts.rows(part))
-    {
-      if(r >= soft.size())
-      {
-        rest.push_back(hard.value(r - soft.size(), m_region.rest.data()));
-        place.push_back(m_targets.hard[r - soft.size()]);
-        continue;
-      }
-      if(!m_is_set.empty() && m_is_set[r])
-        return;
-      rest.push_back(soft.value(r, m_region.rest.data()));
-      place.push_back(m_targets.soft[r]);
-      add_frame(soft.position(r));
-    }
-    if(rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * m_size))
+      return true;
+    };
+    if(!m_parts.for_each_constraint(part, m_region, m_constraints, m_targets, x, add_constraint) ||
+       rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * m_size))
       return;
 
     Array<Coordinates> free_rest, free_place;
