@@ -87,6 +87,10 @@ public:
             (is_volume ? "tetrahedra have four corners, not "
                        : "faces have at least three corners, not ") + std::to_string(rows.columns));
     m_corners.assign(rows.data, rows[rows.rows]);
+    if(is_volume)
+      for(std::size_t s = 0; s < rows.rows; ++s)
+        require(*std::min_element(rows[s], rows[s + 1]) >= 0,
+                "tetrahedron " + std::to_string(s) + " has a negative corner");
   }
   std::size_t size() const { return m_corners.size() / m_columns; }
   auto operator[](std::size_t s) const
@@ -345,7 +349,7 @@ public:
             "a transformation is a matrix of 4 x 4 or 3 x 4 numbers");
     if(matrix.rows == 4)
       require(std::equal(matrix[3], matrix[4], std::array<double, 4>{0, 0, 0, 1}.begin()),
-              "the last row of a transformation must be 0, 0, 0, 1");
+              "the last row of a transformation must be 0, 0, 0, 1: it has its numbers row by row");
     const auto apply = [&](const Point& p) {
       Point q;
       for(std::size_t k = 0; k < 3; ++k)

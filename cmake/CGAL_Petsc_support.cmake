@@ -6,7 +6,7 @@ if(NOT TARGET CGAL::Petsc_support)
             PATH_SUFFIXES include)
   find_path(PETSC_CONF_INCLUDE_DIR petscconf.h HINTS ${PETSC_INCLUDE_DIR}
             $ENV{PETSC_DIR}/$ENV{PETSC_ARCH}/include)
-  find_library(PETSC_LIBRARY NAMES petsc_real petsc
+  find_library(PETSC_LIBRARY NAMES petsc_real petsc NAMES_PER_DIR # of the PETSC_DIR first
                HINTS ${PETSC_CONF_INCLUDE_DIR}/../lib ${PETSC_INCLUDE_DIR}/../lib)
   mark_as_advanced(PETSC_INCLUDE_DIR PETSC_CONF_INCLUDE_DIR PETSC_LIBRARY)
   # these may be of a PETSc that was removed since

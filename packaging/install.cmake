@@ -1,5 +1,6 @@
-# What `cmake --install` installs, in two parts: "development" (headers, compiled core if there is
-# one, CMake's package), and "command" (arap_deform and its man page); and the Debian packages of both.
+# What `cmake --install` installs, in three parts: "development" (headers, compiled core if there is
+# one, CMake's package), "command" (arap_deform and its man page), and "documents"; and the Debian
+# packages of the first two.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -33,7 +34,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ARAP_deformationConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/ARAP_deformationConfigVersion.cmake
               cmake/ARAP_deformation_accelerators.cmake cmake/CGAL_Cholmod_support.cmake
         DESTINATION ${folder} COMPONENT development)
-install(FILES LICENSE CHANGES.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(FILES LICENSE CHANGES.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/ARAP_deformation COMPONENT documents)
 
 if(TARGET arap_deform)
   install(TARGETS arap_deform DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
@@ -57,7 +58,10 @@ if(NOT is_top_level)
 endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The ARAP_deformation authors <nobody@example.invalid>")
-if(DEFINED ENV{DEBEMAIL}) # who publishes the packages
+if(NOT "$ENV{DEBEMAIL}" STREQUAL "") # who publishes the packages
+  if("$ENV{DEBFULLNAME}" STREQUAL "")
+    message(FATAL_ERROR "DEBEMAIL is set, but not DEBFULLNAME.")
+  endif()
   set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -77,7 +81,7 @@ Surfaces and tetrahedral volumes are deformed as rigidly as possible: some
 vertices are moved, and the rest follows so that every small part only
 rotates. These are the headers, the compiled core, and CMake's package
 ARAP_deformation.")
-set(depends libcgal-dev libeigen3-dev)
+set(depends "libcgal-dev (>= 5.5)" "libeigen3-dev (>= 3.4)")
 foreach(library TBB:libtbb-dev Cholmod:libsuitesparse-dev METIS:libmetis-dev)
   string(REGEX MATCH "(.*):(.*)" library ${library})
   if(CMAKE_MATCH_1 IN_LIST ARAP_deformation_found)

@@ -54,8 +54,8 @@ std::string machine_sentence(const Json& results)
   const Json& m = results["machine"];
   const auto text = [&m](const char* key) { return m[key].get<std::string>(); };
   return text("processor") + ", " + m["cores"].dump() + " cores; " + text("compiler") + ", `" +
-         text("flags") + "`; " + text("libraries") + "; 1 and " + m["threads"].dump() +
-         " threads.";
+         text("flags") + "`; " + text("libraries") + "; 1 " +
+         (m["threads"] == 1 ? "thread." : "and " + m["threads"].dump() + " threads.");
 }
 
 // one line for each figure that a user may compare with another machine or another package
@@ -114,7 +114,7 @@ Json make_summary(const Json& results)
 // Adds a peak printed by the program peak_memory, of which the mesh alone is the first.
 void add_peak(const std::string& file, const std::string& name, double vertices, double megabytes)
 {
-  if(!std::isfinite(megabytes)) // not Linux
+  if(!std::isfinite(megabytes)) // the system does not tell it
     return;
   Settings settings;
   settings.json_file = file;

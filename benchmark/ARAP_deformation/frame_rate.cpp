@@ -36,7 +36,10 @@ public:
     : m_scenario(scenario), m_size(0.1 * scenario.diagonal)
   {
     for(const auto& [v, target] : scenario.targets)
-      m_center += to_vector(scenario.mesh.point(v)) / static_cast<double>(scenario.targets.size());
+      if(scenario.mesh.point(v) != target) // those of the twist that do not stay
+        m_handle.push_back(v);
+    for(vertex_descriptor v : m_handle)
+      m_center += to_vector(scenario.mesh.point(v)) / static_cast<double>(m_handle.size());
   }
 
   // Sets the targets of a frame.
@@ -47,17 +50,17 @@ public:
     const Eigen::Vector3d shift =
       m_size * Eigen::Vector3d(std::sin(t), 1 - std::cos(t), std::sin(2 * t) / 2);
     const Eigen::AngleAxisd turn(0.5 * std::sin(t), Eigen::Vector3d(1, 1, 1).normalized());
-    for(const auto& [v, target] : m_scenario.targets)
-      if(m_scenario.mesh.point(v) != target) // those of the twist that do not stay
-      {
-        const Eigen::Vector3d p = to_vector(m_scenario.mesh.point(v));
-        deformation.set_target_position(v, to_point(m_center + turn * (p - m_center) + shift));
-      }
+    for(vertex_descriptor v : m_handle)
+    {
+      const Eigen::Vector3d p = to_vector(m_scenario.mesh.point(v));
+      deformation.set_target_position(v, to_point(m_center + turn * (p - m_center) + shift));
+    }
   }
 
 private:
   const Scenario& m_scenario;
   double m_size;
+  std::vector<vertex_descriptor> m_handle;
   Eigen::Vector3d m_center = Eigen::Vector3d::Zero();
 };
 

@@ -123,8 +123,13 @@ Solve measure_cholmod(int supernodal, const std::string& name, const Matrix& a, 
   matrix.itype = CHOLMOD_INT;
   matrix.xtype = CHOLMOD_REAL;
   matrix.sorted = matrix.packed = 1;
+  const auto check = [&](bool is_done) {
+    if(!is_done || common.status != CHOLMOD_OK)
+      throw Failure(name + " did not solve the system");
+  };
   cholmod_factor* factor = cholmod_analyze(&matrix, &common);
-  cholmod_factorize(&matrix, factor, &common);
+  check(factor != nullptr);
+  check(cholmod_factorize(&matrix, factor, &common));
   const double bytes = factor->is_super
     ? double(sizeof(double)) * double(factor->xsize) + double(sizeof(int)) * double(factor->ssize)
     : common.lnz * (sizeof(double) + sizeof(int));
@@ -138,8 +143,8 @@ Solve measure_cholmod(int supernodal, const std::string& name, const Matrix& a, 
   right_hand_side.x = const_cast<double*>(b.data());
   cholmod_dense *solution = nullptr, *first = nullptr, *second = nullptr;
   const double seconds = median_seconds(least_seconds(settings), 3, [] {}, [&] {
-    cholmod_solve2(CHOLMOD_A, factor, &right_hand_side, nullptr, &solution, nullptr, &first,
-                   &second, &common);
+    check(cholmod_solve2(CHOLMOD_A, factor, &right_hand_side, nullptr, &solution, nullptr, &first,
+                         &second, &common));
   });
   std::copy_n(static_cast<const double*>(solution->x), x.size(), x.data());
   cholmod_free_dense(&solution, &common);

@@ -24,7 +24,7 @@ namespace {
 
 using namespace benchmark;
 
-const std::size_t number_of_changes = 100; // half of them erased, half of them inserted
+const std::ptrdiff_t number_of_changes = 100; // half of them erased, half of them inserted
 
 // Two sets of vertices, one of which is controlled at a time: the control vertices next to the free
 // vertices, and the free vertices next to those.
@@ -45,10 +45,12 @@ Exchange make_exchange(const Scenario& scenario)
   const auto first_of_handle = std::find_if(all.begin(), all.end(), [&](vertex_descriptor v) {
     return twist.is_handle(to_vector(scenario.mesh.point(v)));
   });
-  const std::size_t n = (std::min)(number_of_changes / 2,
-                                   static_cast<std::size_t>(all.end() - first_of_handle) / 2);
-  const auto step = static_cast<std::ptrdiff_t>(n);
-  return {{first_of_handle, first_of_handle + step}, {first_of_handle - step, first_of_handle}};
+  const std::ptrdiff_t n = number_of_changes / 2;
+  if(all.end() - first_of_handle <= n ||
+     scenario.number_of_free_vertices() < static_cast<std::size_t>(n))
+    throw Failure("the mesh is too small to change " + std::to_string(number_of_changes) +
+                  " control vertices");
+  return {{first_of_handle, first_of_handle + n}, {first_of_handle - n, first_of_handle}};
 }
 
 // Erases the control vertices of one set and inserts those of the other; returns the seconds until

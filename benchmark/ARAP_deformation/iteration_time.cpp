@@ -38,9 +38,6 @@ void verify_libigl(const Scenario& scenario, Libigl_deformation& libigl)
 {
   Our_deformation<CGAL::ARAP_deformation_traits<CGAL::Default, ARAP::Cotangent_weight>>
     ours(scenario);
-  ARAP::Options options = ours.deformation().options();
-  options.initial_guess = ARAP::Initial_guess::previous;
-  expect_success(ours.deformation().set_options(options));
   ours.run(1);
   libigl.run(1);
   verify_at_most(largest_distance(points_of(ours.mesh()), libigl.points()) / scenario.diagonal,

@@ -18,6 +18,9 @@
 #include "include/libigl_deformation.h"
 #endif
 
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
@@ -89,6 +92,14 @@ void deform_with(const std::string& name, Scenario& scenario)
     throw Failure("there is no class " + name);
 }
 
+std::size_t number_of_parts(const std::string& text)
+{
+  std::size_t parts = 0;
+  if(!boost::conversion::try_lexical_convert(text, parts) || parts < 1 || parts > 1000)
+    throw Failure("PARTS is a number from 1 to 1000, not " + text);
+  return parts;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -99,21 +110,22 @@ int main(int argc, char** argv)
                  "  CLASS  ours, ours_single (a factor in single precision), ours_eigen (Eigen's\n"
                  "         factor), cgal, libigl, or mesh, to read it only\n"
                  "  PARTS  the number of parts that each edge is cut into\n"
-                 "Prints the number of vertices and the peak memory in megabytes.\n";
+                 "Prints the number of vertices and the peak memory in megabytes, or nan if this\n"
+                 "system does not tell it.\n";
     return 2;
   }
   try
   {
     Scenario scenario = make_scenario(
       subdivided(read_mesh(argc > 3 ? argv[3] : CGAL::data_file_path("meshes/armadillo.off")),
-                 std::stoul(argv[2])));
+                 number_of_parts(argv[2])));
     const std::size_t n = scenario.number_of_vertices();
 #ifdef __GLIBC__
     malloc_trim(0); // what reading the mesh has left
 #endif
-    reset_peak();
+    const bool is_reset = reset_peak();
     deform_with(argv[1], scenario);
-    std::cout << n << " " << megabytes("VmHWM") << "\n";
+    std::cout << n << " " << (is_reset ? megabytes("VmHWM") : std::nan("")) << "\n";
   }
   catch(const std::exception& error)
   {

@@ -38,63 +38,49 @@ struct Sample
   double seconds, energy;
 };
 
-// A shape with one end fixed and the other turned; in its middle all is free.
-template <std::size_t N>
-class Twisted
+struct Run
 {
-public:
-  Twisted(const Shape<N>& shape, const ARAP::Options& options, bool is_soft)
-    : m_points(shape.points), m_deformation(typename Shape<N>::Domain(m_points, shape.simplices))
-  {
-    const Twist twist(bounding_box(shape));
-    expect_success(m_deformation.set_options(options));
-    for(std::size_t v = 0; v < m_points.size(); ++v)
-    {
-      m_deformation.insert_roi_vertex(v);
-      if(const auto p = to_vector(m_points[v]); twist.is_fixed(p) || twist.is_handle(p))
-        m_targets.emplace_back(v, to_point(twist.target(p)));
-    }
-    for(const auto& target : m_targets)
-    {
-      m_deformation.insert_control_vertex(target.first);
-      if(is_soft)
-        expect_success(m_deformation.set_target_weight(target.first, 10));
-    }
-    expect_success(m_deformation.preprocess());
-    m_preprocess_seconds = m_stopwatch.seconds();
-  }
-
-  double preprocess_seconds() const { return m_preprocess_seconds; }
-
-  // a run from the rest shape, and its iterates
-  std::pair<ARAP::Report, std::vector<Sample>> run(ARAP::Initial_guess guess,
-                                                   bool has_coarse_metric, double tolerance,
-                                                   unsigned int iterations)
-  {
-    m_deformation.reset();
-    for(const auto& [v, target] : m_targets)
-      m_deformation.set_target_position(v, target);
-    ARAP::Options options = m_deformation.options();
-    options.initial_guess = guess;
-    options.coarse_metric = has_coarse_metric;
-    expect_success(m_deformation.set_options(options));
-    std::vector<Sample> samples;
-    const Stopwatch stopwatch;
-    ARAP::Report report = m_deformation.deform(iterations, tolerance, [&](const auto& iterate) {
-      samples.push_back({iterate.iteration(), stopwatch.seconds(), iterate.energy()});
-      return ARAP::Visitor_action::proceed;
-    });
-    expect_success(report);
-    return {std::move(report), std::move(samples)};
-  }
-
-private:
-  Stopwatch m_stopwatch;
-  std::vector<Point> m_points;
-  CGAL::ARAP_deformation<typename Shape<N>::Domain> m_deformation;
-  std::vector<std::pair<std::size_t, Point>> m_targets;
-  double m_preprocess_seconds = 0;
+  double preprocess_seconds;
+  ARAP::Report report;
+  std::vector<Sample> samples; // of all iterates
 };
+
+// A run from the rest shape, with one end fixed and the other turned; in the middle all is free. By
+// a new object, so that what a first run prepares counts for each.
+template <std::size_t N>
+Run run_from_rest(const Shape<N>& shape, const ARAP::Options& options, bool is_soft)
+{
+  std::vector<Point> points = shape.points;
+  const Stopwatch preprocess_stopwatch;
+  CGAL::ARAP_deformation<typename Shape<N>::Domain> deformation(
+    typename Shape<N>::Domain(points, shape.simplices));
+  expect_success(deformation.set_options(options));
+  const Twist twist(bounding_box(shape));
+  std::vector<std::pair<std::size_t, Point>> targets;
+  for(std::size_t v = 0; v < points.size(); ++v)
+  {
+    deformation.insert_roi_vertex(v);
+    if(const auto p = to_vector(points[v]); twist.is_fixed(p) || twist.is_handle(p))
+      targets.emplace_back(v, to_point(twist.target(p)));
+  }
+  for(const auto& target : targets)
+  {
+    deformation.insert_control_vertex(target.first);
+    if(is_soft)
+      expect_success(deformation.set_target_weight(target.first, 10));
+  }
+  expect_success(deformation.preprocess());
+  Run run = {preprocess_stopwatch.seconds(), {}, {}};
+  for(const auto& [v, target] : targets)
+    deformation.set_target_position(v, target);
+  const Stopwatch stopwatch;
+  run.report = deformation.deform(options.iterations, options.tolerance, [&](const auto& iterate) {
+    run.samples.push_back({iterate.iteration(), stopwatch.seconds(), iterate.energy()});
+    return ARAP::Visitor_action::proceed;
+  });
+  expect_success(run.report);
+  return run;
+}
 
 struct Kind
 {
@@ -111,7 +97,7 @@ void measure(const Shape<N>& shape, const Kind& kind, Json& section, double cgal
   ARAP::Options options;
   options.cells = kind.cells;
   options.bending_length = kind.bending * bounding_box(shape).diagonal().norm();
-  Twisted<N> twisted(shape, options, kind.is_soft);
+  options.iterations = 2000;
 
   struct Start
   {
@@ -127,37 +113,44 @@ void measure(const Shape<N>& shape, const Kind& kind, Json& section, double cgal
   // the same; the largest takes too long without
   if(shape.points.size() > 30000 && shape.points.size() < 500000)
     starts.push_back({"default, no coarse metric", ARAP::Initial_guess::automatic, false});
-  std::vector<std::vector<Sample>> samples;
+  const auto run = [&](const Start& start, double tolerance) {
+    ARAP::Options chosen = options;
+    chosen.initial_guess = start.guess;
+    chosen.coarse_metric = start.has_coarse_metric;
+    chosen.tolerance = tolerance;
+    return run_from_rest(shape, chosen, kind.is_soft);
+  };
+  std::vector<Run> long_runs;
   double lowest = std::numeric_limits<double>::infinity();
   for(const Start& start : starts)
   {
-    samples.push_back(twisted.run(start.guess, start.has_coarse_metric, 1e-6, 2000).second);
-    lowest = (std::min)(lowest, samples.back().back().energy);
+    long_runs.push_back(run(start, 1e-6));
+    lowest = (std::min)(lowest, long_runs.back().report.final_energy());
   }
-  for(std::size_t k = 0; k < samples.size(); ++k)
+  for(std::size_t k = 0; k < starts.size(); ++k)
   {
     const Start& start = starts[k];
-    const ARAP::Report report =
-      twisted.run(start.guess, start.has_coarse_metric, options.tolerance, 2000).first;
+    const Run& long_run = long_runs[k];
+    const ARAP::Report report = run(start, options.tolerance).report;
     Json row = {{"shape", shape.name}, {"kind", kind.name}, {"vertices", shape.points.size()},
-                {"start", start.name}, {"preprocess", twisted.preprocess_seconds()},
-                {"energy", samples[k].back().energy}, {"lowest", lowest},
+                {"start", start.name}, {"preprocess", long_run.preprocess_seconds},
+                {"energy", long_run.report.final_energy()}, {"lowest", lowest},
                 {"tolerance_iterations", report.iterations},
                 {"tolerance_seconds", report.seconds.total},
                 {"estimated_gap", report.estimated_relative_gap},
                 {"true_gap", report.final_energy() / lowest - 1}};
-    for(const Sample& s : samples[k])
+    for(const Sample& s : long_run.samples)
       if(s.energy <= (1 + 1e-3) * lowest)
       {
         row["iterations"] = s.iteration;
         row["seconds"] = s.seconds;
         if(cgal_seconds > 0) // of an iteration
-          row["cgal_iterations"] = (twisted.preprocess_seconds() + s.seconds) / cgal_seconds;
+          row["cgal_iterations"] = (long_run.preprocess_seconds + s.seconds) / cgal_seconds;
         break;
       }
     section["rows"].push_back(row);
     Json curve = Json::array();
-    for(const Sample& s : samples[k])
+    for(const Sample& s : long_run.samples)
       curve.push_back({s.seconds, s.energy / lowest - 1});
     section["curves"][shape.name + ", " + kind.name + ", " +
                       std::to_string(shape.points.size())][start.name] = curve;

@@ -33,6 +33,12 @@ namespace {
 
 struct Answer
 {
+  Answer() // has memory for what it says when there is none
+  {
+    status.reserve(32);
+    message.reserve(32);
+  }
+
   std::vector<double> numbers;
   std::string status, message;
 } answer;

@@ -16,7 +16,9 @@ read -ra extra_flags <<<"${ARAP_WASM_FLAGS--msimd128}"
 flags=(-std=c++17 -O3 -DNDEBUG -Wall -Wextra -Wshadow -fwasm-exceptions "${extra_flags[@]}"
        -DCGAL_EIGEN3_ENABLED -DCGAL_DISABLE_GMP=1 -DCGAL_ALWAYS_ROUND_TO_NEAREST -DCGAL_DISABLE_ROUNDING_MATH_CHECK
        -DFE_UNDERFLOW=0 -DCGAL_ARAP_DEFORMATION_COMPILED "-I$root/include" -isystem "$out/include" -isystem /usr/include/eigen3)
-made_by="${flags[*]} $(em++ --version | head -1)"
+made_by="${flags[*]} $(em++ --version | head -1) $(
+  grep -hsE '^#define (CGAL_VERSION|EIGEN_[A-Z]*_VERSION|BOOST_LIB_VERSION) ' /usr/include/CGAL/version.h \
+    /usr/include/boost/version.hpp /usr/include/eigen3/Eigen/{Version,src/Core/util/Macros.h} || true)"
 [ "$(cat "$out/made_by" 2>/dev/null)" = "$made_by" ] || rm -f "$out"/*.o
 echo "$made_by" >"$out/made_by"
 objects=()
@@ -24,7 +26,8 @@ pids=
 for source in bindings/javascript/arap bindings/Array_deformation src/ARAP_deformation/core; do
   object=$out/${source##*/}.o
   objects+=("$object")
-  if [ ! -f "$object" ] || [ -n "$(find "$root/include" "$root/bindings" "$root/src" -newer "$object" -name '*.h' -o -newer "$object" -name '*.cpp' -not -path '*/test/*' -not -path '*/python/*')" ]; then
+  if [ ! -f "$object" ] || [ -n "$(find "$root"/{include,src,bindings} -newer "$object" -name '*.[hc]*' \
+       -not -path "$root/bindings/*/test/*" -not -path "$root/bindings/python/*")" ]; then
     em++ "${flags[@]}" -c "$root/$source.cpp" -o "$object" &
     pids="$pids $!"
   fi

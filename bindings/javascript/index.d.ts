@@ -3,11 +3,22 @@
  */
 
 /**
- * Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row.
+ * Numbers one after another: points and targets are x, y, z, x, y, z, ...; matrices are row by row
+ * (those of three.js are column by column: pass `matrix.clone().transpose().elements`).
  */
-export type Numbers = Float64Array | Float32Array | readonly number[];
-/** Indices of vertices, simplices or handles, from 0. Where a number is taken, too, it stands for a list of one. */
-export type Indices = Int32Array | Uint32Array | Uint16Array | readonly number[];
+export type Numbers =
+  | Float64Array
+  | Float32Array
+  | Int32Array
+  | Uint32Array
+  | Int16Array
+  | Uint16Array
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | readonly number[];
+/** Indices of vertices, simplices or handles, from 0, in any of these arrays. Where a number is taken, too, it stands for a list of one. */
+export type Indices = Numbers;
 
 /**
  * `misuse` is a wrong index, name or shape of an array; `out_of_memory`: the engine has no memory
@@ -281,8 +292,8 @@ export interface Session {
   target(handles: Indices | number): Float64Array;
   /**
    * moves targets by a matrix of 3 x 4 or 4 x 4: by default the matrix is applied to the present
-   * targets, so that repeated calls add up, and so do handles that are listed twice; fromRest
-   * applies it to the rest shape
+   * targets, so that repeated calls add up, and so do handles that are listed twice; with fromRest
+   * the targets are where it takes the points of the rest shape, which stays as it is
    */
   transform(handles: Indices | number, matrix: Numbers, options?: { fromRest?: boolean }): void;
   weight(handle: number): number;

@@ -16,7 +16,8 @@ const initialGuesses = ['automatic', 'previous', 'rotations', 'laplacian'];
 async function machineCode() {
   const url = new URL('./arap.wasm', import.meta.url);
   if (url.protocol === 'file:' && typeof process === 'object') {
-    const { readFile } = await import('node:fs/promises');
+    const files = ['node:fs', 'promises'].join('/'); // bundlers for browsers would look for it
+    const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ files);
     return readFile(url);
   }
   const response = await fetch(url);
@@ -115,7 +116,8 @@ function vectorOf(values, what) {
 
 const forgotten = new FinalizationRegistry((free) => free());
 
-export async function load({ wasmBinary } = {}) {
+export async function load({ wasmBinary, ...rest } = {}) {
+  refuseUnknown(rest, 'load()');
   const visitors = [];
   const module = await createArap({
     wasmBinary: wasmBinary ?? (await machineCode()),
@@ -484,15 +486,17 @@ export async function load({ wasmBinary } = {}) {
       modulus = 1,
       damping = 0,
       acceleration = [0, 0, 0],
-      forces = [],
+      forces,
       visitor,
       ...rest
     } = {}) {
       refuseUnknown(rest, 'advance()');
       const numbers = Object.entries({ timeStep, density, modulus, damping });
       const a = vectorOf(acceleration, 'the acceleration'),
-        f = numbersOf(forces, 'forces', Float64Array);
+        f = numbersOf(forces ?? [], 'forces', Float64Array);
       const rows = rowsOf(f, 3, 'forces');
+      if (forces && !rows && this.numberOfVertices)
+        throw new ArapError('', 'forces have three coordinates for each of the vertices; there are none');
       return withCopies([a, f], (ap, fp) =>
         this.#run(visitor, (visits) =>
           stepReportOf(

@@ -113,6 +113,13 @@ public:
     return object.contains(key) ? whole(object[key]) : otherwise;
   }
 
+  // the list of an object under this key, which may be missing
+  static const Json& list(const Json& object, const char* key)
+  {
+    static const Json none = Json::array();
+    return object.is_object() && !object.contains(key) ? none : object.at(key);
+  }
+
   static void refuse_extension(const Json& object, const char* extension, const char* what)
   {
     if(object.contains("extensions") && object["extensions"].contains(extension))
@@ -123,17 +130,16 @@ public:
   std::vector<std::string> names_of_files(const char* parts) const
   {
     std::vector<std::string> names;
-    if(json.contains(parts))
-      for(const Json& part : json[parts])
-        if(part.contains("uri") && part["uri"].get_ref<const std::string&>().rfind("data:", 0) != 0)
-          names.push_back(decoded(part["uri"]));
+    for(const Json& part : list(json, parts))
+      if(part.contains("uri") && part["uri"].get_ref<const std::string&>().rfind("data:", 0) != 0)
+        names.push_back(decoded(part["uri"]));
     return names;
   }
 
   // Throws if a reader needs an extension for more than how the surface looks.
   void check_required_extensions() const
   {
-    for(const Json& required : json.value("extensionsRequired", Json::array()))
+    for(const Json& required : list(json, "extensionsRequired"))
     {
       const auto& name = required.get_ref<const std::string&>();
       const auto contains = [&name](const char* part) {
@@ -175,10 +181,7 @@ public:
 
   std::array<double, 3> vector(const Array& array, std::size_t i) const
   {
-    std::array<float, 3> value;
-    std::memcpy(value.data(), buffers[array.buffer].data() + array.begin + i * array.stride,
-                sizeof(value));
-    return {value[0], value[1], value[2]};
+    return {component(array, i, 0), component(array, i, 1), component(array, i, 2)};
   }
 
   void set_vector(const Array& array, std::size_t i, const std::array<double, 3>& v)
@@ -203,20 +206,14 @@ public:
     Json& accessor = json["accessors"][index];
     const std::string type = accessor["type"];
     const Array a = array(index, type);
-    const auto component = [&](std::size_t i, std::size_t k) {
-      float value = 0;
-      std::memcpy(&value, buffers[a.buffer].data() + a.begin + i * a.stride + k * sizeof(value),
-                  sizeof(value));
-      return double(value);
-    };
     Json low = Json::array(), high = Json::array();
     for(std::size_t k = 0; k < number_of_components(type) && a.size > 0; ++k)
     {
-      double least = component(0, k), most = least;
+      float least = component(a, 0, k), most = least;
       for(std::size_t i = 0; i < a.size; ++i)
       {
-        least = (std::min)(least, component(i, k));
-        most = (std::max)(most, component(i, k));
+        least = (std::min)(least, component(a, i, k));
+        most = (std::max)(most, component(a, i, k));
       }
       low.push_back(least);
       high.push_back(most);
@@ -294,6 +291,16 @@ private:
                                                             : 4;
   }
 
+  // a number of a vector
+  float component(const Array& array, std::size_t i, std::size_t k) const
+  {
+    float value = 0;
+    std::memcpy(&value,
+                buffers[array.buffer].data() + array.begin + i * array.stride + k * sizeof(value),
+                sizeof(value));
+    return value;
+  }
+
   static std::size_t number_of_components(const std::string& type)
   {
     return type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1;
@@ -328,7 +335,7 @@ private:
     if(depth_of(text) > 1000) // what copies and writes it calls itself for each
       throw std::runtime_error(file + ": nests lists and objects more than 1000 deep");
     json = Json::parse(text);
-    for(const Json& buffer : json.value("buffers", Json::array()))
+    for(const Json& buffer : list(json, "buffers"))
     {
       const std::size_t size = whole(buffer.at("byteLength"));
       const std::string uri = buffer.value("uri", "");

@@ -171,15 +171,15 @@ private:
     std::vector<std::size_t> result;
     if(json.contains("scenes"))
     {
-      for(const auto& node : json["scenes"].at(Gltf::whole(json, "scene", 0))
-                                .value("nodes", Gltf::Json::array()))
+      const Gltf::Json& scene = json["scenes"].at(Gltf::whole(json, "scene", 0));
+      for(const auto& node : Gltf::list(scene, "nodes"))
         result.push_back(Gltf::whole(node));
       return result;
     }
-    const auto& nodes = json.value("nodes", Gltf::Json::array());
+    const Gltf::Json& nodes = Gltf::list(json, "nodes");
     std::set<std::size_t> children;
     for(const auto& node : nodes)
-      for(const auto& child : node.value("children", Gltf::Json::array()))
+      for(const auto& child : Gltf::list(node, "children"))
         children.insert(Gltf::whole(child));
     for(std::size_t node = 0; node < nodes.size(); ++node)
       if(children.count(node) == 0)
@@ -209,7 +209,7 @@ private:
       for(const auto& primitive : m_gltf.json.at("meshes").at(mesh).at("primitives"))
         read_primitive(primitive, to_scene);
     }
-    for(const auto& child : node.value("children", Gltf::Json::array()))
+    for(const auto& child : Gltf::list(node, "children"))
       read_node(Gltf::whole(child), to_scene, depth + 1);
   }
 

@@ -55,5 +55,10 @@ int main()
   }
   std::cout << report.iterations << " iterations, energy " << report.energy.front() << " -> "
             << report.final_energy() << std::endl;
-  return CGAL::IO::write_polygon_mesh("bent_gutter.off", mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
+  if(!CGAL::IO::write_polygon_mesh("bent_gutter.off", mesh))
+  {
+    std::cerr << "bent_gutter.off cannot be written" << std::endl;
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
 }

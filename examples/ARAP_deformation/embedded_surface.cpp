@@ -135,5 +135,10 @@ int main()
             << std::endl;
 
   std::ofstream out("embedded_surface.off");
-  return CGAL::IO::write_OFF(out, points, faces) ? EXIT_SUCCESS : EXIT_FAILURE;
+  if(!CGAL::IO::write_OFF(out, points, faces) || !out.flush())
+  {
+    std::cerr << "embedded_surface.off cannot be written" << std::endl;
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
 }

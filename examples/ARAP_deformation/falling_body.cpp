@@ -26,6 +26,7 @@ bool write(const std::string& name, const std::vector<Point>& points,
   file << "Tetrahedra\n" << tetrahedra.size() << '\n';
   for(const Tetrahedron& t : tetrahedra)
     file << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << ' ' << t[3] + 1 << " 0\n";
+  file << "End\n";
   return bool(file.flush());
 }
 

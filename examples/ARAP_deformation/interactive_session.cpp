@@ -20,7 +20,7 @@ int main(int argc, char** argv)
 {
   const std::string file = argc > 1 ? argv[1] : CGAL::data_file_path("meshes/elephant.off");
   Mesh mesh;
-  if(!CGAL::IO::read_polygon_mesh(file, mesh))
+  if(!CGAL::IO::read_polygon_mesh(file, mesh) || mesh.is_empty())
   {
     std::cerr << file << " cannot be read as a surface" << std::endl;
     return EXIT_FAILURE;
@@ -48,6 +48,11 @@ int main(int argc, char** argv)
 
   // drag and turn the handle a little in each frame; a few iterations per frame are enough
   const std::vector<vertex_descriptor> handle = deformation.control_vertices();
+  if(handle.empty())
+  {
+    std::cerr << file << " is flat: it has no vertex above its middle" << std::endl;
+    return EXIT_FAILURE;
+  }
   Point pivot = mesh.point(handle.front());
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()));
   const Kernel::Vector_3 step(0, 0.01 * (*highest - *lowest), 0);

@@ -34,7 +34,7 @@ cmake --build application -j "$(nproc)" >cmake.log || { cat cmake.log; exit 1; }
 
 echo "all is removed"
 apt purge --autoremove arap-deform libarap-deformation-dev cmake g++ make
-! dpkg -l arap-deform libarap-deformation-dev 2>/dev/null | grep '^i'
+if dpkg -l arap-deform libarap-deformation-dev 2>/dev/null | grep '^i'; then exit 1; fi
 files >after
 diff before after
 echo "The clean root is as before: $(wc -l <after) files and folders."

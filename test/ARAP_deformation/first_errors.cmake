@@ -11,7 +11,11 @@ list(FILTER headers EXCLUDE REGEX "/internal/|/license/")
 list(REMOVE_ITEM INCLUDE_DIRS "")
 list(TRANSFORM INCLUDE_DIRS PREPEND "-I")
 
+# with other headers than all, where only these include what is not there
 function(check_first_error flag sentence)
+  if(ARGN)
+    set(headers ${ARGN})
+  endif()
   foreach(header IN LISTS headers)
     execute_process(
       COMMAND ${COMPILER} -std=c++17 ${flag} -E -Wfatal-errors -x c++
@@ -26,6 +30,12 @@ endfunction()
 check_first_error(-std=c++14 "CGAL/ARAP_deformation needs C[+][+]17|CGAL requires C[+][+] 17")
 check_first_error(-DARAP=1 "CGAL/ARAP_deformation: the macro ARAP is defined")
 check_first_error("-DCGAL_VERSION_H;-DCGAL_VERSION_NR=1050411000" "CGAL/ARAP_deformation needs CGAL 5.5")
+set(old ${CMAKE_CURRENT_BINARY_DIR}/old_eigen)
+foreach(header Core SparseCore)
+  file(WRITE ${old}/Eigen/${header} "#define EIGEN_VERSION_AT_LEAST(x, y, z) 0\n")
+endforeach()
+check_first_error(-I${old} "CGAL/ARAP_deformation needs Eigen 3.4 or newer" CGAL/ARAP_deformation.h
+                  CGAL/arap_deform.h CGAL/ARAP_deformation/Surface_mesh_deformation.h)
 set(INCLUDE_DIRS "")
 check_first_error("" "CGAL/ARAP_deformation needs Eigen")
 list(LENGTH headers number)

@@ -1744,14 +1744,17 @@ void check_tried_once(Counted& d, const std::vector<Mesh::Vertex_index>& handle,
   }
 }
 
+Shape flat_sheet()
+{
+  return grid("sheet", 20, 10, [](double u, double v) { return Eigen::Vector3d(2 * u, v, 0); });
+}
+
 // A soft target of little weight that stays far away: the guess is tried once, not in each frame of
 // a drag.
 void test_far_soft_target()
 {
   test_case() = "a soft target far away";
-  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
-    return Eigen::Vector3d(2 * u, v, 0);
-  });
+  const Shape shape = flat_sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
   Counted d(mesh);
   CHECK(d.set_options(options_for(Cell_scheme::spokes_and_rims(), Minimizer::local_global,
@@ -1803,9 +1806,7 @@ void test_turned_handle()
 void test_cost_of_guess()
 {
   test_case() = "the cost of a guess";
-  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
-    return Eigen::Vector3d(2 * u, v, 0);
-  });
+  const Shape shape = flat_sheet();
   const Scenario s = scenario(shape, 1.2);
   Mesh mesh = make_mesh<Mesh>(shape);
   Counted d(mesh);
@@ -1822,9 +1823,7 @@ void test_cost_of_guess()
 void test_factor_of_rotations()
 {
   test_case() = "the factor of smooth rotations";
-  const Shape shape = grid("sheet", 20, 10, [](double u, double v) {
-    return Eigen::Vector3d(2 * u, v, 0);
-  });
+  const Shape shape = flat_sheet();
   Mesh mesh = make_mesh<Mesh>(shape);
   Counted d(mesh);
   Options options = d.options();

@@ -30,8 +30,11 @@ inline double megabytes(const std::string& name)
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// The next peak is of what comes now.
-inline void reset_peak() { std::ofstream("/proc/self/clear_refs") << "5" << std::flush; }
+// The next peak is of what comes now. Returns whether that succeeded.
+inline bool reset_peak()
+{
+  return bool(std::ofstream("/proc/self/clear_refs") << "5" << std::flush);
+}
 
 } // namespace benchmark
 

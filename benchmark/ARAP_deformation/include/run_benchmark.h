@@ -208,7 +208,7 @@ int run_benchmark(int argc, char** argv, const std::string& name, const std::str
 #ifndef NDEBUG
     std::cout << "NOTICE: assertions are enabled: these are not the times of a release build\n";
 #endif
-    read_results(settings); // fails now rather than after the run
+    read_results(settings); // if they are of another machine, fails now rather than after the run
     const Json section = run(settings);
     print_text(std::cout, section);
     if(!settings.json_file.empty())

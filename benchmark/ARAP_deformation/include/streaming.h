@@ -32,6 +32,8 @@ inline std::uint64_t sum(const std::uint64_t* begin, const std::uint64_t* end)
     for(int k = 0; k < 8; ++k)
       sums[k] += begin[k];
   std::uint64_t total = 0;
+  for(; begin != end; ++begin)
+    total += *begin;
   for(std::uint64_t s : sums)
     total += s;
   return total;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Packs the npm package, installs it in an empty folder, and tests it there: types, errors, and
 # energies against those of the command arap_deform.
-# usage: bindings/javascript/test/run.sh PACKAGE [FOLDER] FOLDER: meshes NAME.off with NAME.sel and
-# NAME.def
+# usage: bindings/javascript/test/run.sh PACKAGE [FOLDER]
+#   FOLDER  has meshes NAME.off with NAME.sel and NAME.def
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../../.." && pwd)
 package=$(cd "$1" && pwd)

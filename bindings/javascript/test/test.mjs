@@ -7,6 +7,7 @@ import { load, ArapError } from 'arap-deformation';
 import { models } from './models.js';
 
 const arap = await load();
+await assert.rejects(load({ wasmBinry: null }), /wasmBinry/);
 const command = process.env.ARAP_DEFORM;
 
 const numbers = (file) =>
@@ -188,6 +189,7 @@ refuses(() => session.advance({ damping: '1' }), TypeError, /damping/);
 refuses(() => session.advance({ damping: -1 }), ArapError, /damping/, 'invalid_option');
 refuses(() => session.advance({ forces: [1, 2] }), RangeError, /rows of 3/);
 refuses(() => session.advance({ forces: [1, 2, 3] }), ArapError, /forces/);
+refuses(() => session.advance({ forces: [] }), ArapError, /forces/);
 refuses(() => session.transform([], [], { fromrest: true }), TypeError, /fromrest/);
 refuses(() => session.transform([], [], { fromRest: 'no' }), TypeError, /fromRest/);
 for (const weight of [null, '', '1', undefined])
@@ -214,6 +216,15 @@ refuses(() => arap.session(points, faces, { corners: '3' }), TypeError, /corners
 refuses(() => arap.session(new BigInt64Array(3), faces), TypeError, /bigint/);
 refuses(() => arap.session(points, faces, { corners: 2 }), ArapError, /three corners/);
 arap.session(points, [], { volume: true, corners: [] }).dispose(); // is as without a list
+for (const [list, corners] of [
+  [[0, 1, 2, 3, 0, 1, 2], [4, 3]],
+  [[0, 1, 2, 3, 0, 1, 2, -1], 4],
+])
+  refuses(
+    () => arap.session(points, list, { volume: true, corners }),
+    ArapError,
+    /tetrahedron 1 has a negative corner/,
+  );
 refuses(() => arap.session(points, faces, { weights: 'none' }), ArapError, /weights 'none'/);
 session.insertHandles([0, 1, 2]);
 refuses(() => session.setTargets([0, 1], [0, 0, 0]), ArapError, /2 handles/);

@@ -15,6 +15,8 @@ session.transform([0], [], { fromRest: true });
 session.setTargetSurface(0, [], [], { corners: [3, 4] });
 const simplices: (number | undefined)[] = session.locateAll([]).map((place) => place?.simplex);
 const handles: Int32Array = session.insertPoints(session.locateAll([]));
+type Attribute = Float32Array | Float64Array | Uint16Array | Uint8ClampedArray; // as three.js has it
+arap.session(new Float32Array(9) as Attribute, new Uint16Array(3) as Attribute);
 session.positions([{ simplex: 0, coordinates: new Float64Array(3) }]);
 session.setWeight(handles, [1, 2]);
 const weight: number = session.weight(0),

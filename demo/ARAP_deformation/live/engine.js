@@ -2,7 +2,6 @@
 export class Engine {
   #calls = [];
   #current = null;
-  #made = 0;
   #failure = null;
 
   constructor(worker, wasm) {
@@ -16,7 +15,7 @@ export class Engine {
         this.#calls = [];
       };
       worker.onmessage = ({ data }) => {
-        if (data.id === 0) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
+        if (data.isReady) return resolve(wasm.then((bytes) => this.call('load', { wasm: bytes })));
         if (!this.#current) return; // after a failure
         const { resolve: done, reject: fail } = this.#current;
         this.#current = null;
@@ -35,7 +34,7 @@ export class Engine {
     if (this.#failure) return Promise.reject(this.#failure);
     return new Promise((resolve, reject) => {
       this.#calls.push({
-        message: { ...message, operation, id: ++this.#made },
+        message: { ...message, operation },
         transfer,
         resolve,
         reject,

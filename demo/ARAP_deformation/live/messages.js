@@ -1,5 +1,5 @@
 // What the page says: sentences at the foot of the view, what it is busy with, and the help.
-import { $ } from './state.js';
+import { $, view } from './state.js';
 
 let messageTimer = 0;
 
@@ -7,7 +7,7 @@ export function say(sentence, isError = false) {
   clearTimeout(messageTimer);
   $('message').hidden = !sentence;
   $('message').className = isError ? 'error' : '';
-  $('message').firstElementChild.textContent = sentence;
+  $('message').firstElementChild.textContent = $('spoken').textContent = sentence;
   if (sentence && !isError) messageTimer = setTimeout(() => say(''), 6000);
 }
 
@@ -36,6 +36,7 @@ export async function busy(what, f, blocks = false) {
   $('busy').textContent = what;
   const show = () => {
     $('busy').hidden = false;
+    $('spoken').textContent = what;
   };
   const timer = setTimeout(show, 150);
   try {
@@ -51,6 +52,7 @@ export async function busy(what, f, blocks = false) {
 }
 
 export function closeHelp() {
+  if ($('help').contains(document.activeElement)) view.canvas.focus({ preventScroll: true });
   $('help').hidden = true;
   try {
     localStorage.setItem('arap-help', 'seen');

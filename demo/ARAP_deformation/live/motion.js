@@ -8,7 +8,7 @@ export const rigidParts = (handle) => {
     p = new THREE.Vector3(),
     q = new THREE.Quaternion();
   m.decompose(p, q, new THREE.Vector3());
-  return { m, q, place: new THREE.Vector3(...handle.pivot).applyMatrix4(m) };
+  return { q, place: new THREE.Vector3(...handle.pivot).applyMatrix4(m) };
 };
 
 // the motion that turns by q and brings the pivot to a place

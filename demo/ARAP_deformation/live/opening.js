@@ -18,7 +18,7 @@ export const open = (mesh, name, rest) =>
 // Ends what the user and the shape are about.
 export async function stopAll() {
   if (view.gizmo.dragging) view.gizmo.pointerUp(null);
-  await commitNow();
+  await (page.dragging?.hasMoved ? commit() : commitNow());
   stopPlaying();
   cancelStroke();
   page.dragging = null;
@@ -73,6 +73,7 @@ export async function openInTurn(
     part.inert = true;
   });
   placeGizmo();
+  let isHalfOpen = false; // the engine has it, but not the page
   try {
     await engine.call('open', {
       points,
@@ -82,6 +83,7 @@ export async function openInTurn(
       weights,
       options: opened.held.options,
     });
+    isHalfOpen = true;
     page.shape = opened;
     forgetPast();
     page.keys = [];
@@ -103,8 +105,13 @@ export async function openInTurn(
     say(note);
     // the first step does all that is done once, before anything is dragged
     if (page.shape.handles.length && n < 150000) handlesMoved();
+    isHalfOpen = false;
+  } catch (error) {
+    if (!isHalfOpen) throw error;
+    Object.assign(page, { shape: null, chosen: -1 });
+    throw new Error(`${name} could not be opened: ${error.message}; open another shape`);
   } finally {
-    if (!page.shape) Object.assign(page, { shape, chosen });
+    if (!page.shape && !isHalfOpen) Object.assign(page, { shape, chosen });
     $('model').value = page.shape?.model ?? '';
     parts.forEach((part) => {
       part.inert = false;

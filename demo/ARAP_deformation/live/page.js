@@ -23,18 +23,21 @@ function frame(time) {
   }
 }
 
+const ready = engine.ready.then(async () => {
+  if (matchMedia('(max-width: 700px)').matches) actions.more();
+  try {
+    $('help').hidden = localStorage.getItem('arap-help') === 'seen';
+  } catch {
+    /* not allowed for files */
+  }
+  await openModel('cactus');
+  requestAnimationFrame(frame);
+});
+ready.catch((error) => giveUp(`The engine could not be started: ${error.message}.`));
+
 // for tests and for tinkering
 window.arap = {
-  ready: engine.ready.then(async () => {
-    if (matchMedia('(max-width: 700px)').matches) actions.more();
-    try {
-      $('help').hidden = localStorage.getItem('arap-help') === 'seen';
-    } catch {
-      /* not allowed for files */
-    }
-    await openModel('cactus');
-    requestAnimationFrame(frame);
-  }),
+  ready,
   state: () =>
     page.shape && {
       name: page.shape.name,
@@ -96,5 +99,3 @@ window.arap = {
   view,
   engine,
 };
-
-engine.ready.catch((error) => giveUp(`The engine could not be started: ${error.message}.`));

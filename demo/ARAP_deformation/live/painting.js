@@ -130,7 +130,7 @@ export async function painted(prepare = () => {}) {
     } else {
       takePaint(fits);
       const handle = page.shape.handles[paints - HANDLE];
-      if (handle && isThere(handle)) page.chosen = paints - HANDLE;
+      if (tool !== 'grab' && handle && isThere(handle)) page.chosen = paints - HANDLE;
       await hold();
     }
     if (!page.shape.fixed && page.shape.handles.length === 1)
@@ -165,6 +165,9 @@ export async function placePoint(x, y) {
     if (!place) throw new Error('there is no tetrahedron at this place');
     const pivot = placeOf(place, shape.points); // in the rest shape
     const matrix = matrixOf(pivot, new THREE.Quaternion(), hit.point);
+    // not with a number that a stroke has, whose turn is to come
+    const used = shape.status.reduce((a, b) => Math.max(a, b), page.stroke ? page.paints : 0);
+    while (shape.handles.length <= used - HANDLE) shape.handles.push(newHandle());
     shape.handles.push(newHandle({ pivot, matrix, point: place }));
     await hold();
     page.isHeld = true;

@@ -68,6 +68,7 @@ function showPanel() {
   const { shape } = page;
   if (!shape) return;
   const region = (status, text) => ({
+    title: '',
     content: `<i style="background:${css(colorOf(status))}"></i>${text}`,
     isOn: page.paints === status && paintsRegions(),
     onclick: () => paintWith(status),
@@ -75,7 +76,7 @@ function showPanel() {
   const next = nextHandle();
   showButtons($('regions'), [
     region(FREE, 'Free'),
-    region(FIXED, 'Fixed'),
+    { ...region(FIXED, 'Fixed'), title: 'What stays where it is at rest' },
     ...handlesWithVertices().map((k) => region(k + HANDLE, `Handle ${k + 1}`)),
     region(next + HANDLE, next ? 'New handle' : 'Handle 1'),
   ]);

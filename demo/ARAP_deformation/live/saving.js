@@ -104,7 +104,9 @@ export const saves = {
       shown = view.gizmo.getHelper().visible;
     view.gizmo.getHelper().visible = false;
     view.render();
-    view.canvas.toBlob((blob) => save(`${name}.png`, blob));
+    view.canvas.toBlob((blob) =>
+      blob ? save(`${name}.png`, blob) : say('The picture could not be made.', true),
+    );
     view.gizmo.getHelper().visible = shown;
     view.isDirty = true;
   },

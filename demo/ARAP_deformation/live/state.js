@@ -10,7 +10,7 @@ export function giveUp(sentence) {
   $('help').hidden = $('tools').inert = $('panel').inert = true;
   document.querySelector('main').inert = $('message').hidden = false;
   $('message').className = 'error';
-  $('message').firstElementChild.textContent = sentence;
+  $('message').firstElementChild.textContent = $('spoken').textContent = sentence;
 }
 
 export const view = (() => {

@@ -85,6 +85,9 @@ export async function change(f, stops = true) {
     complain(error);
     clearTimeout(timer);
     timer = 0;
+    // and what the pointer is about, which began after it
+    page.dragging = page.stroke = null;
+    if (view.gizmo.dragging) view.gizmo.pointerUp(null);
     await goTo(now);
   }
 }

@@ -43,10 +43,9 @@ export class View {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
+    this.canvas.setAttribute('role', 'img');
     this.canvas.setAttribute('aria-label', 'the shape');
-    this.canvas.addEventListener('webglcontextrestored', () => {
-      this.isDirty = true;
-    });
+    this.canvas.addEventListener('webglcontextrestored', () => this.moved());
     container.append(this.canvas);
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef1f5);

@@ -182,9 +182,9 @@ onmessage = async ({ data }) => {
   try {
     const answer = (await operations[data.operation](data)) ?? {};
     const moved = ['points', 'rest', 'values'].map((name) => answer[name]?.buffer).filter(Boolean);
-    postMessage({ ...answer, id: data.id }, moved);
+    postMessage(answer, moved);
   } catch (error) {
-    postMessage({ id: data.id, error: error.message || String(error) });
+    postMessage({ error: error.message || String(error) });
   }
 };
-postMessage({ id: 0 });
+postMessage({ isReady: true });

@@ -48,6 +48,6 @@ END
 { printf "addEventListener('load', () => look_at_all(["; printf "'%s'," *.html; echo "].filter(name => name != 'look.html')));</script>"; } >>look.html
 found=$(chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files \
           --host-resolver-rules="MAP * ~NOTFOUND" --virtual-time-budget=100000000 --dump-dom \
-          "file://$PWD/look.html" 2>/dev/null | grep -v '^<')
+          "file://$PWD/look.html" 2>/dev/null | grep -v '^<') || { echo "look.sh: Chromium failed" >&2; exit 1; }
 echo "$found"
-[[ $found == "looked at "* ]]
+[[ $found == "looked at "[1-9]*" pages, "[1-9]* ]]

@@ -17,6 +17,9 @@
 
 #ifndef CGAL_ARAP_DEFORMATION_COMPILED
 #include <Eigen/SparseCore>
+#if !EIGEN_VERSION_AT_LEAST(3, 4, 0)
+#error "CGAL/ARAP_deformation needs Eigen 3.4 or newer."
+#endif
 #endif
 
 #include <array>

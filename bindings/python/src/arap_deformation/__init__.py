@@ -136,6 +136,10 @@ def _float(name: str, value: float) -> float:
     return float(_array(name, value, "fiu", ()))
 
 
+def _bool(name: str, value: bool) -> bool:
+    return bool(_array(name, value, "b", ()))
+
+
 def _integers(name: str, value: ArrayLike, *shape: Optional[int], least: int = 0) -> NDArray[Any]:
     array = _array(name, value, "iu", shape)
     if array.size and (array.min() < least or array.max() >= 2**31):
@@ -244,11 +248,12 @@ class Deformation:
     def __init__(self, vertices: ArrayLike, simplices: ArrayLike, *, tetrahedra: bool = False,
                  weights: str = "safe_cotangent", **options: Any) -> None:
         """vertices: (n, 3), the rest shape; simplices: (m, k) faces of k corners, a list of faces of
-        any numbers of corners, or (m, 4) tetrahedra; weights: 'safe_cotangent', 'cotangent', 'clamped_cotangent' or 'uniform';
-        options: the properties of those names."""
+        any numbers of corners, or (m, 4) tetrahedra; weights: 'safe_cotangent', 'cotangent',
+        'clamped_cotangent' or 'uniform'; options: the properties of those names."""
+        is_volume = _bool("tetrahedra", tetrahedra)
         self._session = _Session(_floats("vertices", vertices, None, 3),
-                                 _simplices("simplices", simplices, 4 if tetrahedra else None),
-                                 bool(tetrahedra), str(weights))
+                                 _simplices("simplices", simplices, 4 if is_volume else None),
+                                 is_volume, str(weights))
         self._session.set_options({name: _text(value) for name, value in options.items()})
 
     def __reduce_ex__(self, protocol: Any) -> Any:
@@ -372,10 +377,11 @@ class Deformation:
                                          _simplices("faces", faces))
 
     def transform(self, handles: ArrayLike, matrix: ArrayLike, from_rest: bool = False) -> None:
-        """Applies a (4, 4) or (3, 4) matrix to the targets of handles, or to their rest shape.
-        Targets of handles that are listed twice are moved twice."""
+        """Moves the targets of handles by a (4, 4) or (3, 4) matrix, or, with from_rest, to where it
+        takes the points of the rest shape, which stays as it is. Targets of handles that are listed
+        twice are moved twice."""
         self._session.transform(_indices("handles", handles), _floats("matrix", matrix, None, 4),
-                                bool(from_rest))
+                                _bool("from_rest", from_rest))
 
     def weight(self, handles: ArrayLike) -> Any:
         """The weight of a target, or (k,) of k targets; infinite: hard."""
@@ -435,9 +441,11 @@ class Deformation:
         volume, modulus, rate of decay of velocities, acceleration (3,), forces (n, 3)."""
         numbers = [_float(*pair) for pair in (("time_step", time_step), ("density", density),
                                               ("modulus", modulus), ("damping", damping))]
+        given = _floats("forces", [] if forces is None else forces, None, 3)
+        if forces is not None and not len(given) and len(self.vertices):
+            raise ValueError("forces have three coordinates for each of the vertices; there are none")
         return StepReport(**self._session.advance(
-            *numbers, _floats("acceleration", acceleration, 3),
-            _floats("forces", [] if forces is None else forces, None, 3), visitor))
+            *numbers, _floats("acceleration", acceleration, 3), given, visitor))
 
     def velocities(self) -> Floats:
         """(n, 3): the velocities that the next step begins with; zero outside the region, and after

@@ -478,6 +478,7 @@ const steps = {
     await shot('01_first_visit');
     await page.click('#begin');
     assert(await page.$eval('#help', (help) => help.hidden));
+    assert.equal(await page.evaluate(() => document.activeElement.tagName), 'CANVAS');
     await page.reload();
     await page.evaluate(() => window.arap.ready);
     assert(await page.$eval('#help', (help) => help.hidden), 'the help comes once');
@@ -644,6 +645,18 @@ const steps = {
     answer = true;
     assert.match(questions.at(-1), /^my_bar .* sheet instead\?$/);
     assert.equal((await settled()).name, 'my_bar');
+    // a drag that such a question ends is a step
+    const { undo: before, handles: dragged } = await settled();
+    const [px, py] = await besideGizmo();
+    await drag([px, py], [px + 20, py]);
+    answer = false;
+    await page.evaluate(() => void window.arap.openModel('sheet'));
+    await page.waitForFunction((n) => window.arap.state().undo > n, {}, before);
+    await page.mouse.up();
+    answer = true;
+    assert.equal((await settled()).undo, before + 1);
+    await page.click('#undo');
+    assert.deepEqual((await settled()).handles[0].matrix, dragged[0].matrix);
     assert.equal(await page.$eval('#model', (m) => m.value), '');
     await page.click('#message button');
   },
@@ -1025,6 +1038,46 @@ const steps = {
       const { matrix } = (await resting).handles[0];
       assert.deepEqual(matrix, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
     }
+    // a point and a stroke that wait for their turn have different numbers
+    await openModel('bar');
+    const both = await whileBusy(async () => {
+      for (const key of ['r', 'p']) await page.keyboard.press(key);
+      await page.mouse.click(...(await middle()));
+      for (const key of ['b', '3']) await page.keyboard.press(key);
+      const [x, y] = await middle();
+      await drag([x + 40, y], [x + 70, y]);
+      await page.mouse.up();
+    });
+    assert.deepEqual(
+      both.handles.map(({ vertices, point }) => [vertices > 0, point]),
+      [
+        [true, false],
+        [true, false],
+        [false, true],
+      ],
+    );
+    // what fails in a drag is undone, and the drag with it
+    for (const byGizmo of [true, false]) {
+      await openModel('bar');
+      await page.evaluate(() => {
+        const { engine } = window.arap;
+        const call = engine.call.bind(engine);
+        engine.call = (name, ...others) =>
+          name === 'options' ? Promise.reject(new Error('no such luck')) : call(name, ...others);
+      });
+      const [x, y] = byGizmo ? (await state()).handles[0].screen : await besideGizmo();
+      await drag([x, y], [x + 20, y]);
+      await page.select('#cells', 'spokes');
+      await page.waitForFunction(() => /No such luck/.test(window.arap.state().message));
+      await page.evaluate(() => delete window.arap.engine.call);
+      await page.mouse.move(300, 300);
+      await page.mouse.up();
+      const { handles, undo: steps } = await settled();
+      assert.deepEqual(handles[0].matrix, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+      assert.equal(steps, 0);
+      assert.equal(await page.$eval('#cells', (c) => c.value), 'spokes_and_rims');
+      await page.click('#message button');
+    }
     // no point in a shape that was opened after the click
     await whileBusy(async () => {
       await page.keyboard.press('r');
@@ -1040,6 +1093,16 @@ const steps = {
   },
 
   async 'handles that are gone'() {
+    // after a point is removed, no other handle is, and none is chosen
+    await openModel('sheet');
+    await page.keyboard.press('p');
+    await page.mouse.click(...(await middle()));
+    assert.equal((await settled()).handles.length, 2);
+    for (let k = 0; k < 2; ++k) {
+      await page.keyboard.press('Delete');
+      assert.equal((await settled()).handles.length, 1);
+      assert(await page.$eval('#handle', (h) => h.hidden));
+    }
     await openModel('sheet');
     await page.keyboard.press('b');
     await page.keyboard.press('3');

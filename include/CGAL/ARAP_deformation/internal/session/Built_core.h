@@ -33,10 +33,12 @@ namespace CGAL {
 namespace ARAP {
 namespace internal {
 
-// Keeps a program from linking with a core whose memory Eigen aligns differently, for example if
-// only one is compiled with -mavx: one would free memory that the other has allocated differently.
-template <int bytes = EIGEN_MAX_ALIGN_BYTES>
-struct Eigen_alignment
+// Keeps a program from linking with a core of another version of Eigen, or one whose memory Eigen
+// aligns differently, for example if only one is compiled with -mavx: one would free memory that
+// the other has allocated differently.
+template <int alignment = EIGEN_MAX_ALIGN_BYTES,
+          int version = 10 * EIGEN_WORLD_VERSION + EIGEN_MAJOR_VERSION>
+struct Eigen_build
 {};
 
 // a sentence on the stiffness of the cells of a region
@@ -62,7 +64,7 @@ struct Built_core
 
   // computes what depends on the region alone
   Outcome make_core(const Models& models, Region& region, Energy_model& energy_model,
-                    Minimization_order order, const Options& options, Eigen_alignment<> = {});
+                    Minimization_order order, const Options& options, Eigen_build<> = {});
 
   // a sentence on what the core found
   Outcome explain(const Diagnosis& diagnosis) const;

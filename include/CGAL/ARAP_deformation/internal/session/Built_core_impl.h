@@ -68,7 +68,7 @@ void Built_core::add_points(const Coordinates& present, const Coordinates& rest,
 CGAL_ARAP_INLINE_FUNCTION
 Outcome Built_core::make_core(const Models& models, Region& region, Energy_model& energy_model,
                               Minimization_order order, const Options& options,
-                              Eigen_alignment<>)
+                              Eigen_build<>)
 {
   core = std::make_unique<Deformation_core>(models(), std::move(region), std::move(energy_model),
                                             order, options.threads);
