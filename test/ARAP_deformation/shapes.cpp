@@ -102,15 +102,22 @@ Shape shuffled(const Shape& shape, std::vector<std::size_t>& place)
   return result;
 }
 
+Shape joined(const Shape& first, const Shape& second, const Eigen::Vector3d& shift)
+{
+  Shape both = first;
+  both.name = first.name + " and " + second.name;
+  for(const auto& p : second.points)
+    both.points.push_back(p + shift);
+  const std::size_t n = first.points.size();
+  for(const auto& [a, b, c] : second.triangles)
+    both.triangles.push_back({a + n, b + n, c + n});
+  return both;
+}
+
 Shape two_components(const Shape& shape)
 {
-  Shape both = shape;
+  Shape both = joined(shape, shape, {1.5 * shape.diameter(), 0, 0});
   both.name = "two of " + shape.name;
-  for(const auto& p : shape.points)
-    both.points.push_back(p + Eigen::Vector3d(1.5 * shape.diameter(), 0, 0));
-  for(const auto& [a, b, c] : shape.triangles)
-    both.triangles.push_back({a + shape.points.size(), b + shape.points.size(),
-                              c + shape.points.size()});
   return both;
 }
 

@@ -1529,6 +1529,91 @@ void test_settled_part()
   }
 }
 
+// Parts from which handles are torn away take the guess each by itself, or all together if they are
+// many. One that ends with a spike, where the guess does no better, stays as it is.
+void test_torn_parts()
+{
+  const int m = 30, n = 6, k = 8;
+  const Shape strip = grid("strip", m, n, [](double u, double v) {
+    return Eigen::Vector3d(5 * u, v, 0);
+  });
+  const Shape sheet = grid("sheet", k, k, [](double u, double v) {
+    return Eigen::Vector3d(3 * u, 3 * v, 0);
+  });
+  // by how much the energy is higher when the handles of strips are torn away
+  const auto rise = [&](int number_of_strips, bool has_spike) {
+    test_case() = std::to_string(number_of_strips) + " torn strips";
+    Shape shape;
+    for(int s = 0; s < number_of_strips; ++s)
+      shape = joined(shape, strip, {0, 2.0 * s, 0});
+    const std::size_t first_of_sheet = shape.points.size();
+    if(has_spike)
+      shape = joined(shape, sheet, {10, 0, 0});
+    Mesh mesh = make_mesh<Mesh>(shape);
+    CGAL::ARAP_deformation<Mesh> d(mesh);
+    d.insert_roi_vertices(vertices(mesh));
+    std::vector<Mesh::Vertex_index> handles;
+    for(Mesh::Vertex_index v : mesh.vertices())
+    {
+      const double x = shape.points[v].x(), y = shape.points[v].y();
+      const bool is_of_strip = std::size_t(v) < first_of_sheet;
+      if(is_of_strip ? x == 0 || x == 5 : x == 10 || x == 13 || y == 0 || y == 3)
+        d.insert_control_vertex(v);
+      if(is_of_strip && x == 5)
+        handles.push_back(v);
+    }
+    if(has_spike)
+    {
+      const Mesh::Vertex_index middle(first_of_sheet + std::size_t(k) / 2 * (k + 2));
+      d.insert_control_vertex(middle, Point(11.5, 1.5, 12));
+    }
+    const Report before = d.deform(1000, 1e-4);
+    CHECK(before);
+    d.translate(handles, Kernel::Vector_3(-4, 0, 2));
+    const Report after = d.deform([](const auto&) { return CGAL::ARAP::Visitor_action::stop; });
+    CHECK(after && after.initial_guess == Initial_guess::rotations);
+    return after.final_energy() - before.final_energy();
+  };
+  const double of_one = rise(1, false);
+  CHECK_AT_MOST(std::abs(rise(1, true) / of_one - 1), 1e-3);
+  CHECK_AT_MOST(std::abs(rise(2, true) / of_one - 2), 1e-3);
+  CHECK_AT_MOST(std::abs(rise(9, false) / of_one - 9), 1e-3);
+}
+
+// A strip that is twisted by a full turn holds it, also if something is far away.
+void test_far_part()
+{
+  test_case() = "a twisted strip, and something far away";
+  const int m = 40, n = 4;
+  const Shape strip = grid("strip", m, n, [](double u, double v) {
+    return Eigen::Vector3d(5 * u, 0.5 * v - 0.25, 0);
+  });
+  const Shape shape = joined(strip, grid("sheet", 2, 2, [](double u, double v) {
+    return Eigen::Vector3d(u, v, 0);
+  }), {1e6, 0, 0});
+  Mesh mesh = make_mesh<Mesh>(shape);
+  CGAL::ARAP_deformation<Mesh> d(mesh);
+  d.insert_roi_vertices(vertices(mesh));
+  std::vector<Mesh::Vertex_index> handle;
+  for(std::size_t v = 0; v <= strip.points.size(); ++v) // one of the sheet, too
+    if(const double x = shape.points[v].x(); x == 0 || x >= 5)
+    {
+      d.insert_control_vertex(Mesh::Vertex_index(v));
+      if(x == 5)
+        handle.emplace_back(v);
+    }
+  for(int step = 1; step <= 12; ++step)
+  {
+    const Eigen::AngleAxisd turn(step * std::acos(-1.0) / 6, Eigen::Vector3d::UnitX());
+    for(Mesh::Vertex_index v : handle)
+      d.set_target_position(v, step == 12 ? point(shape.points[v]) : point(turn * shape.points[v]));
+    const Report report = d.deform();
+    CHECK(report && report.final_energy() > 0);
+    if(step == 12)
+      CHECK(report.final_energy() > 0.09);
+  }
+}
+
 // Vertices and points that are held alone have no rotations. But where they have moved almost as a
 // rigid motion does, in each of two components, the guess has it.
 void test_single_handles()
@@ -1866,6 +1951,8 @@ void test_all()
   test_settled_part();
   test_single_handles();
   test_other_part();
+  test_torn_parts();
+  test_far_part();
   test_first_corners();
   test_rounded_targets();
   test_frame_without_weight();

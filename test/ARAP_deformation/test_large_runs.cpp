@@ -255,6 +255,21 @@ void test_runs_without_start()
   first_energies_agree(shape, 20, [](const Shape& of, const Scenario& s, const Options& options) {
     return first_energy(of, s, options, 1);
   });
+  test_case() = "a small part beside a large one, which nobody touches";
+  {
+    const Shape both = joined(shape, sheet(40, 15), {0, 5, 0});
+    Scenario s = twist(both, 1.5);
+    for(std::size_t v = 0; v < shape.points.size(); ++v)
+    {
+      s.selection[v] = (std::min)(s.selection[v], 1);
+      s.targets[v] = shape.points[v];
+    }
+    Options options = options_with_start(Cell_scheme::spokes_and_rims(),
+                                         CGAL::ARAP::Initial_guess::rotations);
+    const double of_rotations = first_energy(both, s, options);
+    options.initial_guess = CGAL::ARAP::Initial_guess::automatic;
+    CHECK_AT_MOST(relative_difference(first_energy(both, s, options), of_rotations), 1e-9);
+  }
   test_case() = "a solver that refuses";
   first_energies_agree(shape, 20, [](const Shape& of, const Scenario& s, const Options& options) {
     return first_energy<Solver_of_large_systems>(of, s, options);

@@ -62,6 +62,9 @@ Shape subdivided(const std::string& name, const Shape& coarse,
 // vertices, triangles and the corners of each triangle in another order; a vertex v is at place[v]
 Shape shuffled(const Shape& shape, std::vector<std::size_t>& place);
 
+// the second one shifted
+Shape joined(const Shape& first, const Shape& second, const Eigen::Vector3d& shift);
+
 Shape two_components(const Shape& shape);
 
 // A dozen of them: open and closed, flat and curved, with sharp and obtuse and irregular triangles.

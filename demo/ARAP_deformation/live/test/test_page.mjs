@@ -1044,9 +1044,7 @@ const steps = {
       for (const key of ['r', 'p']) await page.keyboard.press(key);
       await page.mouse.click(...(await middle()));
       for (const key of ['b', '3']) await page.keyboard.press(key);
-      const [x, y] = await middle();
-      await drag([x + 40, y], [x + 70, y]);
-      await page.mouse.up();
+      await paintMiddle();
     });
     assert.deepEqual(
       both.handles.map(({ vertices, point }) => [vertices > 0, point]),

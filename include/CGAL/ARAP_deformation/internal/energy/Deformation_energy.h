@@ -311,6 +311,7 @@ public:
   {
     m_derivatives.assign(rotations.size(), Rotation_derivative());
     m_changes.assign(rotations.size(), Matrix_3x3{}); // where rotations do not change it stays zero
+    m_is_fitted = fitted_cells();
     for_each_fitted_cell(x, [&](int c, const Matrix_3x3& covariance) {
       m_derivatives[c] = Rotation_derivative(covariance, rotations[c]);
     });
@@ -332,6 +333,7 @@ public:
   {
     m_derivatives = Array<Rotation_derivative>();
     m_changes = Array<Matrix_3x3>();
+    m_is_fitted = Array<char>();
   }
 
   // For each cell whether its rotation is fitted, to its own covariance or, for the first cell of a
@@ -395,12 +397,12 @@ private:
   }
 
   // Calls f(c, S) for each cell that counts whose rotation is fitted to its own covariance S alone,
-  // at the positions x, and for the first one of each group with the sum of theirs.
+  // at the positions x, and for the first one of each group with the sum of theirs; as m_is_fitted
+  // has them.
   // It is no template: for each f there would be another copy of its loops.
   void for_each_fitted_cell(const Points& x,
                             const std::function<void(int, const Matrix_3x3&)>& f)
   {
-    const Array<char> is_fitted = fitted_cells();
     if(!m_groups.is_none())
       m_covariances.resize(static_cast<std::size_t>(number_of_cells()));
     prepare_covariances(x);
@@ -410,11 +412,11 @@ private:
       if(!m_groups.is_none())
         std::copy_n(covariances.data(), end - begin, m_covariances.data() + begin);
       for(int c = begin; c < end; ++c)
-        if(is_fitted[c] && m_groups.is_alone(c))
+        if(m_is_fitted[c] && m_groups.is_alone(c))
           f(c, covariances[static_cast<std::size_t>(c - begin)]);
     });
     m_groups.for_each_group([&](const int* begin, const int* end) {
-      if(is_fitted[*begin])
+      if(m_is_fitted[*begin])
         f(*begin, sum_of_kept_covariances(begin, end, false));
     });
   }
@@ -481,6 +483,7 @@ private:
   Array<Matrix_3x3> m_covariances;                // for these, and for groups
   Array<Rotation_derivative> m_derivatives;       // of all cells; empty if not prepared
   Array<Matrix_3x3> m_changes;                    // of the rotations
+  Array<char> m_is_fitted;                        // for each cell, with these
   int m_number_of_rotation_steps = -1;            // of each fit; negative if not prepared
 };
 

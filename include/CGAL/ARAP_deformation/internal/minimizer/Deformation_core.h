@@ -165,16 +165,19 @@ private:
   const Parts& parts();
   Diagnosis place(const Options& options, Targets& targets, Array<Coordinates>& x,
                   Placement& placement);
-  bool find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
-                       Minimization& minimization, Array<char>& is_placed);
+  Array<int> find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
+                             Minimization& minimization, Array<char>& is_placed);
+  void set_placed(int part, Array<char>& is_placed);
   bool start_with_rotations(const Options& options, const Targets& targets,
                             const Array<Coordinates>& x, Minimization& minimization,
                             Array<char>& is_placed, Report& report);
   bool are_all_placed(const Array<char>& is_placed) const; // whether all free vertices are
+  Array<char> staying(const Array<char>& is_placed) const;
   Diagnosis guess_by_laplacian(const Array<char>& is_placed, const Targets& targets,
                                Array<Coordinates>& x, bool& is_found);
-  bool can_have_coarse_start(const Options& options) const;
-  Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x) const;
+  bool can_have_coarse_start(const Options& options, const Array<char>& stays) const;
+  Array<Matrix_3x3> coarse_rotations(const Options& options, const Array<Coordinates>& x,
+                                     const Array<char>& stays) const;
   void include_near(const Array<Coordinates>& points, Bounding_box& box) const;
   unsigned int threads(unsigned int number) const { return m_models.is_parallel ? number : 1; }
 

@@ -257,6 +257,16 @@ bool Deformation_core::are_all_placed(const Array<char>& is_placed) const
                     [](char placed, char fixed) { return placed || fixed; });
 }
 
+// for each movable vertex, whether it is fixed or placed
+CGAL_ARAP_INLINE_FUNCTION
+Array<char> Deformation_core::staying(const Array<char>& is_placed) const
+{
+  Array<char> result = m_constraints.is_fixed;
+  for(std::size_t v = 0; v < result.size(); ++v)
+    result[v] = result[v] || is_placed[v];
+  return result;
+}
+
 // Moves the free vertices of x that are not placed to the minimum of the energy of their Laplacian
 // coordinates, if it is found.
 CGAL_ARAP_INLINE_FUNCTION
@@ -294,25 +304,28 @@ Diagnosis Deformation_core::guess_by_laplacian(const Array<char>& is_placed, con
 // need few iterations, nor for elements, which hardly resist bending, nor for a preview or a frame;
 // and that surface has no rows and no stiffness.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::can_have_coarse_start(const Options& options) const
+bool Deformation_core::can_have_coarse_start(const Options& options,
+                                             const Array<char>& stays) const
 {
-  constexpr std::size_t least_vertices = 20000; // with fewer it takes longer than it saves
+  constexpr std::ptrdiff_t least_vertices = 20000; // with fewer it takes longer than it saves
   constexpr unsigned int least_iterations = 20;
   constexpr auto most_neighbors = static_cast<std::size_t>((std::numeric_limits<int>::max)());
   return m_region.dimension == 2 && has_vertex_cells() && options.iterations >= least_iterations &&
-         m_constraints.number_of_free_vertices() >= least_vertices &&
+         std::count(stays.begin(), stays.end(), 0) >= least_vertices &&
          2 * m_region.corners.size() <= most_neighbors && // each corner has two
          m_constraints.rows.size() == 0 && m_constraints.hard_rows.size() == 0 &&
          m_energy_model.stiffness.empty();
 }
 
-// The rotation at each vertex, from a run on a coarser surface. That begins at x, or if it is
-// large, too, with a run on a still coarser one. None if that fails, or would take too long.
+// The rotation at each vertex that does not stay, from a run on a coarser surface. That begins at
+// x, or if it is large, too, with a run on a still coarser one. None if that fails, or would take
+// too long.
 CGAL_ARAP_INLINE_FUNCTION
 Array<Matrix_3x3> Deformation_core::coarse_rotations(const Options& options,
-                                                     const Array<Coordinates>& x) const
+                                                     const Array<Coordinates>& x,
+                                                     const Array<char>& stays) const
 {
-  Coarse_region coarse(m_region, m_constraints.is_fixed, m_state->free_neighborhood.is_near);
+  Coarse_region coarse(m_region, stays, find_free_neighborhood(m_region, stays).is_near);
   const Coarse_space& space = coarse.space();
   if(space.number_of_nodes() > space.number_of_vertices() / 2)
     return {};
@@ -415,11 +428,11 @@ Diagnosis Deformation_core::place(const Options& options, Targets& targets, Arra
   return {};
 }
 
-// Finds the parts from which handles were torn away. If there is one, all others are placed, as
-// they stay. Returns whether there is one.
+// The parts from which handles were torn away. If there is one, all others are placed, as they
+// stay.
 CGAL_ARAP_INLINE_FUNCTION
-bool Deformation_core::find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
-                                       Minimization& minimization, Array<char>& is_placed)
+Array<int> Deformation_core::find_torn_parts(const Targets& targets, const Array<Coordinates>& x,
+                                             Minimization& minimization, Array<char>& is_placed)
 {
   Array<char> is_torn(parts().size(), false);
   find_torn(m_state->free_neighborhood.ties, m_region.rest, parts(), x, is_torn);
@@ -427,12 +440,22 @@ bool Deformation_core::find_torn_parts(const Targets& targets, const Array<Coord
     minimization.evaluate();
     return minimization.force();
   }, is_torn);
-  if(std::find(is_torn.begin(), is_torn.end(), 1) == is_torn.end())
-    return false;
-  for(std::size_t v = 0; v < is_placed.size(); ++v)
-    if(const int part = parts().part_of(static_cast<int>(v)); part >= 0 && !is_torn[part])
-      is_placed[v] = true;
-  return true;
+  Array<int> torn;
+  for(int part = 0; part < parts().size(); ++part)
+    if(is_torn[part])
+      torn.push_back(part);
+  if(!torn.empty())
+    for(int part = 0; part < parts().size(); ++part)
+      if(!is_torn[part])
+        set_placed(part, is_placed);
+  return torn;
+}
+
+CGAL_ARAP_INLINE_FUNCTION
+void Deformation_core::set_placed(int part, Array<char>& is_placed)
+{
+  for(int v : parts().free_vertices(part))
+    is_placed[v] = true;
 }
 
 // Starts with smooth rotations instead of x if they are asked for; where handles were torn away, if
@@ -443,19 +466,22 @@ bool Deformation_core::start_with_rotations(const Options& options, const Target
                                             Array<char>& is_placed, Report& report)
 {
   using Start = Minimization::Start;
-  const bool is_tried = options.initial_guess == Initial_guess::automatic &&
-                        m_order == Minimization_order::local_first &&
-                        find_torn_parts(targets, x, minimization, is_placed);
+  Array<int> torn;
+  if(options.initial_guess == Initial_guess::automatic &&
+     m_order == Minimization_order::local_first)
+    torn = find_torn_parts(targets, x, minimization, is_placed);
+  const bool is_tried = !torn.empty();
   if(are_all_placed(is_placed))
     return true;
-  // the rotations that rotation_of() makes of values, one for each vertex
-  const auto start_with = [&](auto values, const auto& rotation_of, bool only_if_lower) {
+  // for what does not stay, the rotations that rotation_of() makes of values, one for each vertex
+  const auto start_with = [&](auto values, const auto& rotation_of, const Array<char>& stays,
+                              bool only_if_lower) {
     const Start result = minimization.start_with([&](Array<Matrix_3x3>& to_set) {
       m_state->energy.complete(to_set);
       set_rotations_of_cells(m_region, has_vertex_cells(),
                              [&](std::size_t v) { return rotation_of(values[v]); }, to_set);
       decltype(values)().swap(values); // memory is at its peak from now on
-    }, is_placed, only_if_lower);
+    }, stays, only_if_lower);
     if(result == Start::taken)
       report.initial_guess = Initial_guess::rotations;
     return result;
@@ -469,21 +495,40 @@ bool Deformation_core::start_with_rotations(const Options& options, const Target
                                 m_state->free_neighborhood.is_near, targets,
                                 x)(m_state->energy, m_state->system);
     }();
-    if(!vectors.empty())
-      start = start_with(std::move(vectors), rotation_of_vector, is_tried);
+    // each part by itself, unless they are many: each try takes a solution and two local steps
+    constexpr std::size_t most_tries = 8;
+    if(!vectors.empty() && torn.size() > 1 && torn.size() <= most_tries && is_local(targets))
+    {
+      start = Start::rejected;
+      for(int part : torn)
+      {
+        Array<char> others(is_placed.size(), true);
+        for(int v : parts().free_vertices(part))
+          others[v] = is_placed[v];
+        const Start result = start_with(vectors, rotation_of_vector, others, true);
+        if(result == Start::failed)
+          return false;
+        if(result == Start::taken)
+          start = result;
+        else
+          set_placed(part, is_placed);
+      }
+    }
+    else if(!vectors.empty())
+      start = start_with(std::move(vectors), rotation_of_vector, is_placed, is_tried);
   }
   // where the guess is rejected, as where the last run ended with a spike, there is no reason to
   // begin again
   if((is_tried || m_is_coarse) && start == Start::taken && is_local(targets) &&
-     is_quasi_newton(options) && can_have_coarse_start(options))
+     is_quasi_newton(options) && can_have_coarse_start(options, staying(is_placed)))
   {
     Array<Matrix_3x3> rotations_of_vertices = [&] {
       Scoped_seconds seconds(report.seconds.initial_guess);
-      return coarse_rotations(options, x);
+      return coarse_rotations(options, x, staying(is_placed));
     }();
     if(!rotations_of_vertices.empty())
       start = start_with(std::move(rotations_of_vertices),
-                         [](const Matrix_3x3& rotation) { return rotation; }, true);
+                         [](const Matrix_3x3& rotation) { return rotation; }, is_placed, true);
   }
   return start != Start::failed;
 }

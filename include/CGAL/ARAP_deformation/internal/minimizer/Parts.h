@@ -156,9 +156,15 @@ private:
     {
       const Index_range corners = region.corners_of(s);
       if(std::any_of(corners.begin(), corners.end(), [&](int v) { return is_constraint(v); }))
+      {
+        int last = -1; // those at other corners may be of other parts
         for(int v : corners)
-          if(around[v] >= 0) // those at other corners may be of other parts
-            add_fixed(m_part[around[v]], corners);
+          if(around[v] >= 0 && m_part[around[v]] != last)
+          {
+            last = m_part[around[v]];
+            add_fixed(last, corners);
+          }
+      }
     }
     int r = 0;
     constraints.for_each_row([&](const Row& row) {

@@ -45,7 +45,7 @@ public:
   // `size` is the squared diagonal of the box of what is near free vertices, at rest.
   Rigid_start(const Region& region, double size, const Parts& parts, const Constraints& constraints,
               const Targets& targets)
-    : m_region(region), m_size(size), m_parts(parts), m_constraints(constraints),
+    : m_region(region), m_rounding(1e-14 * size), m_parts(parts), m_constraints(constraints),
       m_targets(targets), m_motion_of(parts.size(), -1),
       m_frame_of(targets.frames.empty() ? 0 : region.number_of_vertices(), nullptr),
       m_is_set(targets.sets.empty() ? 0 : constraints.rows.size(), false)
@@ -68,7 +68,7 @@ public:
         find_motion(part, is_from_rest, x);
     bool is_any_deformed = false;
     for(std::size_t k = 0; k < m_motions.size(); ++k)
-      if(m_motions[k].before.squared_error() > tolerance * m_size)
+      if(m_motions[k].before.squared_error() > tolerance * m_parts.squared_size(m_motions[k].part))
       {
         m_motion_of[m_motions[k].part] = static_cast<int>(k);
         is_any_deformed = true;
@@ -91,7 +91,7 @@ public:
 private:
   using Row = Weighted_rows::Row;
 
-  // of squares: targets may be rounded to float, again and again
+  // of squares, relative to that of a part: targets may be rounded to float, again and again
   static constexpr double tolerance = 1e-10;
 
   // What takes the rest shape of a part to where it is, as good as a rigid motion can, and from
@@ -107,6 +107,7 @@ private:
   // Adds the motion of a part if its constraints are those of a rigid copy.
   void find_motion(int part, bool is_from_rest, const Array<Coordinates>& x)
   {
+    const double size = m_parts.squared_size(part), tolerated = tolerance * size + m_rounding;
     Array<Coordinates> rest, place; // of what constrains it
     const auto add_frame = [&](int v) { // as three more points, at the last one
       if(v < 0 || m_frame_of.empty() || !m_frame_of[v])
@@ -115,7 +116,7 @@ private:
       for(std::size_t axis = 0; axis < 3; ++axis)
       {
         Coordinates side = {0, 0, 0};
-        side[axis] = std::sqrt(m_size);
+        side[axis] = std::sqrt(size);
         rest.push_back(p);
         place.push_back(q);
         add(rest.back(), 1, side);
@@ -131,7 +132,7 @@ private:
       return true;
     };
     if(!m_parts.for_each_constraint(part, m_region, m_constraints, m_targets, x, add_constraint) ||
-       rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerance * m_size))
+       rest.empty() || !(Rigid_fit(rest, place).squared_error() <= tolerated))
       return;
 
     Array<Coordinates> free_rest, free_place;
@@ -151,8 +152,8 @@ private:
       motion = (std::max)(motion, dot(step, step));
     }
     const Rigid_fit after(rest, place);
-    const bool is_at_rest = motion < 1e-18 * m_size;
-    if(is_at_rest || after.squared_error() <= (std::min)(tolerance * m_size, 1e-4 * motion))
+    const bool is_at_rest = motion < 1e-18 * size;
+    if(is_at_rest || after.squared_error() <= (std::min)(tolerated, 1e-4 * motion))
       m_motions.push_back({part, before, after, is_at_rest});
   }
 
@@ -249,7 +250,7 @@ private:
   }
 
   const Region& m_region;
-  const double m_size;
+  const double m_rounding; // to float, squared, where a part is far from the others
   const Parts& m_parts;
   const Constraints& m_constraints;
   const Targets& m_targets;

@@ -90,18 +90,15 @@ Constraints Constrained_system::without_hard_rows(const Constraints& constraints
   const Free_components components = find_free_components(m_laplacian, result);
   for(int r = 0; r < constraints.hard_rows.size(); ++r)
   {
-    Array<int> vertices;
-    Array<double> coefficients;
     bool is_needed = false;
     double weight = 0;
     constraints.hard_rows.row(r).for_each_coefficient([&](int v, double b) {
-      vertices.push_back(v);
-      coefficients.push_back(b);
       is_needed |= components.is_unconstrained(v);
       weight += std::abs(b) * diagonal_entry(m_laplacian.matrix, v);
     });
     if(is_needed)
-      result.rows.append(vertices, coefficients, weight > 0 && is_finite(weight) ? weight : 1);
+      result.rows.append(constraints.hard_rows.row(r),
+                         weight > 0 && is_finite(weight) ? weight : 1);
   }
   return result;
 }
