@@ -526,9 +526,13 @@ public:
   Vector vector(double x, double y, double z) { return Vector({x, y, z}); }
   double vector_coordinate(const Vector& v, int k) { return v.coordinates[k]; }
 
-  // here the covariances are the sums of w p q^T, with p the rest shape
+  // Here the covariances are the sums of w p q^T, with p the rest shape. They are finite: of others
+  // Eigen computes nothing, and a model would go on with memory that was not initialized.
   void compute_close_rotation(const Matrix& m, Matrix& r)
   {
+    CHECK(std::all_of(m.entries.begin(), m.entries.end(), [](double x) {
+      return std::isfinite(x);
+    }));
     Matrix_3x3 transposed;
     for(int row = 0; row < 3; ++row)
       for(int column = 0; column < 3; ++column)

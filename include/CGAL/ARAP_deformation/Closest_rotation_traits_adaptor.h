@@ -30,7 +30,7 @@ namespace ARAP {
 ///
 /// Uses only the operations of that concept. Its covariances are the transposes of ours, and are
 /// scaled by powers of two to about one, so that nothing overflows or underflows. The rotation of
-/// the zero matrix is the identity; the model is not called for it.
+/// the zero matrix, and of one that is not finite, is the identity; the model is not called for it.
 ///
 /// Results that are orthonormal up to a small error are made orthonormal up to rounding: CGAL's
 /// `Deformation_Eigen_polar_closest_rotation_traits_3` leaves errors of up to \f$5 \cdot
@@ -64,9 +64,13 @@ private:
                                      const Matrix_3x3& previous)
   {
     double largest = 0;
+    bool are_finite = true;
     for(double entry : covariance)
-      largest = (std::max)(largest, internal::is_finite(entry) ? std::abs(entry) : 0);
-    if(!(largest > 0))
+    {
+      are_finite &= internal::is_finite(entry);
+      largest = (std::max)(largest, std::abs(entry));
+    }
+    if(!are_finite || largest == 0)
       return internal::identity_matrix();
     int exponent;
     std::frexp(largest, &exponent);
