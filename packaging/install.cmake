@@ -34,7 +34,11 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ARAP_deformationConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/ARAP_deformationConfigVersion.cmake
               cmake/ARAP_deformation_accelerators.cmake cmake/CGAL_Cholmod_support.cmake
         DESTINATION ${folder} COMPONENT development)
-install(FILES LICENSE CHANGES.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/ARAP_deformation COMPONENT documents)
+set(documents ${CMAKE_INSTALL_DATAROOTDIR}/doc/ARAP_deformation)
+if(is_top_level) # else that folder is the parent's
+  set(documents ${CMAKE_INSTALL_DOCDIR})
+endif()
+install(FILES LICENSE CHANGES.md DESTINATION ${documents} COMPONENT documents)
 
 if(TARGET arap_deform)
   install(TARGETS arap_deform DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
@@ -58,10 +62,7 @@ if(NOT is_top_level)
 endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The ARAP_deformation authors <nobody@example.invalid>")
-if(NOT "$ENV{DEBEMAIL}" STREQUAL "") # who publishes the packages
-  if("$ENV{DEBFULLNAME}" STREQUAL "")
-    message(FATAL_ERROR "DEBEMAIL is set, but not DEBFULLNAME.")
-  endif()
+if(NOT "$ENV{DEBEMAIL}" STREQUAL "" AND NOT "$ENV{DEBFULLNAME}" STREQUAL "") # who publishes the packages
   set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

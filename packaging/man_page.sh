@@ -12,8 +12,9 @@ if [ "$1" = --help ]; then # help2man asks: the help in the form that it knows, 
     -e 's/^The report tells/*Report*\n\n&/' -e 's/^Exit status: /*Exit status*\n\n/'
   exit
 fi
+command=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")" # help2man takes a path apart at blanks
-page=$(ARAP_DEFORM=$1 help2man --no-info --version-string="arap_deform $2" \
+page=$(ARAP_DEFORM=$command help2man --no-info --version-string="arap_deform $2" \
   --name='deform a mesh as rigidly as possible' ./"$(basename "$0")")
 printf '%s\n' "$page" |
   sed -e '/^\.IP$/{N;s/^\.IP\(\n\\f(CW\$ \)/.IP "" 2\1/' -e '}' -e 's/^\\f(CW\$ /\\f(CW/' \

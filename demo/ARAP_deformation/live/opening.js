@@ -109,13 +109,14 @@ export async function openInTurn(
   } catch (error) {
     if (!isHalfOpen) throw error;
     Object.assign(page, { shape: null, chosen: -1 });
-    throw new Error(`${name} could not be opened: ${error.message}; open another shape`);
+    throw new Error(`${name} could not be opened (${error.message}): open another shape`);
   } finally {
     if (!page.shape && !isHalfOpen) Object.assign(page, { shape, chosen });
     $('model').value = page.shape?.model ?? '';
     parts.forEach((part) => {
       part.inert = false;
     });
+    for (const id of ['tools', 'panel']) $(id).inert = !page.shape;
     focused?.focus({ preventScroll: true });
     placeGizmo();
   }

@@ -116,7 +116,7 @@ def _any_array(name: str, value: ArrayLike, what: str = "numbers") -> NDArray[An
 
 def _array(name: str, value: ArrayLike, kinds: str, shape: Sequence[Optional[int]]) -> NDArray[Any]:
     """A copy with the shape; None is any number. An empty list is an array of any dimension."""
-    what = "numbers" if "f" in kinds else "integers"
+    what = "numbers" if "f" in kinds else "True or False" if kinds == "b" else "integers"
     array = np.array(_any_array(name, value, what))
     if array.size == 0 and array.ndim == 1 and array.dtype.kind in "fiu":
         array = array.astype(np.int64).reshape([0] + [k or 3 for k in shape[1:]])

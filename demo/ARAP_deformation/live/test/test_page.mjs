@@ -1076,6 +1076,21 @@ const steps = {
       assert.equal(await page.$eval('#cells', (c) => c.value), 'spokes_and_rims');
       await page.click('#message button');
     }
+    // a shape that the engine has, and the page has not, is not shown as if it were open
+    await page.evaluate(() => {
+      const { engine } = window.arap;
+      const call = engine.call.bind(engine);
+      engine.call = (name, ...others) =>
+        name === 'hold' ? Promise.reject(new Error('no such luck')) : call(name, ...others);
+    });
+    await page.evaluate(() => window.arap.openModel('sheet'));
+    assert.match(await message(), /^Sheet could not be opened \(no such luck\): open another shape/);
+    const isInert = () => page.$eval('#tools', (tools) => tools.inert);
+    assert(await isInert());
+    await page.evaluate(() => delete window.arap.engine.call);
+    await page.click('#message button');
+    assert.equal((await openModel('bar')).name, 'bar');
+    assert(!(await isInert()));
     // no point in a shape that was opened after the click
     await whileBusy(async () => {
       await page.keyboard.press('r');
